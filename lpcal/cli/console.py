@@ -1,0 +1,65 @@
+"""What a command says: a short summary or one JSON document on stdout, progress and warnings on stderr."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from lpcal.records.outcome import Outcome, Progress
+
+
+def show(outcome: Outcome, *, as_json: bool) -> None:
+    """Print an outcome."""
+    if as_json:
+        from lpcal.formats.documents import plain
+
+        print(json.dumps(plain(outcome.document | {"warnings": outcome.warnings}), indent=1))  # noqa: T201
+    else:
+        print("\n".join(outcome.summary))  # noqa: T201
+        if outcome.next_command:
+            print(f"next: {outcome.next_command}")  # noqa: T201
+    for warning in outcome.warnings:
+        complain(f"warning: {warning}")
+
+
+def complain(text: str) -> None:
+    """One message on stderr."""
+    print(text, file=sys.stderr)  # noqa: T201
+
+
+@contextmanager
+def progress_bars() -> Iterator[Progress]:
+    """Progress on stderr: live bars on a terminal, a line each time a tenth is done elsewhere."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bars
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield _lines()
+        return
+    columns = (TextColumn("{task.description:<28}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+    with Bars(*columns, console=console, transient=True) as bars:
+        tasks: dict[str, Any] = {}
+
+        def live(what: str, done: int, total: int) -> None:
+            if what not in tasks:
+                tasks[what] = bars.add_task(what, total=total)
+            bars.update(tasks[what], completed=done, total=total)
+
+        yield live
+
+
+def _lines() -> Progress:
+    told: dict[str, int] = {}
+
+    def line(what: str, done: int, total: int) -> None:
+        tenth = 10 if done >= total else 10 * done // max(total, 1)
+        if tenth > told.get(what, -1):
+            told[what] = tenth
+            complain(f"{what}: {done} of {total}")
+
+    return line

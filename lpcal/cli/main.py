@@ -1,0 +1,93 @@
+"""The table of commands and the one error boundary. Only the chosen command's module is imported."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+import traceback
+from typing import Protocol, cast
+
+from lpcal import __version__
+from lpcal.cli.console import complain, progress_bars, show
+from lpcal.errors import LpcalError
+from lpcal.records.outcome import Outcome, Progress
+
+COMMANDS = {
+    "demo": "run the whole chain on the bundled rig: calibration, report, reconstruction, mesh, relighting page",
+    "new": "start a rig folder from one of the bundled rigs",
+    "board": "the printable calibration target at true scale",
+    "intrinsics": "camera.yaml, camera.cameramodel and H_CB.yaml from images of the board",
+    "check": "before any solve: what is wrong with these data, in words",
+    "handeye": "handeye.yaml: the camera in the tracked body (H_PC), the board in the room (H_OB), the clock offset",
+    "wings": "wings.yaml: every light as designed, with the covariance of the tolerances",
+    "refine": "lights.yaml: the lights refined from images of spheres, with the wings as prior",
+    "export": "calibration.yaml, the product, from whatever stages are up to date",
+    "reconstruct": "normals, albedo, depth and mesh of a capture",
+    "import": "a calibration from other systems' files",
+    "field": "the calibrated light field at given points",
+    "report": "calib/report.html, one file, opens offline",
+    "simulate": "a synthetic rig folder with its truth",
+    "run": "every stage that is out of date, in order",
+}
+INTERRUPTED = 130
+BUG = 1
+
+
+class Command(Protocol):
+    """What the module of a command holds."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the command's own words."""
+
+    def run(self, options: argparse.Namespace, progress: Progress) -> Outcome:
+        """Do it."""
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run one command; the exit code is the contract's."""
+    words = sys.argv[1:] if words is None else words
+    options = None
+    try:
+        options, command = _parse(words)
+        with progress_bars() as progress:
+            outcome = command.run(options, progress)
+        show(outcome, as_json=options.json)
+    except LpcalError as error:
+        complain(f"lpcal: {error}")
+        return error.exit_code
+    except KeyboardInterrupt:
+        complain("lpcal: interrupted; nothing half-written was kept")
+        return INTERRUPTED
+    except Exception:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+        traceback.print_exc()
+        complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {' '.join(words)}")
+        return BUG
+    return outcome.exit_code
+
+
+def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
+    parser = argparse.ArgumentParser(
+        prog="lpcal",
+        description="Calibrates a camera-and-light panel and rebuilds surfaces with it.",
+        epilog="Exit codes: 0 done; 1 a bug; 2 usage; 3 an input is missing or unreadable; 4 too few or degenerate data; "
+        "5 no convergence, or the quality gate failed; 6 inputs disagree; 130 interrupted.",
+    )
+    parser.add_argument("--version", action="version", version=f"lpcal {__version__}")
+    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    chosen = next((word for word in words if not word.startswith("-")), None)
+    module: Command | None = None
+    for name, line in COMMANDS.items():
+        subparser = subparsers.add_parser(name, help=line, description=line[0].upper() + line[1:] + ".")
+        if name == chosen:
+            module = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
+            module.add_arguments(subparser)
+            subparser.add_argument("--json", action="store_true", help="print one JSON document instead of the summary")
+    options = parser.parse_args(words)
+    if module is None:  # argparse has already ended the run for an unknown or missing command
+        parser.error("no command")
+    return options, module
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Pixels to observations: linear radiance, boards, spheres."""

@@ -1,0 +1,73 @@
+"""Everything that can go wrong, by the exit code it ends with.
+
+::
+
+    LpcalError                     1  never raised itself
+    |-- UsageError                 2  the command's words are off
+    |-- InputError                 3  an input is missing, unreadable, or not what a file of its kind holds
+    |-- DegenerateError            4  too few data, or data that cannot determine what is asked
+    |-- ConvergenceError           5  the solve did not converge, or failed its quality gate
+    `-- DisagreementError          6  two inputs contradict each other: units, sizes, names, clocks
+
+One message says what was found, where, what was needed and what to do::
+
+    raise InputError("a bare number, 25", where="panel.yaml:12, board.square", needed="a length with its unit",
+                     todo="write 25 mm")
+"""
+
+from __future__ import annotations
+
+
+class LpcalError(Exception):
+    """An error that the user can mend.
+
+    Parameters
+    ----------
+    found : what was found, in words
+    where : file:line, key, image or light
+    needed : what would have been right
+    todo : what to do about it
+    """
+
+    exit_code = 1
+
+    def __init__(self, found: str, *, where: str = "", needed: str = "", todo: str = "") -> None:
+        self.found, self.where, self.needed, self.todo = found, where, needed, todo
+        super().__init__(self.message())
+
+    def message(self) -> str:
+        """Where it is, what was found, what was needed and what to do, on as few lines as it takes."""
+        lines = [f"{self.where}: {self.found}" if self.where else self.found]
+        lines += [f"  needed: {self.needed}"] if self.needed else []
+        lines += [f"  do: {self.todo}"] if self.todo else []
+        return "\n".join(lines)
+
+
+class UsageError(LpcalError):
+    """The command's words are off."""
+
+    exit_code = 2
+
+
+class InputError(LpcalError):
+    """An input is missing, unreadable, or not what a file of its kind holds."""
+
+    exit_code = 3
+
+
+class DegenerateError(LpcalError):
+    """Too few data, or data that cannot determine what is asked."""
+
+    exit_code = 4
+
+
+class ConvergenceError(LpcalError):
+    """A solve did not converge, or failed its quality gate."""
+
+    exit_code = 5
+
+
+class DisagreementError(LpcalError):
+    """Two inputs contradict each other: units, sizes, names, clocks."""
+
+    exit_code = 6

@@ -1,0 +1,135 @@
+"""The YAML documents that lpcal writes: versioned, of a kind, with their provenance; whole or not there.
+
+``lpcal: 1``, ``kind: ...``, the body, then ``provenance`` (inputs with their sha256, lpcal's version, options, time).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from lpcal import __version__
+from lpcal.errors import InputError
+
+VERSION = 1
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """What a file was made from."""
+
+    inputs: dict[str, str] = field(default_factory=dict)
+    """sha256 by path, relative to the rig folder where it lies in it."""
+    options: dict[str, Any] = field(default_factory=dict)
+    lpcal_version: str = __version__
+    time: str = field(default_factory=lambda: datetime.now(UTC).isoformat(timespec="seconds"))
+
+
+def sha256(path: Path) -> str:
+    """Hex digest of a file's content."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """A path to write to in place of `path`: it takes the final name once the block has ended without an error.
+
+    Works for a file and for a folder; a folder of that name is replaced, never mixed.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".lpcal-", dir=path.parent) as scratch:
+        draft = Path(scratch) / path.name
+        yield draft
+        if draft.is_dir() and path.is_dir():
+            os.replace(path, Path(scratch) / "before")  # noqa: PTH105 - os.replace of a folder is what is meant
+        draft.replace(path)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file, whole or not at all."""
+    with whole(path) as draft:
+        draft.write_text(text, encoding="utf-8")
+
+
+def write_document(path: Path, kind: str, body: Mapping[str, Any], provenance: Provenance) -> None:
+    """Write a YAML document of a kind; arrays become nested lists, paths and tuples plain values."""
+    document = {"lpcal": VERSION, "kind": kind, **body, "provenance": asdict(provenance)}
+    write_text(path, yaml.dump(plain(document), Dumper=_Dumper, sort_keys=False, width=140, default_flow_style=None, allow_unicode=True))
+
+
+def read_document(path: Path, kind: str) -> dict[str, Any]:
+    """Read a YAML document of a kind.
+
+    Raises
+    ------
+    InputError
+        It is not there, cut off, of another kind or of another version.
+    """
+    todo = "write it anew with lpcal export" if kind == "calibration" else "write it anew with the command that makes it"
+    if not path.is_file():
+        raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
+    try:
+        document = yaml.load(path.read_text(encoding="utf-8"), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{path}:{mark.line + 1}" if mark else str(path)
+        raise InputError("cannot be read as YAML; is the file cut off?", where=place, needed=f"a whole {kind} file", todo=todo) from error
+    if not isinstance(document, dict) or document.get("kind") != kind:
+        found = document.get("kind") if isinstance(document, dict) else None
+        raise InputError(f"of kind {found!r}" if found else "says no kind", where=str(path), needed=f"kind: {kind}", todo=todo)
+    if document.get("lpcal") != VERSION:
+        raise InputError(
+            f"version {document.get('lpcal')!r}", where=str(path), needed=f"lpcal: {VERSION}", todo="use the lpcal that wrote it"
+        )
+    if "provenance" not in document:
+        raise InputError("ends before its provenance: the file is cut off", where=str(path), needed=f"a whole {kind} file", todo=todo)
+    return document
+
+
+def plain(value: Any) -> Any:
+    """The value in types that YAML and JSON know; NaN becomes null."""
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (float, np.floating)):
+        return float(value) if np.isfinite(value) else None
+    if isinstance(value, np.integer):
+        return int(value)
+    return str(value) if isinstance(value, Path) else value
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder if it is there."""
+    shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+class _Dumper(yaml.SafeDumper):
+    """Never an alias, and floats with all the digits they need and no more."""
+
+    def ignore_aliases(self, data: Any) -> bool:  # noqa: ARG002
+        return True
+
+
+def _float(dumper: yaml.SafeDumper, value: float) -> yaml.ScalarNode:
+    text = repr(value)
+    return dumper.represent_scalar("tag:yaml.org,2002:float", text if "e" not in text or "." in text else text.replace("e", ".0e"))
+
+
+_Dumper.add_representer(float, _float)

@@ -1,0 +1,18 @@
+"""The array types that signatures name; shapes stand in the docstrings."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+type Array = npt.NDArray[np.float64]
+"""Real numbers, double precision."""
+
+type Image = npt.NDArray[np.float32]
+"""Real numbers a pixel, single precision: (H, W) or (H, W, 3)."""
+
+type Mask = npt.NDArray[np.bool_]
+"""True where something holds."""
+
+type Labels = npt.NDArray[np.uint8]
+"""Small whole numbers a pixel."""

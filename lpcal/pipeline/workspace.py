@@ -1,0 +1,130 @@
+"""A rig folder at work: where its files are, and whether what a stage wrote is still true.
+
+A stage's file is up to date when lpcal's version, the inputs with their sha256, and the settings that stand in its provenance are those
+that the stage would use now.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from lpcal import __version__
+from lpcal.errors import InputError, LpcalError
+from lpcal.formats.documents import Provenance, plain, read_document, sha256
+from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.rig import RigFile
+
+IMAGE_ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """A rig and the folder that its stages write to."""
+
+    rig_file: RigFile
+
+    @property
+    def folder(self) -> Path:
+        """The rig folder."""
+        return self.rig_file.folder
+
+    def calib(self, name: str) -> Path:
+        """The path of one of the stages' files."""
+        return self.folder / "calib" / name
+
+    def path(self, name: str, key: str) -> Path:
+        """The file or folder that a key of panel.yaml names.
+
+        Raises
+        ------
+        InputError
+            It is not there.
+        """
+        path = self.folder / name
+        if not path.exists():
+            raise InputError(f"no such file: {name}", where=self.rig_file.where(key), needed="a file or folder", todo="correct the path")
+        return path
+
+    def images(self, patterns: Iterable[str], key: str) -> list[Path]:
+        """Images named by patterns or names, in natural order, each once.
+
+        Raises
+        ------
+        InputError
+            A pattern matches nothing.
+        """
+        found: dict[Path, None] = {}
+        for pattern in patterns:
+            base, rest = (Path(pattern).anchor or self.folder, Path(pattern).relative_to(Path(pattern).anchor))
+            matches = [path for path in Path(base).glob(str(rest)) if path.suffix.lower() in IMAGE_ENDINGS]
+            if not matches:
+                raise InputError(
+                    f"no image matches {pattern}", where=self.rig_file.where(key), needed="images", todo="correct the pattern or the folder"
+                )
+            found |= dict.fromkeys(sorted(matches, key=natural))
+        return list(found)
+
+    def relative(self, path: Path) -> str:
+        """A path as it is written into files: relative to the rig folder where it lies in it."""
+        path = path.resolve()
+        return path.relative_to(self.folder.resolve()).as_posix() if path.is_relative_to(self.folder.resolve()) else path.as_posix()
+
+    def provenance(self, inputs: Iterable[Path], settings: dict[str, Any]) -> Provenance:
+        """What a file is made from, as of now."""
+        return Provenance(inputs={self.relative(path): sha256(path) for path in inputs}, options=plain(settings))
+
+    def need(self, section: str) -> Any:
+        """A section of panel.yaml that a stage cannot do without.
+
+        Raises
+        ------
+        InputError
+            It is not there; the key is named.
+        """
+        value = getattr(self.rig_file.rig, section)
+        if value is None or value == {}:
+            raise InputError(
+                f"no section {section}:", where=str(self.rig_file.file), needed=f"{section}:", todo="add it, see the README's rig folder"
+            )
+        return value
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One stage of the chain: what it reads, what it depends on in panel.yaml, what it writes, and how."""
+
+    name: str
+    kinds: dict[str, str]
+    """The files it writes under calib/, and the kind of each."""
+    wanted: Callable[[Workspace], bool]
+    """Whether the rig has the sections that it needs."""
+    inputs: Callable[[Workspace], list[Path]]
+    """The files it reads."""
+    settings: Callable[[Workspace], dict[str, Any]]
+    """The sections of panel.yaml that it depends on."""
+    run: Callable[[Workspace, Progress], Outcome]
+
+    def provenance(self, workspace: Workspace) -> Provenance:
+        """What its files are made from, as of now."""
+        return workspace.provenance(self.inputs(workspace), self.settings(workspace))
+
+    def up_to_date(self, workspace: Workspace) -> bool:
+        """Whether its files are there and made from what there is now."""
+        try:
+            now = self.provenance(workspace)
+            for name, kind in self.kinds.items():
+                before = read_document(workspace.calib(name), kind)["provenance"]
+                if (before["lpcal_version"], before["inputs"], before["options"]) != (__version__, now.inputs, now.options):
+                    return False
+        except (LpcalError, KeyError, TypeError):
+            return False
+        return True
+
+
+def natural(path: Path) -> list[tuple[int, int | str]]:
+    """A key that sorts image_9 before image_10."""
+    return [(0, int(part)) if part.isdigit() else (1, part) for part in re.split(r"(\d+)", path.as_posix()) if part]

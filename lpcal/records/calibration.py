@@ -1,0 +1,214 @@
+"""What the stages find: camera, hand-eye, wings, lights, and the calibration that a reconstructor needs.
+
+A covariance of a transform is (6, 6), rotation (rad) first, then translation (m), of the left perturbation ``H = exp(xi) H_mean``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lpcal.geometry import camera as central
+from lpcal.geometry import light_field
+from lpcal.geometry.arrays import Array
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Intrinsics and radiometry. ``model`` is opencv4 | opencv5 | opencv8 | splined.
+
+    A splined model has no K and no distortion of its own: K is that of its stereographic core, and `spline` holds mrcal's vector.
+    """
+
+    image_size: tuple[int, int]
+    model: str
+    K: Array
+    distortion: Array
+    black_level: float = 0.0
+    white_level: float = 1.0
+    gamma: float = 1.0
+    rms_px: float = float("nan")
+    """Per coordinate."""
+    parameters: tuple[str, ...] = ()
+    covariance: Array | None = None
+    """(P, P) of `parameters`."""
+
+    def project(self, x_C: Array) -> Array:
+        """Pixels (..., 2) of points x_C (..., 3)."""
+        return central.project(x_C, self.K, self.distortion)
+
+    def unproject(self, pixels: Array) -> Array:
+        """Unit rays (..., 3) of pixels (..., 2)."""
+        return central.unproject(pixels, self.K, self.distortion)
+
+
+@dataclass(frozen=True)
+class ViewVerdict:
+    """What became of one image in a solve; `why` is None where it was used."""
+
+    image: str
+    used: bool
+    why: str | None
+    residual_px: float | None = None
+    residual_m: float | None = None
+    residual_rad: float | None = None
+    corners: int = 0
+
+
+@dataclass(frozen=True)
+class CameraSolution:
+    """The intrinsics solve: the camera, the board's shape, and what became of each view."""
+
+    camera: Camera
+    points_B: Array
+    """(M, 3) corners of the board with its warp, mean plane z = 0."""
+    views: tuple[ViewVerdict, ...]
+    solver: str
+    """mrcal | opencv."""
+    corner_sigma_px: float
+    """One standard deviation of a corner coordinate."""
+    evidence: dict[str, object] = field(default_factory=dict)
+    """How the model was chosen, in figures that go into camera.yaml."""
+    cameramodel: str = ""
+    """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
+
+
+@dataclass(frozen=True)
+class HandEye:
+    """H_PC and H_OB with their covariances, the clock offset (t_camera = t_mocap + offset), and what became of each view."""
+
+    H_PC: Array
+    H_PC_covariance: Array
+    H_OB: Array
+    H_OB_covariance: Array
+    clock_offset_s: float | None
+    """None: the data cannot show it, or there are no clocks."""
+    clock_offset_std_s: float | None
+    views: tuple[ViewVerdict, ...]
+    warnings: tuple[str, ...] = ()
+    evidence: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Wing:
+    """One wing as designed: ``H_DL = Rz(azimuth) Tx(d1) Ry(-g) Tx(d2)``."""
+
+    name: str
+    azimuth_rad: float
+    joint_angle_rad: float
+    d1_m: float
+    d2_m: float
+    leds: int | None = None
+
+
+@dataclass(frozen=True)
+class Wings:
+    """The lights as designed, in C, with the covariance that the tolerances and the frames' errors give them jointly."""
+
+    wings: tuple[Wing, ...]
+    H_CD: Array
+    H_CD_covariance: Array
+    setting_sigma: Array
+    """(4,) of azimuth (rad), joint angle (rad), d1 (m), d2 (m)."""
+    H_DL: Array
+    """(L, 4, 4)."""
+    H_CL: Array
+    """(L, 4, 4)."""
+    covariance: Array
+    """(6 L, 6 L) joint, of the left perturbations of H_CL in the lights' order."""
+    source_of_H_CD: str = ""
+    """Where H_CD comes from, in words."""
+    d_object_m: float = float("nan")
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
+
+    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. ``table``: cubic through (angle_rad, value), 0 beyond the last.
+    """
+
+    kind: str = "isotropic"
+    exponent: float = 0.0
+    angle_rad: Array = field(default_factory=lambda: np.zeros(0))
+    value: Array = field(default_factory=lambda: np.zeros(0))
+
+    def __call__(self, angle_rad: Array) -> Array:
+        """Relative intensity (...) at angles (...) from the axis."""
+        if self.kind == "cosine":
+            return light_field.cosine_lobe(angle_rad, self.exponent)
+        if self.kind == "table":
+            return light_field.table_lobe(angle_rad, self.angle_rad, self.value)
+        return np.ones_like(angle_rad)
+
+
+@dataclass(frozen=True)
+class Light:
+    """One light in C.
+
+    Near: irradiance on a surface at x that faces it is ``intensity * lobe(angle) / |x - source|^2`` with the angle between `axis_C`
+    and the ray from the source. Distant (`source_C` None): ``intensity`` everywhere, from `direction_C`.
+    """
+
+    name: str
+    direction_C: Array
+    """Unit vector from the focus to the light."""
+    intensity: Array
+    """(1,) or (3,), relative."""
+    H_CL: Array | None = None
+    source_C: Array | None = None
+    axis_C: Array | None = None
+    lobe: Lobe = field(default_factory=Lobe)
+    position_std_m: float = float("nan")
+    direction_std_rad: float = float("nan")
+    intensity_std: float = float("nan")
+
+    def field(self, x_C: Array) -> tuple[Array, Array]:
+        """Unit vectors to the light (..., 3) and irradiance (..., C) of surfaces that face it at points x_C (..., 3)."""
+        if self.source_C is None or self.axis_C is None:
+            shape = x_C.shape[:-1]
+            return np.broadcast_to(self.direction_C, x_C.shape), np.broadcast_to(self.intensity, (*shape, self.intensity.size))
+        d, r, angle = light_field.near_light(x_C, self.source_C, self.axis_C)
+        return d, (self.lobe(angle) / r**2)[..., None] * self.intensity
+
+
+@dataclass(frozen=True)
+class SphereFinding:
+    """What one sphere says by itself."""
+
+    name: str
+    kind: str
+    centre_C: Array | None
+    radius_m: float | None
+    used: bool
+    why: str | None
+    directions_C: dict[str, Array] = field(default_factory=dict)
+    """Chrome: unit vector from the sphere's highlight towards each light."""
+    residual: float = float("nan")
+    """Chrome: highlight rms in px; matte: shading rms as a fraction."""
+
+
+@dataclass(frozen=True)
+class LightsSolution:
+    """The refined lights and what they rest on."""
+
+    lights: tuple[Light, ...]
+    focus_C: Array
+    d_object_m: float | None
+    H_CD: Array | None
+    spheres: tuple[SphereFinding, ...]
+    warnings: tuple[str, ...] = ()
+    evidence: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """All that a reconstructor needs. Without a camera the images are orthographic and all lights distant."""
+
+    name: str
+    lights: tuple[Light, ...]
+    camera: Camera | None = None
+    H_PC: Array | None = None
+    d_object_m: float | None = None
+    focus_C: Array | None = None

@@ -1,0 +1,144 @@
+"""What was seen, before any solve: board corners, pose streams, captures, spheres. Row k of arrays that share a letter is one item."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Image, Mask
+
+
+@dataclass(frozen=True)
+class Board:
+    """A flat grid of inner corners; ``points_B`` runs along x first."""
+
+    corners: tuple[int, int]
+    """Inner corners along x, along y."""
+    square_m: tuple[float, float]
+    """Square size along x, along y."""
+    warp: bool = True
+    """Whether its departure from a plane may be estimated."""
+
+    def points_B(self) -> Array:
+        """Corners (ny*nx, 3) in B, of a flat board."""
+        x, y = np.meshgrid(np.arange(self.corners[0]) * self.square_m[0], np.arange(self.corners[1]) * self.square_m[1])
+        return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+
+
+@dataclass(frozen=True)
+class BoardView:
+    """One image in which a board was looked for."""
+
+    image: str
+    """The image's path, relative to the rig folder where it lies in it."""
+    corners_px: Array | None
+    """Corners (ny*nx, 2), in the order of `Board.points_B`, NaN where a corner was not seen; None: no board."""
+    why: str | None = None
+    """Why there is no board, in words."""
+
+
+@dataclass(frozen=True)
+class BoardViews:
+    """All images of one camera in which the board was looked for."""
+
+    image_size: tuple[int, int]
+    """Width, height."""
+    views: tuple[BoardView, ...]
+
+
+@dataclass(frozen=True)
+class BoardPoses:
+    """H_CB of some images, with what their corners say of it."""
+
+    images: tuple[str, ...]
+    t_camera_s: Array | None
+    """Times (N,) on the camera's clock; None: no clock."""
+    H_CB: Array
+    """(N, 4, 4)."""
+    corners_px: Array | None = None
+    """(N, M, 2) the corners that the poses come from, NaN where not seen; None: poses from elsewhere."""
+    points_B: Array | None = None
+    """(M, 3) the corners in B, warped as found."""
+
+
+@dataclass(frozen=True)
+class PoseStream:
+    """A tracked body: H_AB (N, 4, 4) at times t_s (N,), increasing; lost samples are left out."""
+
+    body: str
+    t_s: Array
+    H_OP: Array
+    error_m: Array
+    """(N,) the mocap system's own mean marker error, NaN where it gives none."""
+    markers_O: dict[str, Array] = field(default_factory=dict)
+    """Marker positions (N, 3) in O, by name without the body's, NaN where not seen."""
+    lost: int = 0
+    """Samples of the file without a pose."""
+    rate_hz: float = float("nan")
+    notes: tuple[str, ...] = ()
+    """What the reader had to decide or repair, in words."""
+
+
+@dataclass(frozen=True)
+class RawCapture:
+    """A capture folder as stored: numbers as fractions of full scale, not yet linear."""
+
+    name: str
+    lights: tuple[str, ...]
+    images: Image
+    """(L, H, W) or (L, H, W, 3)."""
+    exposure_s: Array
+    """(L,) exposure times gain; 1 where none is stated."""
+    ambient: Image | None
+    """(K, H, W[, 3]) images with no light on."""
+    ambient_exposure_s: Array
+    """(K,)."""
+    short: dict[str, Image] = field(default_factory=dict)
+    """Shorter exposures by light, (H, W[, 3])."""
+    short_exposure_s: dict[str, float | None] = field(default_factory=dict)
+    """Their exposure times gain; None where it is not stated."""
+    mask: Mask | None = None
+    """(H, W), as given by the user."""
+    left_out: tuple[str, ...] = ()
+    """Images of the folder that are no light's."""
+    step: float = 1 / 255
+    """One step of the stored numbers, as a fraction of full scale."""
+
+
+@dataclass(frozen=True)
+class Radiance:
+    """A capture made linear: proportional to the light that reached a pixel from one light alone."""
+
+    name: str
+    lights: tuple[str, ...]
+    signal: Image
+    """(L, H, W[, 3]) a unit of exposure, ambient taken away."""
+    sigma: Image
+    """(L, H, W[, 3]) one standard deviation of the signal's noise."""
+    saturated: Mask
+    """(L, H, W) whether any channel is at or over the white level: its signal is a lower bound."""
+    ambient: Image
+    """(H, W[, 3]) a unit of exposure; zero where there is no ambient image."""
+    short: dict[str, Image] = field(default_factory=dict)
+    """(H, W[, 3]) the shorter exposures, linear, ambient taken away; scaled only where their exposure is stated."""
+    mask: Mask | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SphereView:
+    """What the images of one sphere show."""
+
+    name: str
+    kind: str
+    """chrome | matte."""
+    radius_m: float
+    outline_px: Array
+    """(K, 2) points of its outline, at sub-pixel."""
+    outline_sigma_px: float
+    highlights_px: dict[str, Array] = field(default_factory=dict)
+    """Chrome: centroid (2,) of each light's mirror image."""
+    highlight_sigma_px: dict[str, float] = field(default_factory=dict)
+    shading: Radiance | None = None
+    """Matte: the linear images."""

@@ -1,0 +1,185 @@
+"""What a person writes: panel.yaml and capture.yaml, as they are after reading. Metres, radians, seconds, fractions of 1.
+
+Every section of panel.yaml is optional; a stage that needs an absent one says which. The keys are the contract's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from lpcal.records.quantities import Angle, Length, Pixels, Share, Time
+
+type Names = list[str]
+
+
+class Section(BaseModel):
+    """A section of a file that people write: frozen, and an unknown key is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def _as_list(value: object) -> object:
+    return [value] if isinstance(value, (str, int, float)) else value
+
+
+class CameraSection(Section):
+    """``camera:`` images for the intrinsics, and what the sensor does to light."""
+
+    images: Names = []
+    model: Literal["auto", "opencv4", "opencv5", "opencv8", "splined"] = "auto"
+    black_level: Share = 0.0
+    white_level: Share = 1.0
+    gamma: float = Field(default=1.0, gt=0.1, lt=10)
+    flat_field: str | None = None
+    cameramodel: str | None = None
+
+    _images = field_validator("images", mode="before")(_as_list)
+
+
+class BoardSection(Section):
+    """``board:`` the calibration target. ``corners`` are inner corners along x, along y."""
+
+    kind: Literal["chessboard", "charuco"] = "chessboard"
+    corners: tuple[int, int]
+    square: tuple[Length, Length]
+    warp: Literal["auto", "none"] = "auto"
+    marker: Length | None = None
+    dictionary: str | None = None
+
+    @field_validator("square", mode="before")
+    @classmethod
+    def _one_or_two(cls, value: object) -> object:
+        return value if isinstance(value, (list, tuple)) else (value, value)
+
+
+class BoardPosesSection(Section):
+    """``mocap.board_poses:`` board poses found elsewhere."""
+
+    file: str
+    direction: Literal["H_CB", "H_BC"] = "H_CB"
+
+
+class MocapSection(Section):
+    """``mocap:`` where the panel was. ``file`` is a recording with a clock; ``poses`` one pose an image, without."""
+
+    file: str | None = None
+    body: str | None = None
+    images: Names = []
+    board_poses: BoardPosesSection | None = None
+    poses: str | None = None
+    direction: Literal["H_OP", "H_PO"] = "H_OP"
+    quaternion: Literal["xyzw", "wxyz"] | None = None
+    units: Literal["m", "mm", "cm"] | None = None
+    clock_offset: Literal["estimate"] | Time = "estimate"
+
+    _images = field_validator("images", mode="before")(_as_list)
+
+
+class CameraMount(Section):
+    """``panel.camera:`` C in D as designed; the prior of H_CD where no mocap gives it."""
+
+    position: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    tolerance: tuple[Length, Angle] = (0.002, 0.017453292519943295)
+
+
+class Tolerance(Section):
+    """``panel.tolerance:`` 1 sigma, of the azimuth, of g, of d1 and of d2 each, of the relative intensity."""
+
+    azimuth: Angle = 0.008726646259971648
+    joint_angle: Angle = 0.017453292519943295
+    length: Length = 0.0005
+    intensity: Share = 0.10
+
+
+class PanelSection(Section):
+    """``panel:`` the mechanics that all wings share."""
+
+    disc_radius: Length
+    joint: Length
+    blob: Length
+    markers: dict[str, tuple[Length, Length, Length]] | None = None
+    camera: CameraMount = CameraMount()
+    tolerance: Tolerance = Tolerance()
+
+
+class LightSection(Section):
+    """One of ``lights:``, a wing's setting, or nothing at all for a light of which nothing is known."""
+
+    azimuth: Angle | None = None
+    joint_angle: Angle | None = None
+    disc_spacer: Length | None = None
+    blob_spacer: Length | None = None
+    leds: int | None = Field(default=None, gt=0)
+
+    @property
+    def is_wing(self) -> bool:
+        """Whether the wing's kinematics are stated."""
+        return self.azimuth is not None
+
+    @model_validator(mode="after")
+    def _all_or_none(self) -> LightSection:
+        setting = {key: getattr(self, key) for key in ("azimuth", "joint_angle", "disc_spacer", "blob_spacer")}
+        lacking = [key for key, value in setting.items() if value is None]
+        if 0 < len(lacking) < len(setting):
+            msg = f"a wing needs all of {', '.join(setting)}; {', '.join(lacking)} is lacking"
+            raise ValueError(msg)
+        return self
+
+
+class SphereSection(Section):
+    """One of ``spheres:``. The hint is about where its outline is: x, y, radius in pixels."""
+
+    kind: Literal["chrome", "matte"]
+    radius: Length | None = None
+    images: str
+    hint: tuple[Pixels, Pixels, Pixels] | None = None
+
+
+class Rig(Section):
+    """panel.yaml, whole."""
+
+    lpcal: Literal[1]
+    name: str = "rig"
+    camera: CameraSection | None = None
+    board: BoardSection | None = None
+    mocap: MocapSection | None = None
+    panel: PanelSection | None = None
+    lights: dict[str, LightSection] = {}
+    spheres: dict[str, SphereSection] = {}
+    objects: dict[str, str] = {}
+
+
+@dataclass(frozen=True)
+class RigFile:
+    """A panel.yaml and where it was read; its paths are relative to `folder`."""
+
+    rig: Rig
+    file: Path
+    lines: dict[str, int] = field(default_factory=dict)
+    """Line of each key, by its dotted path."""
+
+    @property
+    def folder(self) -> Path:
+        """The rig folder."""
+        return self.file.parent
+
+    def where(self, key: str) -> str:
+        """``panel.yaml:12, board.square`` for a message; the line of the nearest key above where the key itself is not there."""
+        above = key
+        while above and above not in self.lines:
+            above = above.rpartition(".")[0]
+        return f"{self.file}:{self.lines[above]}, {key}" if above else f"{self.file}, {key}"
+
+
+class CaptureSection(Section):
+    """capture.yaml of a capture folder: exposures and gains, and the lights to use."""
+
+    exposure: Time | None = None
+    gain: float = Field(default=1.0, gt=0)
+    exposures: dict[str, Time] = {}
+    gains: dict[str, float] = {}
+    lights: Names | None = None

@@ -1,0 +1,43 @@
+"""A reconstructed surface, pixel by pixel, in C."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
+
+
+@dataclass(frozen=True)
+class Component:
+    """One connected piece; `scale_std` is relative, of the distance of the whole piece."""
+
+    label: int
+    pixels: int
+    mean_depth_m: float
+    scale_std: float
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Maps (H, W); NaN outside the mask."""
+
+    name: str
+    normals: Image
+    """(H, W, 3) in C, turned towards the camera: n . x < 0."""
+    depth: Image
+    """Metres along z of C; in pixels, relative, where there is no camera."""
+    albedo: Image
+    """(H, W) or (H, W, 3), relative."""
+    mask: Mask
+    normal_std_deg: Image
+    """Per axis, everything counted."""
+    depth_std: Image
+    """Metres, of the shape, scale apart."""
+    lights_used: Labels
+    component: Labels
+    """0 outside, 1.. a connected piece each."""
+    rays_C: Array
+    """(H, W, 3) of length 1 in z, so that a point is depth * ray; orthographic: (0, 0, 1)."""
+    components: tuple[Component, ...] = ()
+    figures: dict[str, object] = field(default_factory=dict)
+    """Residuals and counts for summary.json."""

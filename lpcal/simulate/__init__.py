@@ -1,0 +1,1 @@
+"""A rig with known truth, rendered with more detail than the solvers model."""
