@@ -11,7 +11,35 @@ import numpy as np
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import light_field
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Image, Mask
+
+
+@dataclass(frozen=True)
+class FlatField:
+    """How lens and sensor weaken light over the image: exp of a polynomial of Chebyshev terms, 1 at the brightest place.
+
+    ``coefficients`` (n, n), row i the power along rows; both axes run from -1 to 1 over the image.
+    """
+
+    coefficients: Array
+
+    @staticmethod
+    def terms(rows: Array, columns: Array, shape: tuple[int, ...], degree: int) -> Array:
+        """Products of Chebyshev polynomials (R, C, n, n) at rows (R,) and columns (C,)."""
+        y = np.polynomial.chebyshev.chebvander(2 * np.asarray(rows) / max(shape[0] - 1, 1) - 1, degree)
+        x = np.polynomial.chebyshev.chebvander(2 * np.asarray(columns) / max(shape[1] - 1, 1) - 1, degree)
+        return np.asarray(y[:, None, :, None] * x[None, :, None, :])
+
+    @staticmethod
+    def kept(degree: int) -> Mask:
+        """Terms (n*n,) whose degrees add up to at most `degree`."""
+        i, j = np.indices((degree + 1, degree + 1))
+        return np.asarray((i + j <= degree).ravel())
+
+    def response(self, shape: tuple[int, ...]) -> Image:
+        """Response (H, W) of an image of shape (H, W)."""
+        y, x = np.linspace(-1, 1, shape[0]), np.linspace(-1, 1, shape[1])
+        return np.exp(np.polynomial.chebyshev.chebgrid2d(y, x, self.coefficients)).astype(np.float32)
 
 
 @dataclass(frozen=True)
@@ -28,6 +56,7 @@ class Camera:
     black_level: float = 0.0
     white_level: float = 1.0
     gamma: float = 1.0
+    flat_field: FlatField | None = None
     rms_px: float = float("nan")
     """Per coordinate."""
     parameters: tuple[str, ...] = ()

@@ -1,0 +1,190 @@
+"""From stored numbers to light.
+
+Symbols: stored number s (fraction of full scale), black b, white w, gamma g (stored = linear^(1/gamma)), flat field F(u, v),
+exposure t (times gain)::
+
+    linear(s) = (s^g - b^g) / (w^g - b^g) / F / t            signal = linear(lit) - linear(ambient)
+
+Noise: variance of the linear number = a + c * (its mean), read off the images themselves (read and shot noise); the ambient
+image's own noise is propagated. Source: EMVA 1288, linear camera model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import FlatField
+from lpcal.records.observations import Radiance, RawCapture
+
+FLAT_DEGREE = 6
+FLAT_BLOCK_PX = 8
+NOISE_BINS = 24
+NOISE_BLOCK_PX = 12
+LOWER_QUARTER = 0.842
+"""The lower quarter of the variances of such blocks of white noise, as a fraction of the true one."""
+DARK = 2.0
+"""A capture whose brightest light is under this many sigmas everywhere is dark."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What the sensor does to light: levels as fractions of full scale."""
+
+    black_level: float = 0.0
+    white_level: float = 1.0
+    gamma: float = 1.0
+    flat_field: FlatField | None = None
+
+    def linear(self, stored: Image) -> Image:
+        """Linear numbers, 0 at black and 1 at white, the flat field not yet divided out."""
+        low, high = self.black_level**self.gamma, self.white_level**self.gamma
+        power = stored if self.gamma == 1.0 else np.maximum(stored, 0.0) ** np.float32(self.gamma)
+        return np.asarray((power - np.float32(low)) / np.float32(high - low), dtype=np.float32)
+
+
+def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
+    """A capture made linear, its noise and its saturated pixels known.
+
+    Raises
+    ------
+    DegenerateError
+        All dark (no light lifts any part of the image over its noise), or all saturated.
+    """
+    saturated = _over_white(raw.images, sensor, raw.step)
+    if saturated.all():
+        raise DegenerateError(
+            "every pixel of every image is saturated", where=raw.name, needed="images below the white level", todo="shorten the exposure"
+        )
+    linear = sensor.linear(raw.images)
+    ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
+    noise = noise_model(linear, saturated, raw.step)
+    response = np.ones(linear.shape[1:3], np.float32) if sensor.flat_field is None else sensor.flat_field.response(linear.shape[1:3])
+    response = response[..., None] if linear.ndim == 4 else response
+    exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
+    ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
+    notes = [f"left out: {name} is no light's" for name in raw.left_out]
+    if ambient_linear is None:
+        notes.append("no ambient image: what lights the scene beside the lights is not taken away")
+    else:
+        times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
+        ambient = np.asarray(np.mean(ambient_linear / times, axis=0), np.float32)
+        ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
+    signal = linear / exposure - ambient
+    sigma = np.asarray(np.sqrt(_variance(linear, noise) / exposure**2 + ambient_variance), np.float32)
+    _refuse_dark(raw, signal, sigma)
+    short = {
+        light: np.asarray((sensor.linear(image) / np.float32(time) - ambient if (time := raw.short_exposure_s.get(light)) else sensor.linear(image))
+        / response
+        for light, image in raw.short.items()
+    }
+    return Radiance(raw.name, raw.lights, signal / response, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes))
+
+
+def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, float]:
+    """(a, c) of variance = a + c * mean, from the finest detail of images linear (L, H, W[, 3]).
+
+    The second difference along both axes (kernel of Immerkaer 1996) leaves noise where an image is smooth. Of the blocks of one
+    brightness those in the lower quarter of its variance count, so that texture and edges do not.
+    """
+    stack = linear if linear.ndim == 3 else np.moveaxis(linear, 3, 1).reshape(-1, *linear.shape[1:3])
+    full = np.repeat(saturated, len(stack) // len(saturated), axis=0)
+    kernel_rows = stack[:, :-2] - 2 * stack[:, 1:-1] + stack[:, 2:]
+    detail = (kernel_rows[:, :, :-2] - 2 * kernel_rows[:, :, 1:-1] + kernel_rows[:, :, 2:]) / 6.0
+    level = _block_mean(stack[:, 1:-1, 1:-1]).ravel()
+    variance = _block_mean(detail**2).ravel()
+    fine = (_block_mean(full[:, 1:-1, 1:-1].astype(np.float32)) == 0).ravel()
+    level, variance = level[fine].astype(float), variance[fine].astype(float)
+    quantisation = (step**2) / 12
+    if level.size < 20 * NOISE_BINS:
+        return quantisation, 0.0
+    which = np.argsort(np.argsort(level)) * NOISE_BINS // level.size
+    middle = np.array([level[which == k].mean() for k in range(NOISE_BINS)])
+    lower = np.array([np.quantile(variance[which == k], 0.25) for k in range(NOISE_BINS)]) / LOWER_QUARTER
+    c, a = _line_through_lower(middle, lower)
+    return max(a, quantisation), max(c, 0.0)
+
+
+def _block_mean(images: Image) -> Image:
+    """Mean (L, h, w) over blocks of images (L, H, W)."""
+    rows, columns = (side // NOISE_BLOCK_PX for side in images.shape[1:])
+    cut = images[:, : rows * NOISE_BLOCK_PX, : columns * NOISE_BLOCK_PX]
+    return np.asarray(cut.reshape(-1, rows, NOISE_BLOCK_PX, columns, NOISE_BLOCK_PX).mean(axis=(2, 4)))
+
+
+def fit_flat_field(stored: Image, sensor: Sensor) -> FlatField:
+    """The smooth response of lens and sensor from an image of an evenly lit target, (H, W) or (H, W, 3).
+
+    A polynomial in the logarithm of block medians: the image's own noise and dust do not enter.
+
+    Raises
+    ------
+    DegenerateError
+        The image is dark or saturated.
+    """
+    grey = stored.mean(axis=2) if stored.ndim == 3 else stored
+    linear = sensor.linear(grey)
+    height, width = (side // FLAT_BLOCK_PX * FLAT_BLOCK_PX for side in linear.shape)
+    blocks = linear[:height, :width].reshape(height // FLAT_BLOCK_PX, FLAT_BLOCK_PX, width // FLAT_BLOCK_PX, FLAT_BLOCK_PX)
+    median = np.median(blocks, axis=(1, 3)).astype(float)
+    saturated = np.mean(grey >= sensor.white_level - 1e-6)
+    if np.median(median) < 0.02 or saturated > 0.05:
+        raise DegenerateError(
+            "dark" if np.median(median) < 0.02 else f"{100 * saturated:.0f} % of the pixels are saturated",
+            where="camera.flat_field",
+            needed="an evenly lit target at half of full scale",
+            todo="take it anew, or leave the key out",
+        )
+    rows = np.arange(median.shape[0]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0
+    columns = np.arange(median.shape[1]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0
+    terms = FlatField.terms(rows, columns, linear.shape, FLAT_DEGREE).reshape(-1, (FLAT_DEGREE + 1) ** 2)
+    kept = FlatField.kept(FLAT_DEGREE)
+    log_median, weight = np.log(np.maximum(median.ravel(), 1e-4)), np.ones(median.size)
+    found = np.zeros(kept.sum())
+    for _ in range(5):
+        found = np.linalg.lstsq(terms[:, kept] * weight[:, None], log_median * weight, rcond=None)[0]
+        residual = np.abs(log_median - terms[:, kept] @ found)
+        weight = np.minimum(1.0, 2 * np.median(residual) / np.maximum(residual, 1e-12))
+    coefficients = np.zeros((FLAT_DEGREE + 1) ** 2)
+    coefficients[kept] = found
+    flat = FlatField(coefficients.reshape(FLAT_DEGREE + 1, FLAT_DEGREE + 1))
+    coefficients[0] -= np.log(flat.response(linear.shape).max())
+    return FlatField(coefficients.reshape(FLAT_DEGREE + 1, FLAT_DEGREE + 1))
+
+
+def _over_white(images: Image, sensor: Sensor, step: float) -> Mask:
+    over = images >= sensor.white_level - 0.5 * step
+    return np.asarray(over.any(axis=3) if over.ndim == 4 else over)
+
+
+def _variance(linear: Image, noise: tuple[float, float]) -> Image:
+    return np.asarray(noise[0] + noise[1] * np.maximum(linear, 0.0), dtype=np.float32)
+
+
+def _line_through_lower(x: Array, y: Array) -> tuple[float, float]:
+    """Slope and offset of a line with noise-like (never negative) values, points above it (texture) weighing less."""
+    weight = 1 / np.maximum(y, np.median(y) * 0.1)
+    slope = offset = 0.0
+    for _ in range(10):
+        A = np.stack([x, np.ones_like(x)], axis=1)
+        slope, offset = np.linalg.lstsq(A * weight[:, None], y * weight, rcond=None)[0]
+        line = np.maximum(slope * x + offset, 1e-12)
+        weight = np.where(y > line, (line / y) ** 2, 1.0) / line
+    return float(slope), float(offset)
+
+
+def _refuse_dark(raw: RawCapture, signal: Image, sigma: Image) -> None:
+    """A light that lifts fewer than one pixel in a thousand over its noise is off; all of them: the capture is dark."""
+    ratio = (signal / sigma).reshape(len(signal), -1)
+    lit = np.mean(ratio > 5 * DARK, axis=1)
+    dark = [light for light, share in zip(raw.lights, lit, strict=True) if share < 1e-3]
+    if len(dark) == len(raw.lights):
+        raise DegenerateError(
+            "all dark: no light lifts the image over its noise" + (" and the ambient light" if raw.ambient is not None else ""),
+            where=raw.name,
+            needed="images lit by one light each",
+            todo="check the lights, the exposure and the ambient image",
+        )

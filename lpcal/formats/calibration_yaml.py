@@ -1,0 +1,148 @@
+"""calibration.yaml, the product: camera and lights in C, all that a reconstructor needs.
+
+Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
+see `records.calibration.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. A lobe is one of
+
+- ``{kind: isotropic}``
+- ``{kind: cosine, exponent: m}``: cos(angle)^m
+- ``{kind: table, angle_deg: [...], value: [...]}``: monotone cubic through the table, 1 on the axis, 0 beyond its last angle
+
+with the angle between the light's axis and the ray from its source.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.camera_yaml import camera_document, camera_from_document
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Calibration, Light, Lobe
+
+KIND = "calibration"
+
+
+def write_calibration(path: Path, calibration: Calibration, provenance: Provenance) -> None:
+    """Write calibration.yaml."""
+    body: dict[str, Any] = {"name": calibration.name}
+    if calibration.camera is not None:
+        body["camera"] = camera_document(calibration.camera)
+    if calibration.H_PC is not None:
+        body["H_PC"] = calibration.H_PC
+    body |= {
+        "d_object_m": calibration.d_object_m,
+        "focus_m": calibration.focus_C,
+        "lights": [light_document(light) for light in calibration.lights],
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_calibration(path: Path) -> Calibration:
+    """Read calibration.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or a value that is lacking, of another form, or no number; the light is named.
+    """
+    document = read_document(path, KIND)
+    try:
+        camera = camera_from_document(document["camera"]) if document.get("camera") else None
+        lights = tuple(_light(path, entry) for entry in document["lights"])
+        H_PC = _numbers(document, "H_PC", 4, 4) if document.get("H_PC") else None
+        focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it anew with lpcal export"
+        ) from error
+    if not lights:
+        raise InputError("holds no lights", where=str(path), needed="lights")
+    return Calibration(document.get("name", path.stem), lights, camera, H_PC, document.get("d_object_m"), focus_C)
+
+
+def light_document(light: Light) -> dict[str, Any]:
+    """A light as it is written."""
+    intensity: float | Array = float(light.intensity[0]) if light.intensity.size == 1 else light.intensity
+    return {
+        "name": light.name,
+        "H_CL": light.H_CL,
+        "source_m": light.source_C,
+        "axis": light.axis_C,
+        "direction": light.direction_C,
+        "intensity": intensity,
+        "lobe": lobe_document(light.lobe),
+        "position_std_m": light.position_std_m,
+        "direction_std_deg": np.degrees(light.direction_std_rad),
+        "intensity_std": light.intensity_std,
+    }
+
+
+def lobe_document(lobe: Lobe) -> dict[str, Any]:
+    """A lobe as it is written."""
+    if lobe.kind == "cosine":
+        return {"kind": "cosine", "exponent": lobe.exponent}
+    if lobe.kind == "table":
+        return {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
+    return {"kind": lobe.kind}
+
+
+def lobe_from_document(entry: dict[str, Any]) -> Lobe:
+    """A lobe as it was written."""
+    if entry["kind"] == "table":
+        return Lobe("table", angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"))
+    return Lobe(entry["kind"], exponent=float(entry.get("exponent", 0.0)))
+
+
+def light_from_document(entry: dict[str, Any]) -> Light:
+    """A light as it was written.
+
+    Raises
+    ------
+    KeyError, ValueError
+        A key is lacking or holds no numbers of the right count; the message is the key's name.
+    """
+    near = entry.get("source_m") is not None
+    intensity = np.atleast_1d(np.asarray(entry["intensity"], dtype=float))
+    if not np.isfinite(intensity).all() or intensity.size not in (1, 3):
+        raise ValueError("intensity")
+    direction_C = _numbers(entry, "direction", 3)
+
+    def sigma(key: str) -> float:
+        return float("nan") if entry.get(key) is None else float(entry[key])
+
+    return Light(
+        name=str(entry["name"]),
+        direction_C=direction_C / np.linalg.norm(direction_C),
+        intensity=intensity,
+        H_CL=_numbers(entry, "H_CL", 4, 4) if entry.get("H_CL") is not None else None,
+        source_C=_numbers(entry, "source_m", 3) if near else None,
+        axis_C=_numbers(entry, "axis", 3) if near else None,
+        lobe=lobe_from_document(entry.get("lobe") or {"kind": "isotropic"}),
+        position_std_m=sigma("position_std_m"),
+        direction_std_rad=float(np.radians(sigma("direction_std_deg"))),
+        intensity_std=sigma("intensity_std"),
+    )
+
+
+def _light(path: Path, entry: dict[str, Any]) -> Light:
+    try:
+        return light_from_document(entry)
+    except (KeyError, TypeError, ValueError) as error:
+        name = entry.get("name", "?") if isinstance(entry, dict) else "?"
+        raise InputError(
+            f"{error} is lacking or holds no numbers",
+            where=f"{path}, light {name}",
+            needed="the contract's keys",
+            todo="write it anew with lpcal export",
+        ) from error
+
+
+def _numbers(document: dict[str, Any], key: str, *shape: int) -> Array:
+    value = np.asarray(document[key], dtype=float)
+    if not np.isfinite(value).all() or (shape and value.shape != shape):
+        raise ValueError(key)
+    return value

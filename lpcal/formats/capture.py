@@ -1,0 +1,133 @@
+"""Capture folders: one image a light, named after it, with ambient images, shorter exposures and a mask where there are any."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.images import ENDINGS, StoredImage, read_image
+from lpcal.formats.panel_yaml import read_capture_section
+from lpcal.geometry.arrays import Image, Mask
+from lpcal.records.observations import RawCapture
+from lpcal.records.rig import CaptureSection
+
+SHORT = "short_"
+
+
+def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None, use: Sequence[str] | None = None) -> RawCapture:
+    """Read a capture folder.
+
+    Parameters
+    ----------
+    folder : holds ``<light>.png``, ``ambient*.png``, ``short_<light>.png``, ``mask.png``, ``capture.yaml``
+    lights : names of the calibrated lights
+    use : the lights to take; else those that capture.yaml names, else all
+
+    Raises
+    ------
+    InputError
+        The folder or an image is not there or cannot be read.
+    DisagreementError
+        A light has no image, a name in `use` is no light, or images differ in size or channels.
+    """
+    if not folder.is_dir():
+        raise InputError("no such folder", where=str(folder), needed="a capture folder: one image a light, named after it")
+    section = read_capture_section(folder / "capture.yaml")
+    files = {path.stem: path for path in sorted(folder.iterdir()) if path.suffix.lower() in ENDINGS}
+    chosen = _chosen(folder, lights, use or section.lights, files)
+    reader = _SameSize()
+    images = np.stack([reader.read(files[light]).pixels for light in chosen])
+    ambient_names = [stem for stem in files if stem == "ambient" or stem.startswith("ambient_")]
+    short = {light: reader.read(files[SHORT + light]).pixels for light in chosen if SHORT + light in files}
+    known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights)}
+    return RawCapture(
+        name=name or folder.resolve().name,
+        lights=tuple(chosen),
+        images=images,
+        exposure_s=np.array([_exposure(section, light) or 1.0 for light in chosen]),
+        ambient=np.stack([reader.read(files[stem]).pixels for stem in ambient_names]) if ambient_names else None,
+        ambient_exposure_s=np.array([_exposure(section, stem) or 1.0 for stem in ambient_names]),
+        short=short,
+        short_exposure_s={light: _exposure(section, SHORT + light, own=True) for light in short},
+        mask=_read_mask(files["mask"], images.shape[1:3]) if "mask" in files else None,
+        left_out=tuple(path.name for stem, path in files.items() if stem not in known),
+        step=reader.step,
+    )
+
+
+def read_mask(path: Path, shape: tuple[int, ...]) -> Mask:
+    """A mask (H, W): whatever is not zero.
+
+    Raises
+    ------
+    DisagreementError
+        It has another size.
+    """
+    return _read_mask(path, shape)
+
+
+class _SameSize:
+    """Reads images and holds them to the size and channels of the first."""
+
+    def __init__(self) -> None:
+        self.first: tuple[Path, StoredImage] | None = None
+        self.step = 1 / 255
+
+    def read(self, path: Path) -> StoredImage:
+        image = read_image(path)
+        if self.first is None:
+            self.first, self.step = (path, image), image.step
+        if image.pixels.shape != self.first[1].pixels.shape:
+            raise DisagreementError(
+                f"{_kind(image.pixels)}, but {self.first[0].name} is {_kind(self.first[1].pixels)}",
+                where=str(path),
+                needed="all images of a capture alike",
+                todo="take the capture anew, or remove the odd image",
+            )
+        return image
+
+
+def _kind(pixels: Image) -> str:
+    return f"{pixels.shape[1]}x{pixels.shape[0]} {'grey' if pixels.ndim == 2 else 'RGB'}"
+
+
+def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, files: dict[str, Path]) -> list[str]:
+    unknown = [light for light in use or [] if light not in lights]
+    if unknown:
+        raise DisagreementError(
+            f"no light is called {', '.join(unknown)}",
+            where=str(folder),
+            needed=f"some of {', '.join(lights)}",
+            todo="correct --use, or lights: in capture.yaml",
+        )
+    chosen = [light for light in lights if use is None or light in use]
+    lacking = [light for light in chosen if light not in files]
+    if lacking:
+        others = sorted(stem for stem in files if stem not in lights and not stem.startswith(("ambient", SHORT)) and stem != "mask")
+        raise DisagreementError(
+            f"no image of {', '.join(lacking)}" + (f"; found are also {', '.join(others[:8])}" if others else ""),
+            where=str(folder),
+            needed=f"an image for each light, for example {lacking[0]}.png",
+            todo="add it, rename it, or take a subset with --use or with lights: in capture.yaml",
+        )
+    return chosen
+
+
+def _exposure(section: CaptureSection, stem: str, *, own: bool = False) -> float | None:
+    """Exposure times gain of one image; None where no exposure is stated (`own`: stated for this very image)."""
+    exposure = section.exposures.get(stem, None if own else section.exposure)
+    return None if exposure is None else exposure * section.gains.get(stem, section.gain)
+
+
+def _read_mask(path: Path, shape: tuple[int, ...]) -> Mask:
+    pixels = read_image(path).pixels
+    if pixels.shape[:2] != tuple(shape[:2]):
+        raise DisagreementError(
+            f"the mask is {pixels.shape[1]}x{pixels.shape[0]}, the images {shape[1]}x{shape[0]}",
+            where=str(path),
+            needed="a mask of the images' size",
+        )
+    return np.asarray(pixels.reshape(*pixels.shape[:2], -1).max(axis=2) > 0)
