@@ -76,11 +76,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     signal = linear / exposure - ambient
     sigma = np.asarray(np.sqrt(_variance(linear, noise) / exposure**2 + ambient_variance), np.float32)
     _refuse_dark(raw, signal, sigma)
-    short = {
-        light: np.asarray((sensor.linear(image) / np.float32(time) - ambient if (time := raw.short_exposure_s.get(light)) else sensor.linear(image))
-        / response
-        for light, image in raw.short.items()
-    }
+    short = {light: _short(sensor.linear(image), raw.short_exposure_s.get(light), ambient, response) for light, image in raw.short.items()}
     return Radiance(raw.name, raw.lights, signal / response, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes))
 
 
@@ -153,6 +149,12 @@ def fit_flat_field(stored: Image, sensor: Sensor) -> FlatField:
     flat = FlatField(coefficients.reshape(FLAT_DEGREE + 1, FLAT_DEGREE + 1))
     coefficients[0] -= np.log(flat.response(linear.shape).max())
     return FlatField(coefficients.reshape(FLAT_DEGREE + 1, FLAT_DEGREE + 1))
+
+
+def _short(linear: Image, exposure_s: float | None, ambient: Image, response: Image) -> Image:
+    """A shorter exposure (H, W[, 3]) on the long ones' scale; where its exposure is not stated, on a scale of its own."""
+    signal = linear if exposure_s is None else linear / np.float32(exposure_s) - ambient
+    return np.asarray(signal / response, np.float32)
 
 
 def _over_white(images: Image, sensor: Sensor, step: float) -> Mask:
