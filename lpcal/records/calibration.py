@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry import camera as central
-from lpcal.geometry import light_field
+from lpcal.geometry import light_field, splined
 from lpcal.geometry.arrays import Array, Image, Mask
 
 
@@ -62,14 +62,28 @@ class Camera:
     parameters: tuple[str, ...] = ()
     covariance: Array | None = None
     """(P, P) of `parameters`."""
+    lensmodel: str = ""
+    """Splined: mrcal's name of the model with its configuration."""
+    spline: Array | None = None
+    """Splined: mrcal's vector, core and knots."""
 
     def project(self, x_C: Array) -> Array:
         """Pixels (..., 2) of points x_C (..., 3)."""
+        if self.spline is not None:
+            return splined.project(x_C, self.lensmodel, self.spline)
         return central.project(x_C, self.K, self.distortion)
 
     def unproject(self, pixels: Array) -> Array:
         """Unit rays (..., 3) of pixels (..., 2)."""
+        if self.spline is not None:
+            return splined.unproject(pixels, self.lensmodel, self.spline)
         return central.unproject(pixels, self.K, self.distortion)
+
+    def projection_jacobian(self, x_C: Array) -> Array:
+        """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
+        if self.spline is not None:
+            return splined.projection_jacobian(x_C, self.lensmodel, self.spline)
+        return central.projection_jacobian(x_C, self.K, self.distortion)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,12 @@ class Board:
     """Square size along x, along y."""
     warp: bool = True
     """Whether its departure from a plane may be estimated."""
+    kind: str = "chessboard"
+    """chessboard | charuco."""
+    marker_m: float = float("nan")
+    """Charuco: side of a marker."""
+    dictionary: str = ""
+    """Charuco: OpenCV's name of the markers' dictionary."""
 
     def points_B(self) -> Array:
         """Corners (ny*nx, 3) in B, of a flat board."""
@@ -36,6 +42,8 @@ class BoardView:
     """Corners (ny*nx, 2), in the order of `Board.points_B`, NaN where a corner was not seen; None: no board."""
     why: str | None = None
     """Why there is no board, in words."""
+    other_corners: tuple[int, int] | None = None
+    """Another count of corners that was seen in place of the one asked for."""
 
 
 @dataclass(frozen=True)
