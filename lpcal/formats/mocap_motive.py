@@ -1,0 +1,188 @@
+"""Motive CSV (OptiTrack), format versions 1.2 to 1.25: quaternion or Euler angles, any of its units, gaps, marker tracks.
+
+Line 1 holds key,value pairs. Above the row that starts with ``Frame`` stand rows of labels, a cell a column: type, name, ID, possibly
+parent, and category (Rotation, Position, Mean Marker Error). Up to 1.23 their first two cells are blank, from 1.24 the second says
+which row it is; a column TimeCode may follow the time. Quaternions are x, y, z, w; Euler angles are degrees about moving axes in the
+order that Rotation Type names: R = R_x R_y R_z for XYZ. The clock is the column Time, from the take's start.
+Source: real files of versions 1.21 to 1.24.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.number_table import read_numbers, read_text
+from lpcal.formats.pose_table import PoseTable
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+
+UNITS = {"meters": "m", "centimeters": "cm", "millimeters": "mm"}
+BODY_TYPES = ("rigid body", "bone")
+ERRORS = ("mean marker error", "error per marker")
+HEADER_ROWS = 30
+
+
+@dataclass(frozen=True)
+class _Column:
+    """One column's labels."""
+
+    place: int
+    kind: str
+    name: str
+    category: str
+    axis: str
+
+
+@dataclass(frozen=True)
+class _Header:
+    keys: dict[str, str]
+    columns: list[_Column]
+    time: int
+    first_line: int
+    """Line of the first row of numbers."""
+
+
+def is_motive(text: str) -> bool:
+    """Whether a text starts as Motive's CSV does."""
+    return text.lstrip('"').startswith("Format Version")
+
+
+def read_motive(path: Path, body: str | None, quaternion: str | None = None, units: str | None = None) -> PoseTable:
+    """The poses of one body.
+
+    Raises
+    ------
+    InputError
+        Not the layout, no rigid body, or several and none named; units that nothing states; a row cut off.
+    DisagreementError
+        The named body is not in the file; those that are there are listed.
+    """
+    text = read_text(path)
+    header = _header(text, path)
+    name = _chosen(header, body, path)
+    of_body = [column for column in header.columns if column.name == name and column.kind in BODY_TYPES]
+    rotation = [column for column in of_body if column.category == "rotation"]
+    position = sorted((column for column in of_body if column.category == "position"), key=lambda column: column.axis)
+    error = [column for column in of_body if column.category in ERRORS]
+    markers = _markers(header, name)
+    if len(position) != 3 or len(rotation) not in {3, 4}:
+        found = f"{len(rotation)} rotation and {len(position)} position columns of {name}"
+        raise InputError(found, where=f"{path}:{header.first_line - 1}", needed="3 or 4, and 3", todo="export it with rotations")
+    wanted = [header.time, *(c.place for c in (*rotation, *position, *error[:1])), *(c.place for track in markers.values() for c in track)]
+    lines = text.splitlines(keepends=True)[header.first_line - 1 :]
+    numbers = iter(read_numbers("".join(lines), header.first_line, path, delimiter=",", columns=wanted).T)
+
+    def take(count: int) -> Array:
+        return np.stack([next(numbers) for _ in range(count)], axis=1)
+
+    t_s = next(numbers)
+    R, q, notes = _rotation(take(len(rotation)), rotation, header, quaternion)
+    unit, unit_notes = _units(header, units, path)
+    return PoseTable(
+        name,
+        t_s,
+        take(3),
+        R,
+        q,
+        unit,
+        error=next(numbers) if error else None,
+        markers={marker: take(3) for marker in markers},
+        first_line=header.first_line,
+        notes=(*notes, *unit_notes),
+    )
+
+
+def _header(text: str, path: Path) -> _Header:
+    rows = list(csv.reader(text.splitlines()[:HEADER_ROWS]))
+    at = next((i for i, row in enumerate(rows) if row and row[0].strip() == "Frame"), None)
+    if at is None:
+        raise InputError(
+            "no row that starts with Frame", where=f"{path}:1", needed="Motive's CSV with its header", todo="export it anew, header on"
+        )
+    labels = [row for row in rows[1:at] if any(cell.strip() for cell in row)]
+    if len(labels) < 3:
+        raise InputError(
+            f"{len(labels)} rows of labels above Frame", where=f"{path}:{at + 1}", needed="type, name, ID, category", todo="export it anew"
+        )
+    named = {row[1].strip().lower(): row for row in labels if len(row) > 1 and row[1].strip()}
+    kinds, names, categories = named.get("type", labels[0]), named.get("name", labels[1]), labels[-1]
+    axes = rows[at]
+    time = next((i for i, cell in enumerate(axes) if cell.strip().lower().startswith("time") and cell.strip().lower() != "timecode"), None)
+    if time is None:
+        raise InputError("no column Time", where=f"{path}:{at + 1}", needed="Time (Seconds)", todo="export it anew")
+
+    def cell(row: list[str], place: int) -> str:
+        return row[place].strip() if place < len(row) else ""
+
+    columns = [
+        _Column(i, cell(kinds, i).lower(), cell(names, i), cell(categories, i).lower(), cell(axes, i).upper())
+        for i in range(2, len(axes))
+        if cell(kinds, i) and cell(kinds, i).lower() != "type"
+    ]
+    first = rows[0]
+    keys = {key.strip().lower(): value.strip() for key, value in zip(first[::2], first[1::2], strict=False)}
+    return _Header(keys, columns, time, at + 2)
+
+
+def _chosen(header: _Header, body: str | None, path: Path) -> str:
+    bodies = list(dict.fromkeys(c.name for c in header.columns if c.kind in BODY_TYPES and c.category == "rotation"))
+    listed = ", ".join(bodies)
+    if not bodies:
+        kinds = ", ".join(sorted({c.kind for c in header.columns})) or "nothing"
+        raise InputError(
+            f"no rigid body, only {kinds}", where=str(path), needed="a Rigid Body", todo="export the take with Rigid Bodies ticked"
+        )
+    if body is None:
+        if len(bodies) > 1:
+            raise InputError(f"{len(bodies)} bodies: {listed}", where=str(path), needed="one", todo="name it in panel.yaml: mocap.body")
+        return bodies[0]
+    found = [name for name in bodies if name == body] or [name for name in bodies if name.lower() == body.lower()]
+    if not found:
+        raise DisagreementError(
+            f"no body {body}", where=str(path), needed=f"one of those it holds: {listed}", todo="correct mocap.body in panel.yaml"
+        )
+    return found[0]
+
+
+def _markers(header: _Header, body: str) -> dict[str, list[_Column]]:
+    """Position columns x, y, z of each of a body's markers, by the name without the body's; what the body's solve gives comes first."""
+    for kind in ("rigid body marker", "bone marker", "marker"):
+        tracks: dict[str, list[_Column]] = {}
+        for column in header.columns:
+            if column.kind == kind and column.category == "position" and column.name.startswith((f"{body}:", f"{body}_")):
+                tracks.setdefault(column.name.removeprefix(f"{body}:"), []).append(column)
+        whole = {name: sorted(track, key=lambda column: column.axis) for name, track in tracks.items() if len(track) == 3}
+        if whole:
+            return whole
+    return {}
+
+
+def _rotation(
+    values: Array, columns: list[_Column], header: _Header, quaternion: str | None
+) -> tuple[Array | None, Array | None, list[str]]:
+    """Rotations (N, 3, 3) of Euler angles, or quaternions (N, 4) as x, y, z, w."""
+    if len(columns) == 4:
+        if quaternion == "wxyz":
+            return None, values[:, [1, 2, 3, 0]], ["quaternion read as w, x, y, z, as panel.yaml says, against the file's labels"]
+        return None, values[:, [[c.axis for c in columns].index(axis) for axis in "XYZW"]], []
+    order = header.keys.get("rotation type", "").upper()
+    notes = [] if sorted(order) == list("XYZ") else ["the file does not say the order of its Euler angles: XYZ taken"]
+    order = "XYZ" if notes else order
+    angle = {column.axis: np.deg2rad(values[:, place]) for place, column in enumerate(columns)}
+    first, second, third = (se3.rotation(np.eye(3)["XYZ".index(axis)] * angle[axis][:, None]) for axis in order)
+    return first @ second @ third, None, notes
+
+
+def _units(header: _Header, units: str | None, path: Path) -> tuple[str, list[str]]:
+    stated = UNITS.get(header.keys.get("length units", "").lower())
+    if units is None and stated is None:
+        raise InputError(
+            "the header does not say the unit of length", where=f"{path}:1", needed="Length Units", todo="state mocap.units in panel.yaml"
+        )
+    notes = [f"lengths read as {units}, as panel.yaml says, against the header's {stated}"] if units and stated not in {None, units} else []
+    return units or str(stated), notes

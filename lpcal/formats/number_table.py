@@ -1,0 +1,78 @@
+"""Rows of numbers in a text file, read fast; an empty cell is NaN, and a row that cannot be read is named by its line."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.geometry.arrays import Array
+
+EMPTY_CELL = re.compile(r"(?:(?<=,)|(?<=;)|(?<=\t)|(?<=\n))[ ]*(?=[,;\t\r\n])|(?<=[,;\t])[ ]*\Z")
+
+BLANK_ROW = re.compile(r"(?:nan|[\s,;])*")
+
+
+def read_text(path: Path) -> str:
+    """The text of a file.
+
+    Raises
+    ------
+    InputError
+        It is not there, or not text.
+    """
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError as error:
+        raise InputError("no such file", where=str(path), needed="a motion-capture file", todo="correct the name") from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError("not a text file", where=str(path), needed="text in UTF-8") from error
+
+
+def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | None, columns: Sequence[int] | None = None) -> Array:
+    """Numbers (N, columns) of a text whose first line is line `first_line` of the file; blank and ``#`` lines are left out.
+
+    Raises
+    ------
+    InputError
+        A cell that is no number, or a row with too few of them: its line is named.
+    """
+    filled = text if delimiter is None else EMPTY_CELL.sub("nan", text)
+    lines = [line for line in filled.splitlines() if not BLANK_ROW.fullmatch(line)]
+    if not lines:
+        return np.zeros((0, len(columns or ())))
+    try:
+        return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments="#")
+    except ValueError as error:
+        raise _complaint(text, first_line, path, delimiter, columns) from error
+
+
+def _complaint(text: str, first_line: int, path: Path, delimiter: str | None, columns: Sequence[int] | None) -> InputError:
+    """The first line that cannot be read."""
+    needed = 0
+    for number, line in enumerate(text.splitlines(), start=first_line):
+        cells = [cell.strip() for cell in line.split(delimiter)]
+        if not any(cells) or line.startswith("#"):
+            continue
+        needed = needed or (1 + max(columns) if columns else len(cells))
+        if len(cells) < needed:
+            return InputError(
+                f"{len(cells)} cells", where=f"{path}:{number}", needed=f"{needed}", todo="is the file cut off? export it again"
+            )
+        for place in columns or range(needed):
+            if cells[place] and not is_number(cells[place]):
+                return InputError(f"{cells[place]!r} in column {place + 1}", where=f"{path}:{number}", needed="a number")
+    return InputError("rows of unlike length", where=f"{path}:{first_line}", needed="as many numbers in every row")
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell holds a number."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
