@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +13,19 @@ from lpcal.records.rig import CaptureSection, Rig, RigFile
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
+    from pydantic_core import ErrorDetails
 
 FILE_NAME = "panel.yaml"
+NEEDED = {
+    "int_": "a whole number",
+    "float_": "a number",
+    "finite_": "a number",
+    "string_": "a name or a text",
+    "tuple_": "a list such as [9, 6]",
+    "list_": "a list such as [a, b]",
+    "dict_": "a section of key: value lines",
+    "model_": "a section of key: value lines",
+}
 
 
 def find(start: Path) -> Path:
@@ -58,25 +70,51 @@ def read_capture_section(path: Path) -> CaptureSection:
     return _checked(CaptureSection, document, path, lines)
 
 
+class _AsWritten(yaml.SafeLoader):
+    """Scalars stay the text that a person wrote (``on``, ``2024-01-01``, ``1e3``); the schema, not YAML, says what they mean."""
+
+    yaml_implicit_resolvers = {  # noqa: RUF012 - the name is PyYAML's
+        letter: [pair for pair in pairs if pair[0].endswith((":null", ":merge"))]
+        for letter, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
+
+
 def _load(path: Path) -> tuple[Any, dict[str, int]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
-        document = yaml.safe_load(text)
     except UnicodeDecodeError as error:
-        raise InputError("not a text file in UTF-8", where=str(path), needed="YAML") from error
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        place = f"{path}:{mark.line + 1}" if mark else str(path)
-        raise InputError(f"not YAML: {error.problem}", where=place, needed="key: value lines", todo="mend that line") from error
+        raise InputError("not a text file in UTF-8", where=str(path), needed="YAML", todo="save it as UTF-8") from error
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed="a text file") from error
+    lines: dict[str, int] = {}
+    try:
+        _collect_lines(yaml.compose(text, Loader=_AsWritten), "", lines, path, ())
+        document = yaml.load(text, Loader=_AsWritten)
+    except yaml.YAMLError as error:
+        raise _not_yaml(error, text, path) from error
     if document is None:
         raise InputError("empty", where=str(path), needed="key: value lines")
-    lines: dict[str, int] = {}
-    _collect_lines(root, "", lines, path)
     return document, lines
 
 
-def _collect_lines(node: yaml.Node | None, prefix: str, lines: dict[str, int], path: Path) -> None:
+def _not_yaml(error: yaml.YAMLError, text: str, path: Path) -> InputError:
+    if isinstance(error, yaml.MarkedYAMLError):
+        mark = error.problem_mark or error.context_mark
+        line = mark.line + 1 if mark else 1
+        if "<stream end>" in str(error.problem):
+            found = "ends in the middle of a [list] or a {section}"
+            return InputError(found, where=f"{path}:{line}", needed="the whole file", todo="close it, or fetch the file anew")
+        return InputError(f"not YAML: {error.problem}", where=f"{path}:{line}", needed="key: value lines", todo="mend that line")
+    line = text.count("\n", 0, getattr(error, "position", 0)) + 1
+    return InputError("not YAML: a control character", where=f"{path}:{line}", needed="plain text", todo="mend that line")
+
+
+def _collect_lines(node: yaml.Node | None, prefix: str, lines: dict[str, int], path: Path, above: tuple[yaml.Node, ...]) -> None:
+    if node in above:
+        place = f"{path}:{node.start_mark.line + 1}" if node else str(path)
+        raise InputError("a section that contains itself", where=place, needed="sections that end", todo="remove the * that refers to it")
+    if node is not None:
+        above = (*above, node)
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             name = f"{prefix}{key.value}"
@@ -88,11 +126,11 @@ def _collect_lines(node: yaml.Node | None, prefix: str, lines: dict[str, int], p
                     todo="remove one of them",
                 )
             lines[name] = key.start_mark.line + 1
-            _collect_lines(value, f"{name}.", lines, path)
+            _collect_lines(value, f"{name}.", lines, path, above)
     elif isinstance(node, yaml.SequenceNode):
         for index, value in enumerate(node.value):
             lines[f"{prefix}{index}"] = value.start_mark.line + 1
-            _collect_lines(value, f"{prefix}{index}.", lines, path)
+            _collect_lines(value, f"{prefix}{index}.", lines, path, above)
 
 
 def _checked[Model: "BaseModel"](model: type[Model], document: Any, path: Path, lines: dict[str, int]) -> Model:
@@ -107,35 +145,62 @@ def _checked[Model: "BaseModel"](model: type[Model], document: Any, path: Path, 
 
 
 def _filled(document: dict[str, Any]) -> dict[str, Any]:
-    """A section with nothing behind its key is as good as absent; a light (``L1:``) as one of which nothing is known."""
-    filled = {key: value for key, value in document.items() if value is not None}
-    if isinstance(filled.get("lights"), dict):
-        filled["lights"] = {name: {} if light is None else light for name, light in filled["lights"].items()}
+    """A key with nothing behind it is as good as absent; a light or a sphere (``L1:``) is there, and nothing is known of it."""
+    filled = {}
+    for key, value in document.items():
+        if key in {"lights", "spheres"} and isinstance(value, dict):
+            filled[key] = {name: {} if entry is None else entry for name, entry in value.items()}
+        elif isinstance(value, dict) and key != "objects":
+            filled[key] = _filled(value)
+        elif value is not None:
+            filled[key] = value
     return filled
 
 
 def _complaint(error: ValidationError, model: type[BaseModel], path: Path, lines: dict[str, int]) -> InputError:
-    """The first complaint as one message, the number of others after it."""
+    """One complaint as one message, the number of others after it. A misspelled key comes first: others follow from it."""
     complaints = error.errors(include_url=False)
-    first = complaints[0]
+    first = min(complaints, key=lambda complaint: complaint["type"] != "extra_forbidden")
     steps = [str(step) for step in first["loc"]]
     key = ".".join(steps)
-    while key not in lines and "." in key:  # pydantic adds the branch of a union to the place
-        key = key.rpartition(".")[0]
-    place = f"{path}:{lines[key]}" if key in lines else str(path)
-    others = f"; {len(complaints) - 1} more like it or other follow" if len(complaints) > 1 else ""
+    above = key
+    while above not in lines and "." in above:
+        above = above.rpartition(".")[0]
+    shown = key if first["type"] in {"missing", "extra_forbidden"} or above not in lines else above
+    where = f"{path}:{lines[above]}, {shown}" if above in lines else f"{path}, {shown}"
+    different = {(*[step for step in one["loc"] if isinstance(step, str)], one["msg"]) for one in complaints}
+    others = f" (the first of {len(different)} mistakes)" if len(different) > 1 else ""
     if first["type"] == "extra_forbidden":
-        return InputError(
-            f"unknown key {'.'.join(steps)}{others}",
-            where=place,
-            needed=f"one of: {', '.join(_known_keys(model, steps[:-1]))}",
-            todo="correct the key's spelling, or remove it",
-        )
-    if first["type"] == "missing":
-        return InputError(f"the key {'.'.join(steps)} is missing{others}", where=place, needed=steps[-1], todo="add it")
-    words = first["msg"].removeprefix("Value error, ")
-    value = "" if first["type"] == "value_error" else f" (found {first['input']!r})"
-    return InputError(f"{words}{value}{others}", where=f"{place}, {key}")
+        known = _known_keys(model, steps[:-1])
+        near = difflib.get_close_matches(steps[-1], known, n=1)
+        todo = f"write {near[0]}" if near else "correct the key's spelling, or remove it"
+        return InputError(f"unknown key{others}", where=where, needed=f"one of: {', '.join(known)}", todo=todo)
+    found, needed = _in_words(first)
+    todo = "write lpcal: 1 at the top of the file" if key == "lpcal" else f"add {steps[-1]}:" if first["type"] == "missing" else ""
+    return InputError(f"{found}{others}", where=where, needed=needed, todo=todo)
+
+
+def _in_words(complaint: ErrorDetails) -> tuple[str, str]:
+    """What was found and what was needed, of one of pydantic's complaints."""
+    kind, facts = complaint["type"], complaint.get("ctx", {})
+    found = complaint["input"] if isinstance(complaint["input"], str) else repr(complaint["input"])
+    match kind:
+        case "missing":
+            return "the key is missing", "a value for it"
+        case "value_error":
+            said, _, wanted = complaint["msg"].removeprefix("Value error, ").partition("; ")
+            return said, wanted
+        case "literal_error":
+            return found, "one of: " + str(facts["expected"]).replace(" or ", ", ").replace("'", "")
+        case "too_long" | "too_short":
+            return f"{facts['actual_length']} values", f"{facts.get('max_length', facts.get('min_length'))} values"
+        case "greater_than" | "greater_than_equal" | "less_than":
+            words = {"greater_than": "more than", "greater_than_equal": "at least", "less_than": "less than"}[kind]
+            return found, f"{words} {facts.get('gt', facts.get('ge', facts.get('lt')))}"
+    for part, needed in NEEDED.items():
+        if kind.startswith(part):
+            return found, needed
+    return f"{found}: {complaint['msg']}", ""
 
 
 def _known_keys(model: type[BaseModel], steps: list[str]) -> list[str]:

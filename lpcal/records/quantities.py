@@ -7,19 +7,24 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 from typing import Annotated
 
 from pydantic import BeforeValidator
 
 UNITS = {
-    "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254},
-    "angle": {"rad": 1.0, "deg": math.pi / 180},
-    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6},
+    "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
+    "angle": {"rad": 1.0, "deg": math.pi / 180, "°": math.pi / 180},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
     "share": {"%": 1e-2},
     "pixels": {"px": 1.0},
 }
+ARTICLE = {"length": "a length", "angle": "an angle", "time": "a time", "share": "a percentage", "pixels": "a number of pixels"}
 EXAMPLE = {"length": "25 mm", "angle": "30 deg", "time": "20 ms", "share": "0.8 %", "pixels": "310 px"}
-QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z%]+)\s*")
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+QUANTITY = re.compile(rf"\s*({NUMBER})\s*([^\W\d_]+|%|°)\s*")
+BARE = re.compile(rf"\s*({NUMBER})\s*")
+MICRO = str.maketrans({"\N{GREEK SMALL LETTER MU}": "\N{MICRO SIGN}"})
 
 
 def parse(text: object, kind: str) -> float:
@@ -28,28 +33,45 @@ def parse(text: object, kind: str) -> float:
     Raises
     ------
     ValueError
-        A bare number, an unknown unit, or no quantity at all; the message says which and gives an example.
+        A bare number, an unknown unit, or no quantity at all; the message says what was found; what was needed.
     """
-    if isinstance(text, (int, float)) and not isinstance(text, bool):
-        msg = f"a bare number, {text!r}; a {kind} needs its unit, for example {EXAMPLE[kind]}"
+    written = str(text).translate(MICRO)
+    if BARE.fullmatch(written):
+        msg = f"a bare number, {text}; {ARTICLE[kind]} with its unit, such as {EXAMPLE[kind]}"
         raise ValueError(msg)
-    match = QUANTITY.fullmatch(str(text))
+    match = QUANTITY.fullmatch(written)
     if not match:
-        msg = f"{text!r} is not a {kind}; write a number and its unit, for example {EXAMPLE[kind]}"
+        msg = f"{text!r} is not {ARTICLE[kind]}; a number (with a decimal point) and its unit, such as {EXAMPLE[kind]}"
         raise ValueError(msg)
     number, unit = match.groups()
     if unit not in UNITS[kind]:
-        msg = f"unknown unit {unit!r} of a {kind}; known are {', '.join(UNITS[kind])}"
+        msg = f"unknown unit {unit!r} of {ARTICLE[kind]}; one of: {', '.join(UNITS[kind])}"
         raise ValueError(msg)
-    return float(number) * UNITS[kind][unit]
+    if not math.isfinite(float(number)):
+        msg = f"{text} is beyond all bounds; {ARTICLE[kind]}, such as {EXAMPLE[kind]}"
+        raise ValueError(msg)
+    return float(Decimal(number) * Decimal(repr(UNITS[kind][unit])))  # decimal, so that 18 mm is 0.018 to the last digit
 
 
-def _written(kind: str) -> BeforeValidator:
-    return BeforeValidator(lambda text: parse(text, kind))
+def _written(kind: str, *, positive: bool = False, least: float = -math.inf, most: float = math.inf) -> BeforeValidator:
+    def read(text: object) -> float:
+        value = parse(text, kind)
+        if positive and value <= 0:
+            msg = f"{text} is not more than 0; {ARTICLE[kind]}, such as {EXAMPLE[kind]}"
+            raise ValueError(msg)
+        if not least <= value <= most:
+            msg = f"{text} is out of range; {100 * least:g} % to {100 * most:g} %"
+            raise ValueError(msg)
+        return value
+
+    return BeforeValidator(read)
 
 
 type Length = Annotated[float, _written("length")]
+type Size = Annotated[float, _written("length", positive=True)]
 type Angle = Annotated[float, _written("angle")]
+type Turn = Annotated[float, _written("angle", positive=True)]
 type Time = Annotated[float, _written("time")]
-type Share = Annotated[float, _written("share")]
+type Duration = Annotated[float, _written("time", positive=True)]
+type Share = Annotated[float, _written("share", least=0.0, most=1.0)]
 type Pixels = Annotated[float, _written("pixels")]

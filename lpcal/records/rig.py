@@ -7,19 +7,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
-from lpcal.records.quantities import Angle, Length, Pixels, Share, Time
+from lpcal.records.quantities import Angle, Duration, Length, Pixels, Share, Size, Turn, parse
 
 type Names = list[str]
+type Count = Annotated[int, Field(ge=2)]
+type Factor = Annotated[float, Field(gt=0)]
 
 
 class Section(BaseModel):
     """A section of a file that people write: frozen, and an unknown key is an error."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def _version(value: object) -> object:
+    return 1 if str(value) == "1" else value
+
+
+def _offset(value: object) -> object:
+    return value if value == "estimate" else parse(value, "time")
 
 
 def _as_list(value: object) -> object:
@@ -39,15 +49,22 @@ class CameraSection(Section):
 
     _images = field_validator("images", mode="before")(_as_list)
 
+    @model_validator(mode="after")
+    def _black_below_white(self) -> Self:
+        if self.black_level >= self.white_level:
+            msg = f"black_level, {100 * self.black_level:g} %, is not below white_level, {100 * self.white_level:g} %; black below white"
+            raise ValueError(msg)
+        return self
+
 
 class BoardSection(Section):
     """``board:`` the calibration target. ``corners`` are inner corners along x, along y."""
 
     kind: Literal["chessboard", "charuco"] = "chessboard"
-    corners: tuple[int, int]
-    square: tuple[Length, Length]
+    corners: tuple[Count, Count]
+    square: tuple[Size, Size]
     warp: Literal["auto", "none"] = "auto"
-    marker: Length | None = None
+    marker: Size | None = None
     dictionary: str | None = None
 
     @field_validator("square", mode="before")
@@ -74,7 +91,7 @@ class MocapSection(Section):
     direction: Literal["H_OP", "H_PO"] = "H_OP"
     quaternion: Literal["xyzw", "wxyz"] | None = None
     units: Literal["m", "mm", "cm"] | None = None
-    clock_offset: Literal["estimate"] | Time = "estimate"
+    clock_offset: Annotated[Literal["estimate"] | float, BeforeValidator(_offset)] = "estimate"
 
     _images = field_validator("images", mode="before")(_as_list)
 
@@ -83,22 +100,22 @@ class CameraMount(Section):
     """``panel.camera:`` C in D as designed; the prior of H_CD where no mocap gives it."""
 
     position: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    tolerance: tuple[Length, Angle] = (0.002, 0.017453292519943295)
+    tolerance: tuple[Size, Turn] = (0.002, 0.017453292519943295)
 
 
 class Tolerance(Section):
     """``panel.tolerance:`` 1 sigma, of the azimuth, of g, of d1 and of d2 each, of the relative intensity."""
 
-    azimuth: Angle = 0.008726646259971648
-    joint_angle: Angle = 0.017453292519943295
-    length: Length = 0.0005
+    azimuth: Turn = 0.008726646259971648
+    joint_angle: Turn = 0.017453292519943295
+    length: Size = 0.0005
     intensity: Share = 0.10
 
 
 class PanelSection(Section):
     """``panel:`` the mechanics that all wings share."""
 
-    disc_radius: Length
+    disc_radius: Size
     joint: Length
     blob: Length
     markers: dict[str, tuple[Length, Length, Length]] | None = None
@@ -125,7 +142,7 @@ class LightSection(Section):
         setting = {key: getattr(self, key) for key in ("azimuth", "joint_angle", "disc_spacer", "blob_spacer")}
         lacking = [key for key, value in setting.items() if value is None]
         if 0 < len(lacking) < len(setting):
-            msg = f"a wing needs all of {', '.join(setting)}; {', '.join(lacking)} is lacking"
+            msg = f"a wing without {', '.join(lacking)}; all of {', '.join(setting)}, or none"
             raise ValueError(msg)
         return self
 
@@ -134,7 +151,7 @@ class SphereSection(Section):
     """One of ``spheres:``. The hint is about where its outline is: x, y, radius in pixels."""
 
     kind: Literal["chrome", "matte"]
-    radius: Length | None = None
+    radius: Size | None = None
     images: str
     hint: tuple[Pixels, Pixels, Pixels] | None = None
 
@@ -142,7 +159,7 @@ class SphereSection(Section):
 class Rig(Section):
     """panel.yaml, whole."""
 
-    lpcal: Literal[1]
+    lpcal: Annotated[Literal[1], BeforeValidator(_version)]
     name: str = "rig"
     camera: CameraSection | None = None
     board: BoardSection | None = None
@@ -178,8 +195,8 @@ class RigFile:
 class CaptureSection(Section):
     """capture.yaml of a capture folder: exposures and gains, and the lights to use."""
 
-    exposure: Time | None = None
-    gain: float = Field(default=1.0, gt=0)
-    exposures: dict[str, Time] = {}
-    gains: dict[str, float] = {}
+    exposure: Duration | None = None
+    gain: Factor = 1.0
+    exposures: dict[str, Duration] = {}
+    gains: dict[str, Factor] = {}
     lights: Names | None = None
