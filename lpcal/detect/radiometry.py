@@ -26,8 +26,8 @@ NOISE_BINS = 24
 NOISE_BLOCK_PX = 12
 LOWER_QUARTER = 0.842
 """The lower quarter of the variances of such blocks of white noise, as a fraction of the true one."""
-DARK = 2.0
-"""A capture whose brightest light is under this many sigmas everywhere is dark."""
+DARK_SIGMAS, DARK_PIXELS = 10.0, 8
+"""A light that lifts fewer pixels than this by so many sigmas is off."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def fit_flat_field(stored: Image, sensor: Sensor) -> FlatField:
         )
     rows = np.arange(median.shape[0]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0
     columns = np.arange(median.shape[1]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0
-    terms = FlatField.terms(rows, columns, linear.shape, FLAT_DEGREE).reshape(-1, (FLAT_DEGREE + 1) ** 2)
+    terms = FlatField.terms(rows.astype(float), columns.astype(float), linear.shape, FLAT_DEGREE).reshape(-1, (FLAT_DEGREE + 1) ** 2)
     kept = FlatField.kept(FLAT_DEGREE)
     log_median, weight = np.log(np.maximum(median.ravel(), 1e-4)), np.ones(median.size)
     found = np.zeros(kept.sum())
@@ -179,10 +179,9 @@ def _line_through_lower(x: Array, y: Array) -> tuple[float, float]:
 
 
 def _refuse_dark(raw: RawCapture, signal: Image, sigma: Image) -> None:
-    """A light that lifts fewer than one pixel in a thousand over its noise is off; all of them: the capture is dark."""
+    """A light that lifts only a few pixels well over their noise is off; all of them: the capture is dark."""
     ratio = (signal / sigma).reshape(len(signal), -1)
-    lit = np.mean(ratio > 5 * DARK, axis=1)
-    dark = [light for light, share in zip(raw.lights, lit, strict=True) if share < 1e-3]
+    dark = [light for light, lit in zip(raw.lights, np.sum(ratio > DARK_SIGMAS, axis=1), strict=True) if lit < DARK_PIXELS]
     if len(dark) == len(raw.lights):
         raise DegenerateError(
             "all dark: no light lifts the image over its noise" + (" and the ambient light" if raw.ambient is not None else ""),

@@ -1,0 +1,86 @@
+"""wings.yaml: every light as designed, and the frame and tolerances it comes from.
+
+``lights`` in the panel's order: ``name, setting (azimuth_deg, joint_angle_deg, d1_m, d2_m), leds, H_DL, H_CL, position_std_m, axis_std_deg``;
+``covariance`` (6L, 6L) joint over the lights, rotation then translation each.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.records.calibration import Wing, Wings
+
+KIND = "wings"
+
+
+def write_wings(path: Path, wings: Wings, provenance: Provenance) -> None:
+    """Write wings.yaml."""
+    body: dict[str, Any] = {
+        "d_object_m": wings.d_object_m,
+        "H_CD": wings.H_CD,
+        "H_CD_covariance": wings.H_CD_covariance,
+        "H_CD_from": wings.source_of_H_CD,
+        "setting_std": {
+            "azimuth_deg": np.degrees(wings.setting_sigma[0]),
+            "joint_angle_deg": np.degrees(wings.setting_sigma[1]),
+            "d1_m": wings.setting_sigma[2],
+            "d2_m": wings.setting_sigma[3],
+        },
+        "lights": [_light(wings, k) for k in range(len(wings.wings))],
+        "covariance": wings.covariance,
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_wings(path: Path) -> Wings:
+    """Read wings.yaml."""
+    document = read_document(path, KIND)
+    lights, std = document["lights"], document["setting_std"]
+    return Wings(
+        wings=tuple(
+            Wing(
+                light["name"],
+                float(np.radians(light["setting"]["azimuth_deg"])),
+                float(np.radians(light["setting"]["joint_angle_deg"])),
+                light["setting"]["d1_m"],
+                light["setting"]["d2_m"],
+                light["leds"],
+            )
+            for light in lights
+        ),
+        H_CD=np.array(document["H_CD"]),
+        H_CD_covariance=np.array(document["H_CD_covariance"]),
+        setting_sigma=np.array([np.radians(std["azimuth_deg"]), np.radians(std["joint_angle_deg"]), std["d1_m"], std["d2_m"]]),
+        H_DL=np.array([light["H_DL"] for light in lights]),
+        H_CL=np.array([light["H_CL"] for light in lights]),
+        covariance=np.array(document["covariance"]),
+        source_of_H_CD=document["H_CD_from"],
+        d_object_m=float("inf") if document["d_object_m"] is None else document["d_object_m"],
+    )
+
+
+def _light(wings: Wings, k: int) -> dict[str, Any]:
+    wing = wings.wings[k]
+    block = wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
+    # the origin moves by rho - p x phi
+    p = wings.H_CL[k, :3, 3]
+    cross = np.array([[0, -p[2], p[1]], [p[2], 0, -p[0]], [-p[1], p[0], 0]])
+    to_origin = np.hstack([-cross, np.eye(3)])
+    return {
+        "name": wing.name,
+        "setting": {
+            "azimuth_deg": np.degrees(wing.azimuth_rad),
+            "joint_angle_deg": np.degrees(wing.joint_angle_rad),
+            "d1_m": wing.d1_m,
+            "d2_m": wing.d2_m,
+        },
+        "leds": wing.leds,
+        "H_DL": wings.H_DL[k],
+        "H_CL": wings.H_CL[k],
+        "position_std_m": float(np.sqrt(np.trace(to_origin @ block @ to_origin.T) / 3)),
+        "axis_std_deg": float(np.degrees(np.sqrt(np.trace(block[:3, :3]) / 3))),
+    }
