@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 
 
@@ -41,3 +43,5 @@ class Surface:
     components: tuple[Component, ...] = ()
     figures: dict[str, object] = field(default_factory=dict)
     """Residuals and counts for summary.json."""
+    breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
+    """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""

@@ -1,0 +1,69 @@
+"""``lpcal reconstruct``: normals, albedo, depth and mesh of captures."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lpcal.cli.rig_option import add_rig_option, open_workspace
+from lpcal.errors import InputError, UsageError
+from lpcal.records.outcome import Outcome, Progress
+
+if TYPE_CHECKING:
+    from lpcal.pipeline.workspace import Workspace
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument("captures", nargs="*", type=Path, metavar="CAPTURE", help="capture folders (default: all objects of the rig)")
+    parser.add_argument("-c", "--calibration", type=Path, help="calibration.yaml (default: calib/calibration.yaml of the rig)")
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to (default: surfaces/<object> of the rig)")
+    parser.add_argument("--mask", default="auto", metavar="auto|none|FILE", help="which pixels are the object (default: auto)")
+    parser.add_argument("--lights", choices=("near", "distant"), default="near", help="how lights act (default: near, where known)")
+    parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object where it is known, such as 352mm")
+    parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
+    add_rig_option(parser)
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:
+    """Do it."""
+    from lpcal.pipeline.reconstruct import Wishes, calibration_of, capture_tasks, reconstruct_all, rig_tasks
+
+    wishes = Wishes(
+        near=options.lights == "near",
+        distance_m=_length(options.distance),
+        mask=options.mask,
+        use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
+    )
+    if not options.captures:
+        workspace = open_workspace(options)
+        tasks = rig_tasks(workspace, options.output)
+        return reconstruct_all(tasks, calibration_of(workspace, options.calibration), wishes, progress)
+    rig = _rig_if_any(options)
+    tasks = capture_tasks(options.captures, rig, options.output)
+    return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress)
+
+
+def _rig_if_any(options: argparse.Namespace) -> Workspace | None:
+    """The rig, or None where a calibration is given and no rig is near."""
+    try:
+        return open_workspace(options)
+    except InputError:
+        if options.calibration is None or options.rig != Path():
+            raise
+        return None
+
+
+def _length(text: str | None) -> float | None:
+    from lpcal.records.quantities import parse
+
+    if text is None:
+        return None
+    try:
+        found = parse(text, "length")
+    except ValueError as error:
+        raise UsageError(str(error), where="--distance", needed="a length such as 352mm") from error
+    if found <= 0:
+        raise UsageError(f"{text} is not in front of the camera", where="--distance", needed="a length such as 352mm")
+    return found

@@ -1,0 +1,106 @@
+"""The folder of a reconstructed surface, as in the contract: surface.npz, images, meshes, summary.json; whole or not there.
+
+``normals_gl.png`` has x right, y up, z to the camera, each from -1..1 to 0..65535, black outside the mask. ``mesh.ply`` is in C;
+``mesh.glb`` has glTF's axes (y up, z to the viewer).
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import plain, whole
+from lpcal.geometry.arrays import Image
+from lpcal.records.surface import Component, Surface
+from lpcal.surface.mesh import Mesh
+
+MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
+GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
+SUMMARY = "summary.json"
+
+
+def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[str, Any], page: str | None = None) -> None:
+    """Write all files of a surface; `page` is the relighting page."""
+    with whole(folder) as draft:
+        draft.mkdir()
+        np.savez_compressed(
+            draft / "surface.npz", **{name: getattr(surface, name) for name in MAPS}, rays=surface.rays_C, breaks=surface.breaks
+        )
+        _write_images(draft, surface)
+        _write_meshes(draft, mesh)
+        (draft / SUMMARY).write_text(json.dumps(plain(summary), indent=1) + "\n", encoding="utf-8")
+        if page is not None:
+            (draft / "relight.html").write_text(page, encoding="utf-8")
+
+
+def read_surface(folder: Path) -> Surface:
+    """Read a surface back from its folder.
+
+    Raises
+    ------
+    InputError
+        surface.npz or summary.json is not there or lacks a part.
+    """
+    try:
+        with np.load(folder / "surface.npz") as stored:
+            maps = {name: stored[name] for name in (*MAPS, "rays", "breaks")}
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        components = tuple(Component(**entry) for entry in summary["components"])
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        raise InputError(
+            f"no whole surface ({error})", where=str(folder), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct"
+        ) from error
+    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, **maps)
+
+
+def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:
+    """Normals (H, W, 3) as 16 bit RGB: x right, y up, z to the camera."""
+    turned = np.nan_to_num(surface.normals) * GLTF_FROM_C
+    found = np.rint((turned + 1) / 2 * 65535).astype(np.uint16)
+    found[~surface.mask] = 0
+    return found
+
+
+def albedo_16(surface: Surface) -> npt.NDArray[np.uint16]:
+    """Albedo (H, W[, 3]) as 16 bit, linear; full scale is the 99.9th percentile."""
+    inside = surface.albedo[surface.mask]
+    top = float(np.nanpercentile(inside, 99.9)) if inside.size else 1.0
+    return np.asarray(np.rint(65535 * np.clip(np.nan_to_num(surface.albedo) / max(top, 1e-12), 0, 1)), np.uint16)
+
+
+def _write_images(draft: Path, surface: Surface) -> None:
+    import tifffile
+
+    _write_png(draft / "normals_gl.png", normals_gl(surface))
+    _write_png(draft / "albedo.png", albedo_16(surface))
+    _write_png(draft / "mask.png", np.asarray(255 * surface.mask, np.uint8))
+    depth: Image = surface.depth
+    tifffile.imwrite(draft / "depth.tif", depth, compression="zlib", predictor=True)
+
+
+def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
+    import cv2
+
+    stored = pixels[..., ::-1] if pixels.ndim == 3 else pixels
+    encoded, data = cv2.imencode(".png", stored)
+    if not encoded:
+        raise InputError("cannot be encoded as PNG", where=str(path))
+    path.write_bytes(data.tobytes())
+
+
+def _write_meshes(draft: Path, mesh: Mesh) -> None:
+    import trimesh
+
+    opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
+    for name, turn in (("mesh.ply", np.ones(3, np.float32)), ("mesh.glb", GLTF_FROM_C)):
+        solid = trimesh.Trimesh(
+            vertices=mesh.vertices_C * turn, faces=mesh.faces, vertex_normals=mesh.normals_C * turn, vertex_colors=opaque, process=False
+        )
+        options: dict[str, Any] = {"vertex_normal": True} if name.endswith("ply") else {"include_normals": True}
+        (draft / name).write_bytes(solid.export(file_type=name.rpartition(".")[2], **options))

@@ -1,0 +1,206 @@
+"""Captures to surfaces: which captures, which calibration, where to, and what summary.json says."""
+
+from __future__ import annotations
+
+import resource
+import time
+from dataclasses import asdict, dataclass, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from lpcal import __version__
+from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.errors import InputError, LpcalError
+from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.formats.capture import read_capture, read_mask
+from lpcal.formats.documents import sha256
+from lpcal.formats.surface_files import SUMMARY, write_surface
+from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.records.calibration import Calibration
+from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.surface import Surface
+from lpcal.surface import mesh
+from lpcal.surface.reconstruct import Options, reconstruct
+
+CALIBRATION = "calibration.yaml"
+
+
+@dataclass(frozen=True)
+class Task:
+    """One capture to reconstruct."""
+
+    capture: Path
+    target: Path
+    name: str
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What the user asks for, for every capture."""
+
+    near: bool = True
+    distance_m: float | None = None
+    mask: str = "auto"
+    """auto | none | a file."""
+    use: tuple[str, ...] | None = None
+
+
+def rig_tasks(workspace: Workspace, folder: Path | None = None) -> list[Task]:
+    """All objects of the rig, into surfaces/<key> of the rig or of `folder`."""
+    objects: dict[str, str] = workspace.need("objects")
+    return [
+        Task(workspace.path(entry, f"objects.{key}"), (folder or workspace.folder / "surfaces") / key, key)
+        for key, entry in objects.items()
+    ]
+
+
+def capture_tasks(captures: list[Path], workspace: Workspace | None, folder: Path | None) -> list[Task]:
+    """Given captures; one that is an object of the rig takes its key, another its folder's name."""
+    objects = workspace.rig_file.rig.objects if workspace else {}
+    keys = {(workspace.folder / entry).resolve(): key for key, entry in objects.items()} if workspace else {}
+    root = folder or (workspace.folder / "surfaces" if workspace else Path("surfaces"))
+    tasks = []
+    for capture in captures:
+        name = keys.get(capture.resolve(), capture.resolve().name)
+        tasks.append(Task(capture, root if folder and len(captures) == 1 else root / name, name))
+    return tasks
+
+
+def reconstruct_all(tasks: list[Task], calibration_path: Path, wishes: Wishes, progress: Progress) -> Outcome:
+    """Reconstruct each capture; a bad one is named at the end and does not stop the others.
+
+    Raises
+    ------
+    LpcalError
+        The calibration cannot be read, or the only capture is bad.
+    """
+    calibration = read_calibration(calibration_path)
+    summary, documents, errors = [], [], []
+    for done, task in enumerate(tasks):
+        if len(tasks) > 1:
+            progress("captures", done, len(tasks))
+        try:
+            document = reconstruct_one(task, calibration, calibration_path, wishes, progress)
+        except LpcalError as error:
+            if len(tasks) == 1:
+                raise
+            errors.append((task, error))
+            continue
+        documents.append(document)
+        summary.append(line_of(document, task.target))
+    if len(tasks) > 1:
+        progress("captures", len(tasks), len(tasks))
+    told = [f"{task.name} was not reconstructed: {error}" for task, error in errors]
+    told += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
+    return Outcome(summary, {"surfaces": documents}, told, exit_code=errors[0][1].exit_code if errors else 0)
+
+
+def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path, wishes: Wishes, progress: Progress) -> dict[str, Any]:
+    """Reconstruct one capture and write its folder; the document is that of summary.json."""
+    begun = time.perf_counter()
+    raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
+    camera = calibration.camera
+    sensor = Sensor(camera.black_level, camera.white_level, camera.gamma, camera.flat_field) if camera else Sensor()
+    radiance = to_radiance(raw, sensor)
+    given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in {"auto", "none"} else None
+    options = Options(near=wishes.near, distance_m=wishes.distance_m, mask=given, automatic_mask=wishes.mask == "auto")
+    if wishes.mask == "none":
+        radiance = replace(radiance, mask=None)
+    read = time.perf_counter()
+    surface = reconstruct(radiance, calibration, options, progress)
+    solved = time.perf_counter()
+    document = document_of(surface, task, calibration_path, wishes, radiance.notes, {"reading": read - begun, "solving": solved - read})
+    write_surface(task.target, surface, mesh.build(surface), document)
+    return document
+
+
+def document_of(
+    surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, notes: tuple[str, ...], times_s: dict[str, float]
+) -> dict[str, Any]:
+    """What summary.json holds."""
+    return {
+        "lpcal": 1,
+        "kind": "surface",
+        "name": surface.name,
+        "units": "metres" if surface.rays_C[..., :2].any() else "pixels",
+        "components": [asdict(component) for component in surface.components],
+        "counts_and_residuals": surface.figures,
+        "times_s": {key: round(value, 2) for key, value in times_s.items()},
+        "peak_memory_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024),
+        "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
+        "options": asdict(wishes),
+        "inputs": hashes(task, calibration_path),
+        "notes": list(notes),
+    }
+
+
+def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
+    """sha256 of the calibration and of every file of the capture, by name."""
+    files = [path for path in sorted(task.capture.iterdir()) if path.is_file()]
+    return {calibration_path.name: sha256(calibration_path)} | {path.name: sha256(path) for path in files}
+
+
+def line_of(document: dict[str, Any], target: Path) -> str:
+    """One line for people."""
+    figures, pieces = document["counts_and_residuals"], document["components"]
+    where = ", ".join(
+        f"{1e3 * piece['mean_depth_m']:.1f} mm +- {1e5 * piece['scale_std'] * piece['mean_depth_m'] / 100:.1f}" for piece in pieces[:3]
+    )
+    return (
+        f"{document['name']}: {figures['pixels']} px in {len(pieces)} piece{'s' * (len(pieces) != 1)}"
+        + (f" at {where}" if document["units"] == "metres" else "")
+        + f", {document['times_s']['solving']:.1f} s -> {target}"
+    )
+
+
+@dataclass(frozen=True)
+class SurfaceStage(Stage):
+    """The surfaces of all objects; up to date when each was made from the files and the calibration that there are now."""
+
+    def up_to_date(self, workspace: Workspace) -> bool:
+        """Whether every surface stands and was made from what there is now."""
+        return all(_stands(task, workspace.calib(CALIBRATION)) for task in rig_tasks(workspace))
+
+
+def _stands(task: Task, calibration_path: Path) -> bool:
+    import json
+
+    try:
+        document = json.loads((task.target / SUMMARY).read_text(encoding="utf-8"))
+        return bool(document["versions"]["lpcal"] == __version__ and document["inputs"] == hashes(task, calibration_path))
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def _run(workspace: Workspace, progress: Progress) -> Outcome:
+    return reconstruct_all(rig_tasks(workspace), workspace.calib(CALIBRATION), Wishes(), progress)
+
+
+def _inputs(workspace: Workspace) -> list[Path]:
+    return [workspace.calib(CALIBRATION), *(path for task in rig_tasks(workspace) for path in sorted(task.capture.iterdir()))]
+
+
+STAGE = SurfaceStage(
+    name="reconstruct",
+    kinds={},
+    wanted=lambda workspace: bool(workspace.rig_file.rig.objects),
+    inputs=_inputs,
+    settings=lambda workspace: {"objects": workspace.rig_file.rig.objects},
+    run=_run,
+)
+
+
+def calibration_of(workspace: Workspace | None, given: Path | None) -> Path:
+    """The calibration that a command means: the given one, else the rig's.
+
+    Raises
+    ------
+    InputError
+        Neither is there.
+    """
+    if given is not None:
+        return given
+    if workspace is None:
+        raise InputError("no calibration", needed="-c calibration.yaml, or a rig folder", todo="name one with -c, or go into a rig folder")
+    return workspace.calib(CALIBRATION)

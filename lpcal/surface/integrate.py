@@ -1,0 +1,102 @@
+r"""Depth from normals, in the mask, with its steps kept, tied to what each pixel knows of its own distance.
+
+Symbols: u = log z (central) or z (parallel rays); neighbours a, b with the mean m of their normals::
+
+    g_ab = log((m . r_a) / (m . r_b))                                   central: both rays meet one plane
+    g_ab = -m_x / m_z  (columns),  -m_y / m_z  (rows)                   parallel
+
+minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s_ab)^2  +  sum_p H_p (u_p - h_p)^2
+
+s_ab is what an error of the normal makes of a step, H_p and h_p the curvature and place of the pixel's own optimum (surface.distance).
+The weights ``w = (C^2 / (C^2 + e^2))^2`` with e the step's residual in sigmas belong to Geman and McClure's cost; the own distances begin
+GRADUATION times too strong, so that jumps show before the steps smear them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and
+Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J. Computer Vision 19 (weights, graduation).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface import multigrid
+from lpcal.surface.sight import Indices
+
+STEEPEST = 0.03
+"""Of n . v: steps are not believed to be steeper."""
+GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
+NORMAL_ERROR_RAD = 0.035
+ROBUST = 3.0
+SPREAD = 6.0
+"""C is no less than this many medians of the residuals."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Which pixels of a mask are neighbours; edges run to the right, then down."""
+
+    a: Indices
+    b: Indices
+    horizontal: Mask
+    prolongations: list[Any]
+
+    @staticmethod
+    def of(mask: Mask) -> Grid:
+        """The grid of a mask (H, W)."""
+        number = np.full(mask.shape, -1, np.int64)
+        number[mask] = np.arange(mask.sum())
+        across, down = mask[:, :-1] & mask[:, 1:], mask[:-1] & mask[1:]
+        a = np.concatenate([number[:, :-1][across], number[:-1][down]])
+        b = np.concatenate([number[:, 1:][across], number[1:][down]])
+        rows, columns = np.nonzero(mask)
+        return Grid(a, b, np.arange(len(a)) < across.sum(), multigrid.aggregates(rows.astype(np.int64), columns.astype(np.int64)))
+
+
+@dataclass(frozen=True)
+class Own:
+    """What each pixel says of its own u by itself: curvature H (P,) and optimum h (P,)."""
+
+    curvature: Array
+    optimum: Array
+
+
+def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
+    """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD."""
+    mean = normals[grid.a] + normals[grid.b]
+    mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+    if not central:
+        slope = np.minimum(mean[:, 2], -STEEPEST)
+        return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, NORMAL_ERROR_RAD / slope**2
+    r_a, r_b = rays_C[grid.a], rays_C[grid.b]
+    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -STEEPEST)
+    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -STEEPEST)
+    return np.log(towards_a / towards_b), NORMAL_ERROR_RAD * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b)
+
+
+def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
+    """u (P,) and the final weights w (edges,); a jump is an edge of little weight."""
+    a, b = grid.a, grid.b
+    u, weight = start, np.ones(len(a))
+    for strength in GRADUATION if graduated else GRADUATION[-2:]:
+        A, right = _system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
+        u = multigrid.solve(A, right, u, grid.prolongations)
+        residual = (u[b] - u[a] - step) / sigma
+        scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
+        weight = (scale**2 / (scale**2 + residual**2)) ** 2 + 1e-6
+    return u, weight
+
+
+def _system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:
+    from scipy import sparse
+
+    a, b, count = grid.a, grid.b, len(curvature)
+    diagonal = curvature + np.bincount(a, weight, count) + np.bincount(b, weight, count)
+    every = np.arange(count)
+    A = sparse.csr_array(
+        (np.concatenate([diagonal, -weight, -weight]), (np.concatenate([every, a, b]), np.concatenate([every, b, a]))), shape=(count, count)
+    )
+    pull = weight * step
+    right = curvature * optimum + np.bincount(b, pull, count) - np.bincount(a, pull, count)
+    return A, right

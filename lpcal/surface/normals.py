@@ -1,0 +1,126 @@
+r"""Normals and albedo of each pixel from few or many lights, robust to shadows and gloss.
+
+Symbols: signal I_k, light vector B_k (see geometry.lambert), variance of a sample ``s_k^2 = noise^2 + (MODEL I_k)^2``, residual
+``r_k = (I_k - B_k . b) / s_k``.
+
+A sample is a candidate when it is not saturated, stands over its noise, is no shadow by its shading ``I_k / E_k`` (under SHADOW of the
+second largest of the pixel), and its light is not known to be hidden. With few lights every three candidates propose b and the
+proposal of the least ``sum min(r^2, OUTLIER^2)`` wins; with many, the middle of the ranked shadings starts. Then weighted least squares
+on the inliers (abs(r) < OUTLIER), in rounds. Sources: Barsky and Petrou 2003 (four lights), Fischler and Bolles 1981 (consensus),
+Wu et al. 2010 and Hernandez et al. 2008 (shadows as outliers); the ranked start follows Verbiest and Van Gool 2008.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface.sight import Sight
+
+MODEL = 0.015
+SHADOW = 0.15
+DARK_SIGMAS = 3.0
+OUTLIER = 3.0
+ROUNDS = 3
+LEAST = 3
+FEW_LIGHTS = 8
+DARKEST, BRIGHTEST = 0.3, 0.1
+BLOCK = 16384
+FACING = -0.02
+"""n . v of a pixel that the camera can see (v the unit ray) is under this."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What the shading of each pixel says: P pixels, L lights."""
+
+    b: Array
+    """(P, 3) albedo times normal; NaN where there is no answer."""
+    inliers: Mask
+    """(L, P) samples that agree with it."""
+    covariance: Array
+    """(P, 3, 3) of b, from the samples' variances."""
+    chi2: Array
+    """(P,) of the inliers."""
+    cost: Array
+    """(P,) sum of min(r^2, OUTLIER^2) over the candidates."""
+
+    @property
+    def used(self) -> Array:
+        """Number of inliers (P,)."""
+        return np.asarray(self.inliers.sum(axis=0))
+
+
+def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
+    """Samples (L, P) that a light seems to reach unhindered."""
+    shading = np.where(sight.usable, sight.signal / E, np.inf)
+    bright = np.sort(np.where(np.isfinite(shading), shading, 0.0), axis=0)[-2]
+    found = sight.usable & (shading > SHADOW * bright) & (sight.signal > DARK_SIGMAS * sight.sigma)
+    return found if hidden is None else found & ~hidden
+
+
+def variances(sight: Sight, gloss: Array | None = None) -> Array:
+    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks; half of the gloss counts as doubt."""
+    variance = sight.sigma**2 + (MODEL * sight.signal) ** 2
+    return variance if gloss is None else variance + (0.5 * gloss) ** 2
+
+
+def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:
+    """b of each pixel from the samples `usable` (L, P), by light vectors B (L, P, 3); `gloss` (L, P) is taken off the signal."""
+    start: Callable[..., Array] = _best_three if len(B) <= FEW_LIGHTS else _middle_of_the_ranks
+    signal = sight.signal if gloss is None else sight.signal - gloss
+    blocks = [slice(first, first + BLOCK) for first in range(0, sight.pixels, BLOCK)]
+    parts = [_estimate(start, signal[:, at], B[:, at], usable[:, at], variance[:, at], sight.rays_C[at]) for at in blocks]
+    return Estimate(
+        np.concatenate([part.b for part in parts]),
+        np.concatenate([part.inliers for part in parts], axis=1),
+        np.concatenate([part.covariance for part in parts]),
+        np.concatenate([part.chi2 for part in parts]),
+        np.concatenate([part.cost for part in parts]),
+    )
+
+
+def _estimate(start: Callable[..., Array], signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
+    b = start(signal, B, usable, variance)
+    inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
+    for _ in range(ROUNDS):
+        b, covariance = lambert.weighted(B, signal, inliers / variance)
+        inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
+    square = _square_residual(signal, B, b, variance)
+    towards = np.einsum("pi,pi->p", b, rays_C) < FACING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
+    good = (inliers.sum(axis=0) >= LEAST) & towards
+    found = Estimate(b, inliers, covariance, np.sum(square * inliers, axis=0), np.sum(np.minimum(square, OUTLIER**2) * usable, axis=0))
+    return replace(found, b=np.where(good[:, None], b, np.nan))
+
+
+def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Array:
+    square = (signal - lambert.predicted(B, b)) ** 2 / variance
+    return np.where(np.isfinite(square), square, np.inf)
+
+
+def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
+    """b (P, 3) of the three lights whose proposal the other candidates contradict least."""
+    best, least = np.full(B.shape[1:], np.nan), np.full(B.shape[1], np.inf)
+    for three in combinations(range(len(B)), 3):
+        index = list(three)
+        at = np.flatnonzero(usable[index].all(axis=0))
+        b = lambert.three_lights(B[index][:, at], signal[index][:, at])
+        square = _square_residual(signal[:, at], B[:, at], b, variance[:, at])
+        cost = np.sum(np.minimum(square, OUTLIER**2) * usable[:, at], axis=0)
+        better = cost < least[at]
+        best[at[better]], least[at[better]] = b[better], cost[better]
+    return best
+
+
+def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
+    """b (P, 3) by least squares on the candidates without the darkest and the brightest of them."""
+    shading = np.where(usable, signal / np.linalg.norm(B, axis=2), np.inf)
+    rank = np.argsort(np.argsort(shading, axis=0), axis=0)
+    count = usable.sum(axis=0)
+    kept = usable & (rank >= np.floor(DARKEST * count)) & (rank < np.ceil((1 - BRIGHTEST) * count))
+    return lambert.weighted(B, signal, kept / variance)[0]

@@ -1,0 +1,190 @@
+"""A surface from the linear images of a capture and the calibrated lights.
+
+The rounds: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth. Without a camera, or with
+distant lights, the light does not tell the distance: parallel rays give a depth in pixels about zero, a camera one about the distance
+that is given or designed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Calibration, Light
+from lpcal.records.observations import Radiance
+from lpcal.records.outcome import Progress, silent
+from lpcal.records.surface import Component, Surface
+from lpcal.surface import distance, mask, normals, pieces, sight
+from lpcal.surface.integrate import Grid, Own, integrate, steps
+from lpcal.surface.normals import Estimate
+from lpcal.surface.sight import Sight
+
+ROUNDS = 5
+FEWEST_PIXELS = 50
+DISTANCE_M = 0.35
+"""Where nothing else says how far away the object is."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the user may ask for."""
+
+    near: bool = True
+    """Whether lights act from where they are, where that is known; else all as distant ones."""
+    distance_m: float | None = None
+    """Median depth of the largest piece, where the user knows it."""
+    mask: Mask | None = None
+    automatic_mask: bool = True
+    """Whether the object is to be found where no mask is given; else every pixel counts."""
+
+
+@dataclass(frozen=True)
+class State:
+    """Where the rounds are: P pixels."""
+
+    u: Array
+    """log depth, or depth in pixels without a camera."""
+    weight: Array
+    """Of the edges."""
+    normals: Array
+    found: Estimate
+    own: Own
+
+
+def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
+    """The surface of a capture.
+
+    Raises
+    ------
+    DegenerateError
+        Fewer than three lights, or all in a plane with the object; no object; too few lit pixels.
+    DisagreementError
+        The images are not of the calibrated camera's size.
+    """
+    sight.agree_on_size(radiance, calibration.camera)
+    lights = sight.lights_of(calibration, radiance)
+    maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    object_mask = _object(maps, radiance, options)
+    seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
+    near = options.near and seen.central and any(light.source_C is not None for light in lights)
+    begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else DISTANCE_M)
+    grid = Grid.of(object_mask)
+    focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
+    state = _rounds(seen, grid, lights, focus_C, float(begin), progress, radiance.name)
+    return _surface(radiance, lights, seen, grid, state, rays_C, focus_C)
+
+
+def _object(maps: sight.Grey, radiance: Radiance, options: Options) -> Mask:
+    given = options.mask if options.mask is not None else radiance.mask
+    if given is None:
+        given = mask.automatic(maps) if options.automatic_mask else np.ones(maps.signal.shape[1:], bool)
+    if given.sum() < FEWEST_PIXELS:
+        raise DegenerateError(
+            f"the mask holds {given.sum()} pixels",
+            where=radiance.name,
+            needed=f"{FEWEST_PIXELS} at least",
+            todo="give one with --mask FILE",
+        )
+    return given
+
+
+def _rounds(
+    seen: Sight, grid: Grid, lights: tuple[Light, ...], focus_C: Array | None, begin: float, progress: Progress, name: str
+) -> State:
+    u = np.full(seen.pixels, np.log(begin) if seen.central else 0.0)
+    rounds = ROUNDS if focus_C is None else 1
+    for k in range(rounds):
+        state = _round(seen, grid, lights, focus_C, u, name)
+        u = state.u
+        progress(f"{name}: normals and depth", k + 1, rounds)
+    return state
+
+
+def _round(seen: Sight, grid: Grid, lights: tuple[Light, ...], focus_C: Array | None, u: Array, name: str) -> State:
+    def B_at(depth: Array) -> Array:
+        d, E = sight.light_vectors(lights, seen.points_C(depth), focus_C)
+        return d * E[..., None]
+
+    depth = np.exp(u) if seen.central else np.ones_like(u)
+    B = B_at(depth)
+    variance = normals.variances(seen)
+    found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), variance)
+    known = np.isfinite(found.b[:, 0])
+    if known.sum() < FEWEST_PIXELS:
+        raise DegenerateError(
+            f"{known.sum()} pixels are lit by three lights",
+            where=name,
+            needed=f"{FEWEST_PIXELS} at least",
+            todo="check the mask, the exposure and the ambient image",
+        )
+    n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
+    step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
+    if focus_C is None:
+        own = distance.own_distance(B_at, depth, seen.signal, variance, found)
+    else:
+        own = Own(np.full(seen.pixels, distance.WEAK), u)
+    u, weight = integrate(grid, step, sigma, own, u, graduated=focus_C is None)
+    return State(u, weight, n, found, own)
+
+
+def _surface(
+    radiance: Radiance, lights: tuple[Light, ...], seen: Sight, grid: Grid, state: State, rays_C: Array, focus_C: Array | None
+) -> Surface:
+    depth = np.exp(state.u) if seen.central else state.u
+    label = pieces.pieces(grid, state.weight, seen.mask)
+    albedo = _albedo(radiance, lights, seen, state, depth if seen.central else np.ones_like(depth), focus_C)
+    sigma_deg = np.where(np.isfinite(state.found.b[:, 0]), 2.0, 20.0)
+    components = []
+    for one in np.unique(label):
+        inside = label == one
+        components.append(Component(int(one), int(inside.sum()), float(depth[inside].mean()), 0.01))
+
+    def as_map(values: Array) -> Image:
+        return np.asarray(seen.map(values.astype(np.float32)), np.float32)
+
+    return Surface(
+        name=radiance.name,
+        normals=as_map(state.normals),
+        depth=as_map(depth),
+        albedo=as_map(albedo),
+        mask=seen.mask,
+        normal_std_deg=as_map(sigma_deg),
+        depth_std=as_map(np.full_like(depth, 1e-3)),
+        lights_used=np.asarray(seen.map(state.found.used.astype(np.uint8), 0)),
+        component=np.asarray(seen.map(label, 0)),
+        rays_C=rays_C,
+        breaks=pieces.break_map(grid, state.weight, seen.mask),
+        components=tuple(components),
+        figures=_figures(state),
+    )
+
+
+def _albedo(radiance: Radiance, lights: tuple[Light, ...], seen: Sight, state: State, depth: Array, focus_C: Array | None) -> Array:
+    """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
+    d, E = sight.light_vectors(lights, seen.points_C(depth), focus_C)
+    shading = E * np.maximum(np.einsum("kpi,pi->kp", d, state.normals), 0.0)
+    used = np.where(state.found.used >= normals.LEAST, state.found.inliers, seen.usable)
+    below = np.sum(used * shading**2, axis=0)
+    channels = radiance.signal[:, seen.mask].reshape(len(lights), seen.pixels, -1)
+    found = []
+    for channel in range(channels.shape[2]):
+        intensity = np.array([light.intensity[channel if light.intensity.size > 1 and channels.shape[2] > 1 else 0] for light in lights])
+        signal = channels[..., channel] / intensity[:, None]
+        found.append(np.sum(used * shading * signal, axis=0) / np.maximum(below, 1e-12))
+    return found[0] if len(found) == 1 else np.stack(found, axis=1)
+
+
+def _figures(state: State) -> dict[str, object]:
+    found = state.found
+    known = np.isfinite(found.b[:, 0])
+    freedom = np.maximum(found.used - 3, 0)
+    return {
+        "pixels": len(found.b),
+        "pixels_with_three_lights": int(known.sum()),
+        "median_lights_used": float(np.median(found.used)),
+        "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
+    }

@@ -1,0 +1,158 @@
+"""What the solvers see of an object: its pixels as a list, their rays, and the signals of the lights at them.
+
+Symbols: P pixels, L lights, ray r (of length 1 in z), point ``x = z r``. A signal is divided by its light's intensity, so that every
+light counts as one of intensity 1; of an RGB capture the channels are joined into one signal, weighted by their noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Calibration, Camera, Light
+from lpcal.records.observations import Radiance
+
+type Indices = npt.NDArray[np.int64]
+
+LIGHTS_NEEDED = 3
+PLANE_OF_LIGHTS = 0.02
+"""Lights whose directions spread less than this share about their third axis lie in a plane."""
+
+
+@dataclass(frozen=True)
+class Grey:
+    """Maps of one signal a light, a unit of intensity: (L, H, W)."""
+
+    signal: Image
+    sigma: Image
+    usable: Mask
+    """Not saturated."""
+
+
+@dataclass(frozen=True)
+class Sight:
+    """The pixels of the object."""
+
+    mask: Mask
+    """(H, W); the pixels are its True places in reading order."""
+    rays_C: Array
+    """(P, 3)."""
+    signal: Array
+    """(L, P)."""
+    sigma: Array
+    usable: Mask
+    central: bool
+    """Whether there is a camera; else rays are parallel and depths are in pixels."""
+
+    @property
+    def pixels(self) -> int:
+        """P."""
+        return len(self.rays_C)
+
+    def map(self, values: npt.NDArray[np.generic], outside: float = np.nan) -> npt.NDArray[np.generic]:
+        """Values (P, ...) as a map (H, W, ...)."""
+        found = np.full((*self.mask.shape, *values.shape[1:]), outside, values.dtype)
+        found[self.mask] = values
+        return found
+
+    def points_C(self, depth: Array) -> Array:
+        """Points (P, 3) at depths (P,)."""
+        return depth[:, None] * self.rays_C
+
+
+def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:
+    """The calibrated lights of a capture, in its order.
+
+    Raises
+    ------
+    DegenerateError
+        Fewer than three, or all in a plane: they cannot tell a normal.
+    """
+    by_name = {light.name: light for light in calibration.lights}
+    lights = tuple(by_name[name] for name in radiance.lights)
+    if len(lights) < LIGHTS_NEEDED:
+        raise DegenerateError(
+            f"{len(lights)} light{'s' * (len(lights) != 1)}", where=radiance.name, needed="three lights at least", todo="take more images"
+        )
+    spread = np.linalg.svd(np.stack([light.direction_C for light in lights]), compute_uv=False)
+    if spread[2] < PLANE_OF_LIGHTS * spread[0]:
+        raise DegenerateError(
+            "all lights lie in one plane with the object",
+            where=f"{radiance.name}, lights {', '.join(radiance.lights)}",
+            needed="lights round the object",
+            todo="add a light out of the plane",
+        )
+    return lights
+
+
+def agree_on_size(radiance: Radiance, camera: Camera | None) -> None:
+    """Refuse a capture of another image size than the calibrated camera's.
+
+    Raises
+    ------
+    DisagreementError
+        The sizes differ.
+    """
+    height, width = radiance.signal.shape[1:3]
+    if camera is not None and (width, height) != tuple(camera.image_size):
+        raise DisagreementError(
+            f"images of {width}x{height}",
+            where=radiance.name,
+            needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
+            todo="take the capture with that camera and at its full size, or calibrate anew",
+        )
+
+
+def grey(radiance: Radiance, lights: Sequence[Light]) -> Grey:
+    """One signal a light, a unit of intensity."""
+    extra = (1,) * (radiance.signal.ndim - 1)
+    colour = radiance.signal.ndim == 4
+    intensity = np.stack([light.intensity if colour else light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)
+    intensity = np.broadcast_to(intensity, (len(lights), 3)) if colour else intensity
+    factor = 1 / (intensity[:, None, None, :] if colour else intensity.reshape(-1, *extra))
+    signal, sigma = radiance.signal * factor, radiance.sigma * factor
+    if colour:
+        weight = 1 / np.maximum(np.mean(sigma**2, axis=(0, 1, 2)), 1e-20)
+        weight = (weight / weight.sum()).astype(np.float32)
+        signal, sigma = signal @ weight, np.sqrt(sigma**2 @ weight**2)
+    return Grey(np.asarray(signal, np.float32), np.asarray(sigma, np.float32), ~radiance.saturated)
+
+
+def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
+    """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
+    rays = np.zeros((*shape[:2], 3))
+    rays[..., 2] = 1.0
+    if camera is not None:
+        row, column = np.indices(shape[:2])
+        unit_C = camera.unproject(np.stack([column, row], axis=-1).reshape(-1, 2).astype(float))
+        rays[...] = (unit_C / unit_C[:, 2:]).reshape(*shape[:2], 3)
+    return rays
+
+
+def look_at(maps: Grey, rays_C: Array, mask: Mask, *, central: bool) -> Sight:
+    """The pixels of a mask as lists."""
+    return Sight(
+        mask,
+        rays_C[mask],
+        maps.signal[:, mask].astype(float),
+        maps.sigma[:, mask].astype(float),
+        maps.usable[:, mask],
+        central,
+    )
+
+
+def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = None) -> tuple[Array, Array]:
+    """Unit directions d (L, P, 3) to the lights and irradiance E (L, P) a unit of intensity at points x_C (P, 3).
+
+    Where `focus_C` (3,) is given every light is taken as a distant one: everywhere as it is there.
+    """
+    d, E = np.empty((len(lights), *x_C.shape)), np.empty((len(lights), len(x_C)))
+    for k, light in enumerate(lights):
+        direction, irradiance = light.field(x_C if focus_C is None else focus_C)
+        d[k], E[k] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
+    return d, E
