@@ -6,12 +6,11 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -47,14 +46,48 @@ def whole(path: Path) -> Iterator[Path]:
     """A path to write to in place of `path`: it takes the final name once the block has ended without an error.
 
     Works for a file and for a folder; a folder of that name is replaced, never mixed.
+
+    Raises
+    ------
+    InputError
+        Nothing can be written there, or a folder stands where a file should, or a file where a folder should.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".lpcal-", dir=path.parent) as scratch:
-        draft = Path(scratch) / path.name
+    with _scratch_beside(path) as scratch:
+        draft = scratch / path.name
         yield draft
-        if draft.is_dir() and path.is_dir():
-            os.replace(path, Path(scratch) / "before")  # noqa: PTH105 - os.replace of a folder is what is meant
-        draft.replace(path)
+        if path.exists() and path.is_dir() != draft.is_dir():
+            found, needed = ("a folder", "a file") if path.is_dir() else ("a file", "a folder")
+            raise InputError(f"{found} is in the way", where=str(path), needed=f"a place for {needed}", todo="move it or write elsewhere")
+        if path.is_dir():
+            _replace_folder(draft, path, scratch / "before")
+        else:
+            draft.replace(path)
+
+
+@contextmanager
+def _scratch_beside(path: Path) -> Iterator[Path]:
+    """A folder on the same disk as `path`, gone afterwards."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        scratch = tempfile.TemporaryDirectory(prefix=".lpcal-", dir=path.parent)
+    except OSError as error:
+        where = str(path.parent)
+        raise InputError(
+            f"cannot write here: {error.strerror}", where=where, needed="a folder to write to", todo="write elsewhere"
+        ) from error
+    with scratch:
+        yield Path(scratch.name)
+
+
+def _replace_folder(draft: Path, path: Path, before: Path) -> None:
+    """Put a folder in the place of another, which comes back if that fails. A link to a folder stays a link."""
+    path = path.resolve()
+    shutil.move(path, before)
+    try:
+        shutil.move(draft, path)
+    except OSError:
+        shutil.move(before, path)
+        raise
 
 
 def write_text(path: Path, text: str) -> None:
@@ -82,6 +115,8 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
     try:
         document = yaml.load(path.read_text(encoding="utf-8"), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed=f"a {kind} file that lpcal wrote") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{path}:{mark.line + 1}" if mark else str(path)
@@ -93,8 +128,9 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
         raise InputError(
             f"version {document.get('lpcal')!r}", where=str(path), needed=f"lpcal: {VERSION}", todo="use the lpcal that wrote it"
         )
-    if "provenance" not in document:
-        raise InputError("ends before its provenance: the file is cut off", where=str(path), needed=f"a whole {kind} file", todo=todo)
+    provenance = document.get("provenance")
+    if not isinstance(provenance, dict) or any(provenance.get(entry.name) is None for entry in fields(Provenance)):
+        raise InputError("ends before its provenance does: the file is cut off", where=str(path), needed=f"a whole {kind} file", todo=todo)
     return document
 
 
@@ -112,12 +148,12 @@ def plain(value: Any) -> Any:
         return float(value) if np.isfinite(value) else None
     if isinstance(value, np.integer):
         return int(value)
-    return str(value) if isinstance(value, Path) else value
+    return str(value) if isinstance(value, (Path, str)) else value
 
 
 def remove(path: Path) -> None:
     """Remove a file or a folder if it is there."""
-    shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+    shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink(missing_ok=True)
 
 
 class _Dumper(yaml.SafeDumper):

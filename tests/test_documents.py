@@ -1,0 +1,221 @@
+"""Documents: whole or not there, of a kind and a version, every digit kept."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+from lpcal.errors import InputError
+from lpcal.formats.documents import Provenance, plain, read_document, remove, sha256, whole, write_document, write_text
+
+PROVENANCE = Provenance(inputs={"stations.csv": "0" * 64}, options={"model": "auto"}, time="2026-01-01T00:00:00+00:00")
+
+
+def contents(folder: Path) -> list[str]:
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*"))
+
+
+def fail_after(path: Path, write: Callable[[Path], object], stop: type[BaseException] = ValueError) -> None:
+    with whole(path) as draft:
+        write(draft)
+        raise stop("stop")
+
+
+def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
+    path = tmp_path / "calib" / "camera.yaml"
+    write_text(path, "old")
+    with whole(path) as draft:
+        draft.write_text("new")
+        assert path.read_text() == "old"
+    assert path.read_text() == "new"
+    assert contents(tmp_path) == ["calib", "calib/camera.yaml"]
+
+
+@pytest.mark.parametrize("stop", [ValueError, KeyboardInterrupt])
+def test_an_error_leaves_the_old_file_and_no_debris(tmp_path: Path, stop: type[BaseException]) -> None:
+    path = tmp_path / "camera.yaml"
+    write_text(path, "old")
+    with pytest.raises(stop):
+        fail_after(path, lambda draft: draft.write_text("half of the ne"), stop)
+    assert path.read_text() == "old"
+    assert contents(tmp_path) == ["camera.yaml"]
+
+
+def test_an_error_leaves_nothing_where_there_was_nothing(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="stop"):
+        fail_after(tmp_path / "surface", Path.mkdir)
+    assert contents(tmp_path) == []
+
+
+def test_a_folder_is_replaced_never_mixed(tmp_path: Path) -> None:
+    path = tmp_path / "surface"
+    for name in ("old.ply", "new.ply"):
+        with whole(path) as draft:
+            draft.mkdir()
+            (draft / name).write_text(name)
+    assert contents(tmp_path) == ["surface", "surface/new.ply"]
+
+
+def test_an_error_leaves_the_old_folder(tmp_path: Path) -> None:
+    path = tmp_path / "surface"
+    (path / "sub").mkdir(parents=True)
+    with pytest.raises(ValueError, match="stop"):
+        fail_after(path, Path.mkdir)
+    assert contents(tmp_path) == ["surface", "surface/sub"]
+
+
+def test_a_block_that_writes_nothing_keeps_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "camera.yaml"
+    path.write_text("old")
+    with pytest.raises(FileNotFoundError), whole(path):
+        pass
+    assert contents(tmp_path) == ["camera.yaml"]
+    assert path.read_text() == "old"
+
+
+def test_a_linked_folder_is_replaced_behind_its_link(tmp_path: Path) -> None:
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "disk" / "old").touch()
+    (tmp_path / "surface").symlink_to(tmp_path / "disk")
+    with whole(tmp_path / "surface") as draft:
+        draft.mkdir()
+        (draft / "new").touch()
+    assert (tmp_path / "surface").is_symlink()
+    assert contents(tmp_path) == ["disk", "disk/new", "surface"]
+
+
+def test_something_else_in_the_way_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "surface").write_text("mine")
+    (tmp_path / "mesh.ply").mkdir()
+    with pytest.raises(InputError, match="a file is in the way"), whole(tmp_path / "surface") as draft:
+        draft.mkdir()
+    with pytest.raises(InputError, match="a folder is in the way"):
+        write_text(tmp_path / "mesh.ply", "ply")
+    with pytest.raises(InputError, match=r"surface: cannot write here"):
+        write_text(tmp_path / "surface" / "mesh.ply", "ply")
+    assert contents(tmp_path) == ["mesh.ply", "surface"]
+    assert (tmp_path / "surface").read_text() == "mine"
+
+
+def test_the_new_file_has_the_permissions_of_any_other(tmp_path: Path) -> None:
+    (tmp_path / "any").touch()
+    write_text(tmp_path / "written", "x")
+    with whole(tmp_path / "folder") as draft:
+        draft.mkdir()
+    (tmp_path / "any_folder").mkdir()
+    for mine, other in (("written", "any"), ("folder", "any_folder")):
+        assert os.stat(tmp_path / mine).st_mode == os.stat(tmp_path / other).st_mode  # noqa: PTH116
+
+
+def test_numpy_values_and_nan(tmp_path: Path) -> None:
+    path = tmp_path / "camera.yaml"
+    body = {
+        "K": np.array([[600.5, 0.0, np.nan], [0.0, np.inf, 240.0]]),
+        "count": np.int64(3),
+        "used": np.bool_(True),
+        "single": np.float32(0.1),
+        "none": None,
+        "scalar": np.array(2.5),
+        "mask": np.array([True, False]),
+        "file": Path("a/b.png"),
+        "size": (752, 480),
+        "text": np.str_("L0"),
+        "names": np.array(["L0", "L1"]),
+        "mean": {"nan": math.nan, 7: -0.0},
+        "words": "ambiguous: yes, on, 1e3, 12:30, ° µ\n",
+        "yes": "no",
+    }
+    write_document(path, "camera", body, PROVENANCE)
+    found = read_document(path, "camera")
+    assert list(found)[:3] == ["lpcal", "kind", "K"]
+    assert found["K"] == [[600.5, 0.0, None], [0.0, None, 240.0]]
+    assert (found["count"], found["used"], found["none"], found["scalar"], found["mask"]) == (3, True, None, 2.5, [True, False])
+    assert np.float32(found["single"]) == np.float32(0.1)
+    assert (found["file"], found["size"], found["text"], found["names"]) == ("a/b.png", [752, 480], "L0", ["L0", "L1"])
+    assert (found["mean"], found["words"], found["yes"]) == ({"nan": None, "7": 0.0}, body["words"], "no")
+    assert found["provenance"]["inputs"] == PROVENANCE.inputs
+    assert json.loads(json.dumps(plain(body)))["K"] == found["K"]
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1))
+def test_no_digit_is_lost(values: list[float]) -> None:
+    from lpcal.formats.documents import _Dumper
+
+    text = yaml.dump(plain(np.array(values)), Dumper=_Dumper)
+    for loader in {yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)}:
+        found = yaml.load(text, Loader=loader)
+        assert all(isinstance(value, float) for value in found)
+        assert np.array(found).tobytes() == np.array(values).tobytes()
+
+
+def test_the_same_matrix_twice_is_written_twice(tmp_path: Path) -> None:
+    H = np.eye(4).tolist()
+    write_document(tmp_path / "a.yaml", "handeye", {"H_PC": H, "H_OB": H}, PROVENANCE)
+    text = (tmp_path / "a.yaml").read_text()
+    assert "&" not in text
+    assert text.count("- [1.0, 0.0, 0.0, 0.0]\n") == 2
+
+
+def test_a_file_cut_anywhere_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "handeye.yaml"
+    write_document(path, "handeye", {"H_PC": np.eye(4), "views": [{"image": "a b.png", "why": None}], "note": "it's"}, PROVENANCE)
+    text = path.read_text()
+    assert read_document(path, "handeye")["note"] == "it's"
+    for cut in range(len(text.rstrip())):
+        path.write_text(text[:cut])
+        with pytest.raises(InputError) as caught:
+            read_document(path, "handeye")
+        assert str(path) in str(caught.value)
+        assert caught.value.exit_code == 3
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (
+            b"lpcal: 1\nkind: camera\nprovenance: {}\n",
+            "of kind 'camera'\n  needed: kind: calibration\n  do: write it anew",
+        ),
+        (b"lpcal: 2\nkind: calibration\nprovenance: {}\n", "version 2\n  needed: lpcal: 1\n  do: use the lpcal that wrote it"),
+        (b"kind: calibration\n", "version None"),
+        (b"- 1\n", "says no kind"),
+        (b"", "says no kind"),
+        (b"\xff\xfe\x00", "cannot be read as YAML"),
+        (b"lpcal: 1\nkind: [calibration\n", ":3: cannot be read as YAML; is the file cut off?"),
+        (b"lpcal: 1\nkind: calibration\n", "the file is cut off"),
+    ],
+)
+def test_a_file_that_is_not_what_was_asked_for(tmp_path: Path, content: bytes, told: str) -> None:
+    path = tmp_path / "calibration.yaml"
+    path.write_bytes(content)
+    with pytest.raises(InputError) as caught:
+        read_document(path, "calibration")
+    assert told in str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"camera\.yaml: no such file\n  needed: a camera file that lpcal wrote"):
+        read_document(tmp_path / "camera.yaml", "camera")
+
+
+def test_remove_takes_the_link_and_not_what_it_leads_to(tmp_path: Path) -> None:
+    (tmp_path / "kept").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "kept")
+    for name in ("link", "nothing"):
+        remove(tmp_path / name)
+    assert contents(tmp_path) == ["kept"]
+    remove(tmp_path / "kept")
+    assert contents(tmp_path) == []
+
+
+def test_sha256_is_the_files(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"abc")
+    assert sha256(tmp_path / "a") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
