@@ -81,7 +81,7 @@ def _write_images(draft: Path, surface: Surface) -> None:
     _write_png(draft / "albedo.png", albedo_16(surface))
     _write_png(draft / "mask.png", np.asarray(255 * surface.mask, np.uint8))
     depth: Image = surface.depth
-    tifffile.imwrite(draft / "depth.tif", depth, compression="zlib", predictor=True)
+    tifffile.imwrite(draft / "depth.tif", depth, compression="zlib")
 
 
 def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
