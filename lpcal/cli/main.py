@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import importlib
+import os
+import shlex
 import sys
 import traceback
 from typing import Protocol, cast
 
 from lpcal import __version__
 from lpcal.cli.console import complain, progress_bars, show
-from lpcal.errors import LpcalError
+from lpcal.errors import InputError, LpcalError
 from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
@@ -30,8 +33,11 @@ COMMANDS = {
     "simulate": "a synthetic rig folder with its truth",
     "run": "every stage that is out of date, in order",
 }
+LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
+REFUSED = {getattr(errno, name, None) for name in ("EACCES", "EPERM", "EROFS", "ENOSPC", "EDQUOT")}
 INTERRUPTED = 130
 BUG = 1
+USAGE = 2
 
 
 class Command(Protocol):
@@ -47,21 +53,28 @@ class Command(Protocol):
 def main(words: list[str] | None = None) -> int:
     """Run one command; the exit code is the contract's."""
     words = sys.argv[1:] if words is None else words
-    options = None
+    outcome = None
     try:
         options, command = _parse(words)
         with progress_bars() as progress:
             outcome = command.run(options, progress)
         show(outcome, as_json=options.json)
+        sys.stdout.flush()
     except LpcalError as error:
         complain(f"lpcal: {error}")
         return error.exit_code
+    except BrokenPipeError:  # whoever read the summary has left, as `| head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return outcome.exit_code if outcome else BUG
     except KeyboardInterrupt:
         complain("lpcal: interrupted; nothing half-written was kept")
         return INTERRUPTED
-    except Exception:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+    except Exception as error:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+        if isinstance(error, OSError) and error.errno in REFUSED:
+            complain(f"lpcal: {InputError(str(error.strerror), where=str(error.filename or ''), todo='free it, or name another place')}")
+            return InputError.exit_code
         traceback.print_exc()
-        complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {' '.join(words)}")
+        complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {shlex.join(words)}")
         return BUG
     return outcome.exit_code
 
@@ -73,7 +86,7 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
         epilog="Exit codes: 0 done; 1 a bug; 2 usage; 3 an input is missing or unreadable; 4 too few or degenerate data; "
         "5 no convergence, or the quality gate failed; 6 inputs disagree; 130 interrupted.",
     )
-    parser.add_argument("--version", action="version", version=f"lpcal {__version__}")
+    parser.add_argument("--version", action=_Versions, nargs=0, help="the versions of lpcal and of the libraries that it calls, then leave")
     subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     chosen = next((word for word in words if not word.startswith("-")), None)
     module: Command | None = None
@@ -83,10 +96,29 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
             module = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
             module.add_arguments(subparser)
             subparser.add_argument("--json", action="store_true", help="print one JSON document instead of the summary")
+    if not words:
+        parser.print_help(sys.stderr)
+        parser.exit(USAGE)
     options = parser.parse_args(words)
     if module is None:  # argparse has already ended the run for an unknown or missing command
         parser.error("no command")
     return options, module
+
+
+class _Versions(argparse.Action):
+    """Prints versions from the packages' metadata: none of them is imported."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print and leave."""
+        from importlib.metadata import PackageNotFoundError, version
+
+        print(f"lpcal {__version__}")  # noqa: T201
+        for name in LIBRARIES:
+            try:
+                print(f"{name} {version(name)}")  # noqa: T201
+            except PackageNotFoundError:
+                print(f"{name} is not installed")  # noqa: T201
+        parser.exit()
 
 
 if __name__ == "__main__":
