@@ -1,0 +1,100 @@
+"""calib/report.html: what was found, how sure it is, and what it rests on, in one file that opens offline.
+
+Nothing is loaded from anywhere: style, script, charts and pictures stand in the file.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from typing import Any
+
+from lpcal import __version__
+from lpcal.report.chain_sections import camera_section, handeye_section
+from lpcal.report.light_sections import lights_section, spheres_section
+from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
+from lpcal.report.scene import rig_scene, room_scene
+from lpcal.report.templates import environment
+from lpcal.report.verdict import headline, verdicts
+from lpcal.report.wording import number
+
+__all__ = ["RigReport", "SurfaceReport", "render"]
+
+
+def render(report: RigReport) -> str:
+    """The page, whole; a stage that is not there is said to be so."""
+    lines = verdicts(report)
+    tone, sentence = headline(lines)
+    return (
+        environment()
+        .get_template("report.html")
+        .render(
+            name=report.name,
+            version=__version__,
+            made=_latest(report),
+            tone=tone,
+            sentence=sentence,
+            verdicts=lines,
+            camera=camera_section(report),
+            handeye=handeye_section(report),
+            lights=lights_section(report),
+            spheres=spheres_section(report),
+            rig=_script(rig_scene(report)),
+            room=_script(room_scene(report)),
+            surfaces=[_surface(surface) for surface in report.surfaces],
+            provenance=[_provenance(kind, report) for kind in KINDS if report.get(kind)],
+            missing=[kind for kind in KINDS if not report.get(kind)],
+        )
+    )
+
+
+def data_uri(content: bytes, media: str = "image/png") -> str:
+    """Content as a data: URI."""
+    return f"data:{media};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def script_json(value: Any) -> str:
+    """JSON that may stand inside a script element."""
+    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def _script(scene: Any) -> str | None:
+    return None if scene is None else script_json(scene)
+
+
+def _latest(report: RigReport) -> str:
+    times = [str((document.get("provenance") or {}).get("time") or "") for document in report.documents.values() if document]
+    return max(times, default="").replace("T", " ").replace("+00:00", " UTC")
+
+
+def _surface(surface: SurfaceReport) -> dict[str, Any]:
+    figures = [(key.replace("_", " "), _figure(value)) for key, value in surface.summary.items() if _is_figure(value)]
+    nested = surface.summary.get("figures") or {}
+    figures += [(key.replace("_", " "), _figure(value)) for key, value in nested.items() if _is_figure(value)]
+    return {
+        "name": surface.name,
+        "relight": surface.relight,
+        "pictures": [(what, data_uri(content)) for what, content in surface.pictures.items()],
+        "pieces": surface.summary.get("components") or [],
+        "figures": figures[:14],
+    }
+
+
+def _is_figure(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _figure(value: float) -> str:
+    return str(value) if isinstance(value, int) else number(value, 4)
+
+
+def _provenance(kind: str, report: RigReport) -> dict[str, Any]:
+    stated = report.get(kind).get("provenance") or {}
+    inputs = stated.get("inputs") or {}
+    return {
+        "file": f"{kind}.yaml",
+        "version": stated.get("lpcal_version", "–"),
+        "time": str(stated.get("time", "–")).replace("T", " ").replace("+00:00", " UTC"),
+        "inputs": [(path, str(digest)) for path, digest in inputs.items()],
+        "options": script_json(stated.get("options") or {}),
+    }

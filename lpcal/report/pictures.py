@@ -1,0 +1,60 @@
+"""Small pictures for the pages: cropping, shrinking, and PNG.
+
+A PNG is a signature and chunks (length, name, content, CRC-32); its rows are filtered (here: by the row above) and deflated.
+Source: W3C, Portable Network Graphics specification.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry.arrays import Image, Mask
+
+type Bytes = npt.NDArray[np.uint8]
+
+
+def png(pixels: Bytes) -> bytes:
+    """Pixels (H, W, 3) or (H, W, 4) as a PNG file's content."""
+    height, width, channels = pixels.shape
+    above = np.vstack([np.zeros_like(pixels[:1]), pixels[:-1]])
+    rows = np.column_stack([np.full(height, 2, np.uint8), (pixels - above).reshape(height, width * channels)])
+    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content)) for name, content in chunks
+    )
+
+
+def bounds(mask: Mask, margin: int = 2) -> tuple[slice, slice]:
+    """Rows and columns of a mask (H, W) with a margin; the whole image where nothing is set."""
+    if not mask.any():
+        return slice(0, mask.shape[0]), slice(0, mask.shape[1])
+    spans = (np.flatnonzero(mask.any(axis=1 - axis)) for axis in (0, 1))
+    low_high = [
+        (max(int(span[0]) - margin, 0), min(int(span[-1]) + 1 + margin, size)) for span, size in zip(spans, mask.shape, strict=True)
+    ]
+    return slice(*low_high[0]), slice(*low_high[1])
+
+
+def shrink(value: Image, mask: Mask, largest: int) -> Bytes:
+    """Values (H, W, 3) in 0..1, cropped to the mask and averaged down to `largest` pixels, with the mask as alpha: (h, w, 4)."""
+    window = bounds(mask)
+    value, weight = value[window], mask[window].astype(np.float32)
+    step = max(1, -(-max(value.shape[:2]) // largest))
+    total = block_sum(weight, step)
+    mean = block_sum(np.where(weight[..., None] > 0, np.nan_to_num(value), 0), step) / np.maximum(total, 1)[..., None]
+    return np.asarray(np.round(255 * np.dstack([np.clip(mean, 0, 1), total / step**2])), dtype=np.uint8)
+
+
+def block_sum(value: npt.NDArray[np.float32], step: int) -> npt.NDArray[np.float32]:
+    """Sums (ceil(H / step), ceil(W / step), ...) over blocks of step by step pixels."""
+    if step == 1:
+        return value
+    h, w = value.shape[:2]
+    padded = np.pad(value, [(0, -h % step), (0, -w % step), *[(0, 0)] * (value.ndim - 2)])
+    blocks = padded.reshape(padded.shape[0] // step, step, padded.shape[1] // step, step, *value.shape[2:])
+    return np.asarray(blocks.sum(axis=(1, 3)), dtype=np.float32)

@@ -1,0 +1,176 @@
+"""What each stage found, in a line, and whether it is fit for use: good, fair, poor, or not judged.
+
+The gates are those of lpcal's own aims: one standard deviation at or under the first figure is good, at or under the second fair.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.report.rig_report import RigReport, SurfaceReport, array, items, origin_sigmas, sigmas
+from lpcal.report.wording import Document, fixed, number, plural, with_sigma
+
+GATES = {
+    "camera_rms_px": (0.3, 0.7),
+    "camera_focal_percent": (0.2, 1.0),
+    "handeye_deg": (0.08, 0.25),
+    "handeye_mm": (0.8, 2.5),
+    "clock_ms": (0.5, 2.0),
+    "light_deg": (0.2, 0.6),
+    "light_percent": (2.0, 5.0),
+    "surface_percent": (1.0, 3.0),
+}
+LEVELS = ("good", "fair", "poor")
+WORDS = {"good": "good", "fair": "fair", "poor": "poor", "none": "not judged", "absent": "not there"}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One stage's line: tone is good | fair | poor | none | absent."""
+
+    stage: str
+    title: str
+    tone: str
+    found: str
+    gate: str = ""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def word(self) -> str:
+        """The tone in words."""
+        return WORDS[self.tone]
+
+
+def verdicts(report: RigReport) -> list[Verdict]:
+    """A line a stage, in the chain's order."""
+    lines = [
+        _camera(report.get("camera")),
+        _handeye(report.get("handeye")),
+        _wings(report.get("wings")),
+        _lights(report.get("lights") or report.get("calibration"), refined=bool(report.get("lights"))),
+    ]
+    return [*lines, *(_surface(surface) for surface in report.surfaces)]
+
+
+def headline(lines: list[Verdict]) -> tuple[str, str]:
+    """The worst tone of all, and a sentence for it."""
+    tones = [line.tone for line in lines]
+    judged = [tone for tone in tones if tone in LEVELS]
+    if not judged:
+        return "none", "Nothing here has been judged yet."
+    worst = max(judged, key=LEVELS.index)
+    weak = [line.title.lower() if line.stage != "surface" else line.title for line in lines if line.tone == worst]
+    return worst, {
+        "good": "Fit for use: every stage that has run passes its gate.",
+        "fair": f"Usable with care: look at {_few(weak)}.",
+        "poor": f"Not to be relied on: {_few(weak)} failed the gate.",
+    }[worst]
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def _level(*measured: tuple[float, str]) -> str:
+    """The worst level of some figures against their gates; NaN is not judged."""
+    found = [np.searchsorted(GATES[gate], value, side="left") for value, gate in measured if np.isfinite(value)]
+    return LEVELS[int(max(found))] if found else "none"
+
+
+def _lower(tone: str, notes: tuple[str, ...]) -> str:
+    return "fair" if notes and tone == "good" else tone
+
+
+def _warnings(document: Document) -> tuple[str, ...]:
+    return tuple(str(line) for line in document.get("warnings") or ())
+
+
+def _camera(document: Document) -> Verdict:
+    if not document:
+        return Verdict("camera", "Camera", "absent", "No intrinsics: lpcal intrinsics, or camera.cameramodel in panel.yaml.")
+    K = document.get("K")
+    names = list(document.get("parameters") or [])
+    sigma = dict(zip(names, sigmas(document.get("covariance"), len(names)), strict=True)).get("fx", float("nan"))
+    focal = float(K[0][0]) if K else float("nan")
+    rms = float(document.get("rms_px") or "nan")
+    views = items(document, "views")
+    used = sum(bool(view.get("used")) for view in views)
+    found = f"{document.get('model', 'a camera')}, fx {with_sigma(focal, sigma, 'px')}"
+    found += f", rms {number(rms, 2, 'px')} a coordinate" if np.isfinite(rms) else ", as given"
+    found += f", {used} of {plural(len(views), 'view')}" if views else ""
+    tone = _level((rms, "camera_rms_px"), (100 * sigma / focal, "camera_focal_percent"))
+    notes = _warnings(document)
+    return Verdict("camera", "Camera", _lower(tone, notes), found, "rms ≤ 0.3 px and focal length ≤ 0.2 %", notes)
+
+
+def _handeye(document: Document) -> Verdict:
+    if not document:
+        return Verdict("handeye", "Hand-eye", "absent", "No hand-eye: lpcal handeye. A rig without motion capture needs none.")
+    sigma = origin_sigmas(array(document["H_PC"]), document.get("H_PC_covariance"))
+    turn, shift = np.degrees(sigma[:3].max()), 1000 * sigma[3:].max()
+    offset, offset_std = document.get("clock_offset_s"), document.get("clock_offset_std_s")
+    offset_ms, clock = (None, float("nan")) if offset is None else (1000 * offset, 1000 * (offset_std or float("nan")))
+    views = items(document, "views")
+    used = sum(bool(view.get("used")) for view in views)
+    found = f"H_PC within {fixed(turn, 3, '°')} and {fixed(shift, 2, 'mm')} an axis"
+    found += f", clock offset {with_sigma(offset_ms, clock, 'ms')}" if offset_ms is not None else ", no clock offset"
+    found += f", {used} of {plural(len(views), 'view')}" if views else ""
+    tone = _level((turn, "handeye_deg"), (shift, "handeye_mm"), (clock, "clock_ms"))
+    notes = _warnings(document)
+    return Verdict("handeye", "Hand-eye", _lower(tone, notes), found, "H_PC ≤ 0.08° and ≤ 0.8 mm, clock ≤ 0.5 ms", notes)
+
+
+def _wings(document: Document) -> Verdict:
+    if not document:
+        return Verdict("wings", "Wings", "absent", "No wings: a rig whose lights are not described has no prior.")
+    lights = items(document, "lights")
+    found = f"{plural(len(lights), 'light')} as designed"
+    found += f", axes meet at {fixed(1000 * document['d_object_m'], 1, 'mm')}" if document.get("d_object_m") else ""
+    position, axis = 1000 * _worst(lights, "position_std_m"), _worst(lights, "axis_std_deg")
+    found += f", known to {fixed(position, 1, 'mm')} and {fixed(axis, 1, '°')} an axis" if np.isfinite(position) else ""
+    return Verdict("wings", "Wings", "absent", "No wings: a rig whose lights are not described has no prior.")
+    lights = items(document, "lights")
+    found = f"{plural(len(lights), 'light')} as designed"
+    found += f", axes meet at {fixed(1000 * document['d_object_m'], 1, 'mm')}" if document.get("d_object_m") else ""
+    covariance = document.get("covariance")
+    if covariance is not None and lights:
+        sigma = sigmas(covariance, 6 * len(lights)).reshape(-1, 6)
+        found += f", expected within {fixed(1000 * np.nanmax(sigma[:, 3:]), 1, 'mm')} an axis"
+    return Verdict("wings", "Wings", "none", found, "the prior: refined by the spheres", _warnings(document))
+
+
+def _lights(document: Document, *, refined: bool) -> Verdict:
+    if not document:
+        return Verdict("lights", "Lights", "absent", "No lights: lpcal refine, or lpcal export.")
+    lights = items(document, "lights")
+    direction = _worst(lights, "direction_std_deg")
+    position = 1000 * _worst(lights, "position_std_m")
+    intensity = 100 * _worst(lights, "intensity_std")
+    spheres = items(document, "spheres")
+    used = sum(bool(sphere.get("used")) for sphere in spheres)
+    found = f"{plural(len(lights), 'light')}, worst direction {fixed(direction, 2, '°')} an axis, position {fixed(position, 1, 'mm')}"
+    found += f", intensity {fixed(intensity, 1, '%')}" if np.isfinite(intensity) else ""
+    found += f", {used} of {plural(len(spheres), 'sphere')}" if spheres else ""
+    tone = _level((direction, "light_deg"), (intensity, "light_percent"))
+    notes = _warnings(document) if refined else ("The lights stand as designed or imported; no spheres refined them.", *_warnings(document))
+    return Verdict("lights", "Lights", _lower(tone, notes), found, "direction ≤ 0.2° and intensity ≤ 2 %", notes)
+
+
+def _worst(lights: list[dict[str, object]], key: str) -> float:
+    values = [float(value) for light in lights if isinstance(value := light.get(key), (int, float))]
+    return max(values, default=float("nan"))
+
+
+def _surface(surface: SurfaceReport) -> Verdict:
+    pieces = items(surface.summary, "components")
+    spread = [100 * float(piece["scale_std"]) for piece in pieces if isinstance(piece.get("scale_std"), (int, float))]
+    pixels = sum(int(piece.get("pixels") or 0) for piece in pieces)
+    depth = [piece.get("mean_depth_m") for piece in pieces]
+    found = f"{pixels:,} pixels in {plural(len(pieces), 'piece')}".replace(",", "\N{NARROW NO-BREAK SPACE}") if pieces else "a surface"
+    if spread and depth[0] is not None:
+        found += f", {with_sigma(1000 * float(depth[0]), 10 * spread[0] * float(depth[0]), 'mm')} away"
+    tone = _level((max(spread, default=float("nan")), "surface_percent"))
+    notes = _warnings(surface.summary)
+    return Verdict("surface", surface.name, _lower(tone, notes), found, "distance ≤ 1 %", notes)

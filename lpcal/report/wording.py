@@ -1,0 +1,66 @@
+"""Numbers in words: a value with its standard deviation, to as many digits as that deserves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+type Document = Mapping[str, Any]
+"""A document that a stage wrote, as read."""
+
+NOTHING = "–"
+MINUS = "−"
+
+
+def number(value: Any, digits: int = 3, unit: str = "") -> str:
+    """A number to some significant digits, without an exponent where it can be read without; a dash for none."""
+    if not _finite(value):
+        return NOTHING
+    value = float(value)
+    if value == 0:
+        text = "0"
+    elif 1e-4 <= abs(value) < 1e6:
+        text = f"{value:.{max(0, digits - 1 - math.floor(math.log10(abs(value))))}f}"
+    else:
+        text = f"{value:.{digits - 1}e}"
+    return _signed(text) + _unit(unit)
+
+
+def fixed(value: Any, decimals: int, unit: str = "") -> str:
+    """A number to some decimals; a dash for none."""
+    return _signed(f"{float(value):.{decimals}f}") + _unit(unit) if _finite(value) else NOTHING
+
+
+def with_sigma(value: Any, sigma: Any, unit: str = "") -> str:
+    """``712.41 ± 0.23 px``: the standard deviation to two digits, the value to the same place."""
+    if not _finite(value):
+        return NOTHING
+    if not _finite(sigma) or float(sigma) <= 0:
+        return number(value, 5, unit)
+    decimals = max(0, 1 - math.floor(math.log10(float(sigma))))
+    if decimals > 7:
+        return f"{number(value, 5)} ± {number(sigma, 2)}{_unit(unit)}"
+    return f"{_signed(f'{float(value):.{decimals}f}')} ± {float(sigma):.{decimals}f}{_unit(unit)}"
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """``1 light``, ``6 lights``."""
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def listed(names: Sequence[str]) -> str:
+    """``L0, L1 and L2``."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def _finite(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _signed(text: str) -> str:
+    return text.replace("-", MINUS)
+
+
+def _unit(unit: str) -> str:
+    return unit and (unit if unit in {"°", "%"} else f"\N{NO-BREAK SPACE}{unit}")
