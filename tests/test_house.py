@@ -1,0 +1,101 @@
+"""The house's own rules: small rooms, plain names, imports that point one way, a help that is there at once."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from lpcal.cli.main import COMMANDS
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
+MODULE_LINES, FUNCTION_LINES = 400, 60
+VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
+HEAVY = ["scipy", "cv2", "mrcal", "casadi", "pycolmap"]
+
+# a folder of someone's own machine: a home, a user's folder on Windows, the folder that this repository lies in
+SOMEONES_OWN = re.compile(rf"/home/\w|/Users/\w|/root/\w|[A-Z]:\\+Users|{re.escape(str(REPOSITORY))}\b")
+
+
+def name_of(path: Path) -> str:
+    return path.relative_to(REPOSITORY).as_posix()
+
+
+def functions(tree: ast.Module) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    yield from (node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)))
+
+
+def tracked() -> list[Path]:
+    """The repository's own files: git's where it is a clone."""
+    found = subprocess.run(["git", "ls-files", "-z"], cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    if found.returncode:
+        pytest.skip("not a git clone")
+    return [path for name in found.stdout.split("\0") if name and (path := REPOSITORY / name).is_file()]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=name_of)
+def test_rooms_are_small(path: Path) -> None:
+    source = path.read_text(encoding="utf-8")
+    assert len(source.splitlines()) < MODULE_LINES, f"{name_of(path)}: split it"
+    long = [f"{path}:{one.lineno} {one.name}" for one in functions(ast.parse(source)) if one.end_lineno - one.lineno + 1 >= FUNCTION_LINES]
+    assert not long, f"functions of {FUNCTION_LINES} lines or more"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=name_of)
+def test_a_module_says_what_it_is(path: Path) -> None:
+    assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), f"{name_of(path)} has no docstring"
+
+
+def test_no_vague_names() -> None:
+    vague = [name_of(path) for path in tracked() if VAGUE & {part.lower() for part in (path.stem, *path.relative_to(REPOSITORY).parts)}]
+    assert not vague
+
+
+def test_imports_point_one_way() -> None:
+    program = "import sys; from importlinter.cli import lint_imports; sys.exit(lint_imports(no_cache=True, no_logo=True))"
+    found = subprocess.run([sys.executable, "-c", program], cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stdout
+    assert re.search(r"Contracts: [1-9]\d* kept, 0 broken", found.stdout), found.stdout
+
+
+def test_no_path_of_someones_own_machine() -> None:
+    found = []
+    for path in tracked():
+        content = path.read_bytes()
+        if b"\0" not in content[:1024] and path != Path(__file__):
+            lines = content.decode("utf-8", "replace").splitlines()
+            found += [f"{name_of(path)}:{number}: {line.strip()[:80]}" for number, line in enumerate(lines, 1) if SOMEONES_OWN.search(line)]
+    assert not found
+
+
+def imported_by(*words: str) -> set[str]:
+    """The packages that are imported once ``lpcal WORDS`` has printed its help."""
+    program = (
+        "import sys\nfrom lpcal.cli.main import main\n"
+        f"try:\n    main({list(words)!r})\nexcept SystemExit as stop:\n    assert not stop.code, stop.code\n"
+        "print('imported:', *{name.partition('.')[0] for name in sys.modules})"
+    )
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr
+    assert found.stdout.startswith("usage: lpcal")
+    return set(found.stdout.rpartition("imported: ")[2].split())
+
+
+def test_help_is_there_at_once() -> None:
+    packages = imported_by("--help")
+    assert "argparse" in packages
+    assert not packages & {*HEAVY, "numpy", "pydantic", "matplotlib"}
+
+
+def command_module(name: str) -> Path:
+    return REPOSITORY / "lpcal" / "cli" / f"{name.replace('import', 'import_')}.py"
+
+
+@pytest.mark.parametrize("command", [name for name in COMMANDS if command_module(name).exists()])
+def test_a_commands_help_is_there_at_once(command: str) -> None:
+    assert not imported_by(command, "--help") & set(HEAVY)
