@@ -16,3 +16,6 @@ type Mask = npt.NDArray[np.bool_]
 
 type Labels = npt.NDArray[np.uint8]
 """Small whole numbers a pixel."""
+
+type Index = npt.NDArray[np.intp]
+"""Places in another array."""

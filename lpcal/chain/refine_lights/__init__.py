@@ -1,0 +1,5 @@
+"""The lights refined from images of spheres: `refine` from what they show, `as_designed` where there are none."""
+
+from lpcal.chain.refine_lights.refine import as_designed, refine
+
+__all__ = ["as_designed", "refine"]

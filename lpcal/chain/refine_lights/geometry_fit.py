@@ -1,0 +1,281 @@
+r"""Where the lights are: wings, sphere centres and chrome highlights in one maximum a posteriori problem.
+
+Symbols: setting q (azimuth, g, d1, d2) of each wing, source offset e on the blob's axis (one for all blobs of a LED mode), sphere
+centres C_s, radial bias b of the outlines (one for chrome, one for matte)::
+
+    source_C = H_CD H_DL(q) [0, 0, e]                                    or free, for a light that is no wing
+    highlight:  A (P / (P . u) - u) / sigma,   P the mirror point of the source in the sphere, u the ray of the pixel seen
+    outline:    W (C_s - measured_s - by_bias_s b)
+    priors:     H_CD, q about the drawing; e about -15 +- 30 mm; b about -0.25 +- 0.15 px (chrome), 0.03 +- 0.04 px (matte)
+
+The bias of a chrome outline is real: its rim mirrors what is behind it. Source: maximum a posteriori estimation, Alhazen's mirror
+point by Newton's method inside the derivative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.chain.refine_lights import residuals
+from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projection
+from lpcal.errors import DegenerateError
+from lpcal.geometry import se3, sphere
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.least_squares import POSE, Block, Options, Solution, Term, compile_residual, prior, solve
+from lpcal.geometry.wing import wing_jacobian, wing_transform
+from lpcal.records.calibration import Camera, Wings
+from lpcal.records.observations import SphereView
+
+SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M = -0.015, 0.030
+BIAS_PX = {"chrome": (-0.25, 0.15), "matte": (0.03, 0.04)}
+KINDS = ("chrome", "matte")
+ROBUST = 3.0
+FREE_SIGMA_M = 1.0
+"""A light of which nothing is known is within this of where its start puts it, twice as far at most."""
+
+
+@dataclass(frozen=True)
+class GeometryFit:
+    """The solved geometry. Sources follow the order of `lights`; those that are wings also have a frame."""
+
+    lights: tuple[str, ...]
+    wing_of: tuple[int | None, ...]
+    """Row in `wings` of each light, None for a free one."""
+    source_C: Array
+    """(L, 3)."""
+    source_covariance: Array
+    """(3 L, 3 L), joint."""
+    H_CL: Array
+    """(L, 4, 4), NaN for a free light."""
+    frame_covariance: Array
+    """(L, 6, 6) of the left perturbation of H_CL, NaN for a free light."""
+    settings: Array
+    """(W, 4)."""
+    H_CD: Array | None
+    source_offset_m: dict[int, float]
+    """By LED mode; 0 where the mode is not stated."""
+    centres_C: Array
+    """(S, 3)."""
+    centres_sigma_m: Array
+    """(S,) rms a coordinate."""
+    bias_px: dict[str, float]
+    highlight_px: dict[tuple[str, str], float]
+    """Distance between seen and predicted highlight, by sphere and light."""
+    cost: float
+
+
+def fit_geometry(
+    lights: Sequence[str], views: Sequence[SphereView], measured: Sequence[CentreMeasurement], camera: Camera, wings: Wings | None
+) -> GeometryFit:
+    """Solve for the lights' geometry.
+
+    Raises
+    ------
+    DegenerateError
+        A light that is no wing has no highlight; or the data leave a direction undetermined.
+    """
+    problem = _Problem(tuple(lights), tuple(views), tuple(measured), camera, wings)
+    solution = solve(problem.blocks(), problem.terms(), options=Options(iterations=200))
+    return problem.result(solution)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    lights: tuple[str, ...]
+    views: tuple[SphereView, ...]
+    measured: tuple[CentreMeasurement, ...]
+    camera: Camera
+    wings: Wings | None
+
+    @property
+    def rows(self) -> dict[str, int]:
+        """Row of each wing by light name."""
+        return {wing.name: k for k, wing in enumerate(self.wings.wings)} if self.wings else {}
+
+    @property
+    def free(self) -> list[str]:
+        return [light for light in self.lights if light not in self.rows]
+
+    @property
+    def modes(self) -> list[int]:
+        return sorted({wing.leds or 0 for wing in self.wings.wings}) if self.wings else []
+
+    def blocks(self) -> dict[str, Block]:
+        blocks = {
+            "centre": Block(np.array([m.centre_C for m in self.measured])),
+            "bias": Block(np.array([[BIAS_PX[kind][0]] for kind in KINDS])),
+        }
+        if self.wings is not None:
+            blocks["H_CD"] = Block(self.wings.H_CD[None])
+            blocks["setting"] = Block(_settings(self.wings))
+            blocks["offset"] = Block(np.full((len(self.modes), 1), SOURCE_OFFSET_M))
+        if self.free:
+            blocks["source"] = Block(np.array([start_of_free_light(light, self.views, self.measured, self.camera) for light in self.free]))
+        return blocks
+
+    def terms(self) -> list[Term]:
+        blocks = self.blocks()
+        terms = [
+            self._outlines(),
+            *(
+                prior("bias", blocks["bias"], np.array([mean]), np.array([[sigma**2]]), k)
+                for k, (mean, sigma) in enumerate(BIAS_PX[kind] for kind in KINDS)
+            ),
+        ]
+        if self.wings is not None:
+            terms.append(prior("H_CD", blocks["H_CD"], self.wings.H_CD, self.wings.H_CD_covariance))
+            terms += [
+                prior("setting", blocks["setting"], row, np.diag(self.wings.setting_sigma**2), k)
+                for k, row in enumerate(_settings(self.wings))
+            ]
+            terms += [
+                prior("offset", blocks["offset"], np.array([SOURCE_OFFSET_M]), np.array([[SOURCE_OFFSET_SIGMA_M**2]]), k)
+                for k in range(len(self.modes))
+            ]
+        if self.free:
+            terms += [
+                prior("source", blocks["source"], start, FREE_SIGMA_M**2 * np.eye(3), k) for k, start in enumerate(blocks["source"].value)
+            ]
+        terms += [term for term in (self._wing_highlights(), self._free_highlights()) if term is not None]
+        return terms
+
+    def _outlines(self) -> Term:
+        data = np.array(
+            [np.concatenate([m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel()]) for m in self.measured]
+        )
+        kinds = np.array([KINDS.index(view.kind) for view in self.views])
+        return Term(compile_residual(residuals.outline, (3, 1), data.shape[1]), ("centre", "bias"), (np.arange(len(data)), kinds), data)
+
+    def _seen(self, among: Sequence[str]) -> list[tuple[int, str]]:
+        return [(s, light) for s, view in enumerate(self.views) for light in view.highlights_px if light in among]
+
+    def _highlight_data(self, seen: list[tuple[int, str]]) -> Array:
+        pixels = np.array([self.views[s].highlights_px[light] for s, light in seen])
+        sigma = np.array([self.views[s].highlight_sigma_px[light] for s, light in seen])
+        radius = np.array([self.views[s].radius_m for s, _ in seen])
+        u_C = self.camera.unproject(pixels)
+        A = local_projection(self.camera, u_C) / sigma[:, None, None]
+        return np.column_stack([u_C, A.reshape(-1, 6), radius])
+
+    def _wing_highlights(self) -> Term | None:
+        seen = self._seen(list(self.rows))
+        if not seen or self.wings is None:
+            return None
+        row = np.array([self.rows[light] for _, light in seen])
+        mode = np.array([self.modes.index(self.wings.wings[k].leds or 0) for k in row])
+        model = compile_residual(residuals.wing_highlight, (POSE, 4, 1, 3), 10)
+        return Term(
+            model,
+            ("H_CD", "setting", "offset", "centre"),
+            (0, row, mode, np.array([s for s, _ in seen])),
+            self._highlight_data(seen),
+            robust=ROBUST,
+            group=2,
+        )
+
+    def _free_highlights(self) -> Term | None:
+        seen = self._seen(self.free)
+        if not seen:
+            return None
+        row = np.array([self.free.index(light) for _, light in seen])
+        model = compile_residual(residuals.free_highlight, (3, 3), 10)
+        return Term(model, ("source", "centre"), (row, np.array([s for s, _ in seen])), self._highlight_data(seen), robust=ROBUST, group=2)
+
+    def result(self, solution: Solution) -> GeometryFit:
+        names = [name for name in ("H_CD", "setting", "offset", "source", "centre") if name in solution.blocks]
+        covariance = solution.covariance(*names)
+        start = dict(
+            zip(names, np.cumsum([0, *(solution.blocks[name].count * solution.blocks[name].size for name in names)]), strict=False)
+        )
+        by_source, by_frame, source_C, H_CL = [], [], [], []
+        for light in self.lights:
+            J_source, J_frame = np.zeros((3, len(covariance))), np.full((6, len(covariance)), np.nan)
+            if light in self.rows:
+                k = self.rows[light]
+                leds = self.wings.wings[k].leds if self.wings else None
+                mode = self.modes.index(leds or 0)
+                H_CD, setting, offset = solution["H_CD"][0], solution["setting"][k], float(solution["offset"][mode, 0])
+                J_frame = np.zeros((6, len(covariance)))
+                J_frame[:, start["H_CD"] : start["H_CD"] + 6] = np.eye(6)
+                J_frame[:, start["setting"] + 4 * k : start["setting"] + 4 * k + 4] = se3.adjoint(H_CD) @ wing_jacobian(setting)
+                H = H_CD @ wing_transform(setting)
+                x = H[:3, 3] + offset * H[:3, 2]
+                J_source = _point_by_twist(x) @ J_frame
+                J_source[:, start["offset"] + mode] = H[:3, 2]
+            else:
+                k = self.free.index(light)
+                H, x = np.full((4, 4), np.nan), solution["source"][k]
+                J_source[:, start["source"] + 3 * k : start["source"] + 3 * k + 3] = np.eye(3)
+            source_C.append(x)
+            H_CL.append(H)
+            by_source.append(J_source)
+            by_frame.append(J_frame @ covariance @ J_frame.T)
+        J = np.concatenate(by_source)
+        centre_block = covariance[start["centre"] :, start["centre"] :]
+        return GeometryFit(
+            lights=self.lights,
+            wing_of=tuple(self.rows.get(light) for light in self.lights),
+            source_C=np.array(source_C),
+            source_covariance=J @ covariance @ J.T,
+            H_CL=np.array(H_CL),
+            frame_covariance=np.array(by_frame),
+            settings=solution["setting"] if "setting" in names else np.zeros((0, 4)),
+            H_CD=solution["H_CD"][0] if "H_CD" in names else None,
+            source_offset_m={mode: float(solution["offset"][k, 0]) for k, mode in enumerate(self.modes)},
+            centres_C=solution["centre"],
+            centres_sigma_m=np.sqrt(np.diag(centre_block).reshape(-1, 3).mean(axis=1)),
+            bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
+            highlight_px=self._misses(np.array(source_C), solution["centre"]),
+            cost=solution.cost,
+        )
+
+    def _misses(self, source_C: Array, centres_C: Array) -> dict[tuple[str, str], float]:
+        misses = {}
+        for s, view in enumerate(self.views):
+            for light, seen in view.highlights_px.items():
+                if light in self.lights:
+                    P = sphere.mirror_point(centres_C[s], view.radius_m, source_C[self.lights.index(light)])
+                    misses[view.name, light] = float(np.linalg.norm(self.camera.project(P) - seen))
+        return misses
+
+
+def start_of_free_light(light: str, views: Sequence[SphereView], measured: Sequence[CentreMeasurement], camera: Camera) -> Array:
+    """Where the mirrored rays of a light's highlights come nearest to each other, (3,).
+
+    Raises
+    ------
+    DegenerateError
+        No sphere shows its highlight.
+    """
+    M, y, reach, rays = np.zeros((3, 3)), np.zeros(3), 0.0, []
+    for view, m in zip(views, measured, strict=True):
+        if light in view.highlights_px:
+            P, n = sphere.meet(camera.unproject(view.highlights_px[light]), m.centre_C, view.radius_m)
+            r = sphere.reflect(P / np.linalg.norm(P), n)
+            across = np.eye(3) - np.outer(r, r)
+            M, y, reach = M + across, y + across @ P, float(np.linalg.norm(m.centre_C))
+            rays.append((P, r))
+    if not rays or not np.isfinite(y).all():
+        raise DegenerateError(
+            f"no chrome sphere shows the light {light}",
+            where=f"light {light}",
+            needed="a highlight of it, or its wing's setting",
+            todo="add a chrome sphere",
+        )
+    P, r = rays[0]
+    guess = P + reach * r  # one ray alone leaves the distance open: as far from the sphere as the camera is
+    along = 1e-3 * np.eye(3)
+    found = np.linalg.solve(M + along, y + along @ guess)
+    in_front = np.mean([(found - P) @ r for P, r in rays]) > 0
+    return np.asarray(found if in_front else guess)
+
+
+def _settings(wings: Wings) -> Array:
+    return np.array([[w.azimuth_rad, w.joint_angle_rad, w.d1_m, w.d2_m] for w in wings.wings])
+
+
+def _point_by_twist(x: Array) -> Array:
+    return np.hstack([-se3.hat(x), np.eye(3)])

@@ -1,0 +1,84 @@
+"""What a sphere's outline says of its centre, and how sure that is; what a pixel's residual is in any lens.
+
+Symbols: outline points with scatter sigma a point; a common radial bias b (px, outwards) moves the centre by ``by_bias * b``. To the
+formal covariance come systematic parts that the scatter does not show: the whole outline shifted, and its bias.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.geometry import sphere
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Camera
+from lpcal.records.observations import SphereView
+
+LATERAL_PX = {"chrome": 0.05, "matte": 0.03}
+OWN_BIAS_PX = {"chrome": 0.015, "matte": 0.02}
+SCATTER_FACTOR = 2.0
+STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class CentreMeasurement:
+    """Centre (3,) of a sphere from its outline alone, its covariance (3, 3), and its derivative (3,) by the outline's bias (m a px)."""
+
+    centre_C: Array
+    covariance: Array
+    by_bias: Array
+
+
+def measure_centre(view: SphereView, camera: Camera) -> CentreMeasurement:
+    """The centre of a sphere from its outline.
+
+    Raises
+    ------
+    DegenerateError
+        The outline is not that of a sphere of this radius before the camera.
+    """
+    points = view.outline_px
+
+    def centre_of(moved: Array) -> Array:
+        return sphere.from_outline(camera.unproject(moved), view.radius_m)
+
+    try:
+        centre_C = centre_of(points)
+    except ValueError as error:
+        raise DegenerateError(str(error), where=f"sphere {view.name}", todo="check its radius in panel.yaml") from error
+    middle = points.mean(axis=0)
+    outward = (points - middle) / np.linalg.norm(points - middle, axis=1, keepdims=True)
+    by_bias = (centre_of(points + STEP * outward) - centre_of(points - STEP * outward)) / (-2 * STEP)
+    by_shift = np.stack([(centre_of(points + step) - centre_of(points - step)) / (2 * STEP) for step in STEP * np.eye(2)], axis=1)
+    J = normal_offset_jacobian(centre_C, view.radius_m, camera)
+    formal = view.outline_sigma_px**2 * np.linalg.inv(J.T @ J * len(points) / len(J))
+    covariance = (
+        SCATTER_FACTOR**2 * formal
+        + LATERAL_PX[view.kind] ** 2 * by_shift @ by_shift.T
+        + OWN_BIAS_PX[view.kind] ** 2 * np.outer(by_bias, by_bias)
+    )
+    return CentreMeasurement(centre_C, covariance, by_bias)
+
+
+def normal_offset_jacobian(centre_C: Array, radius_m: float, camera: Camera) -> Array:
+    """How the outline's points move along their normals (K, 3), in pixels a metre of the centre."""
+    around = np.linspace(0, 2 * np.pi, 120, endpoint=False)
+
+    def drawn(centre: Array) -> Array:
+        return camera.project(sphere.outline(centre, radius_m, around))
+
+    points = drawn(centre_C)
+    tangent = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+    normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1) / np.linalg.norm(tangent, axis=1, keepdims=True)
+    normal *= np.sign(np.sum(normal * (points - points.mean(axis=0)), axis=1, keepdims=True))
+    step = STEP * np.linalg.norm(centre_C)
+    columns = [np.sum((drawn(centre_C + step * axis) - drawn(centre_C - step * axis)) * normal, axis=1) / (2 * step) for axis in np.eye(3)]
+    return np.stack(columns, axis=1)
+
+
+def local_projection(camera: Camera, u_C: Array) -> Array:
+    """Derivative A (..., 2, 3) of the projection at unit rays u_C (..., 3): pixels move by ``A (x / (x . u) - u)``, in any lens."""
+    columns = [(camera.project(u_C + step) - camera.project(u_C - step)) / (2 * STEP) for step in STEP * np.eye(3)]
+    return np.stack(columns, axis=-1)

@@ -1,0 +1,273 @@
+r"""How bright the lights are and how they fall off with the angle: from matte spheres, by linear least squares in logarithms.
+
+Symbols: light k, sphere s, block b of pixels, shading averaged over the block's own normals (a block's centre is not its mean)::
+
+    log mean(data) = log I_k + log rho_s + delta_b + log lobe(theta) + log mean(max(n . d, 0) / r^2)
+
+``delta_b`` (sd 2 %) takes the sphere's texture away, as every light sees the same block. The lobe is a known shape (the sum of the
+blob's LEDs, else a cosine power) times the exponential of a smooth function of the angle, a Gaussian process that is 0 on the axis.
+Sources: Lambert's law with raw ambient light subtracted; Gaussian-process regression (Rasmussen, Williams 2006).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.geometry import led_cluster, light_field, sphere
+from lpcal.geometry.arrays import Array, Index, Mask
+from lpcal.records.calibration import Camera, Lobe
+from lpcal.records.observations import Radiance, SphereView
+
+BLOCK_PX = 6
+FACING_CAMERA, FACING_LIGHT = 0.35, 0.12
+BLOCK_SHARE = 0.6
+TEXTURE_SD, MODEL_SD = 0.02, 0.003
+KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
+LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
+UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
+ROBUST = 3.0
+ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Block means of matte spheres: row k is one block under one light."""
+
+    light: Index
+    sphere: Index
+    block: Index
+    angle_rad: Array
+    log_ratio: Array
+    """log(mean data / mean(n . d / r^2))."""
+    relative_sigma: Array
+    """Of the mean, from image noise."""
+    colour: Array
+    """(N, C) mean data a channel over the grey mean."""
+
+
+@dataclass(frozen=True)
+class ShadingFit:
+    """Relative intensities and lobes."""
+
+    intensity: Array
+    """(L, C), mean over all 1; 1 for a light that no matte sphere shows."""
+    intensity_std: Array
+    """(L,), relative; NaN for such a light."""
+    lobes: tuple[Lobe, ...]
+    """A light each."""
+    residual: dict[str, float]
+    """Rms of data over model, as a fraction, by sphere."""
+    seen_rad: float
+    """Largest angle from a light's axis that the spheres saw: beyond it the lobe is extrapolated."""
+
+
+def sample_blocks(
+    views: Sequence[SphereView], centres_C: Array, camera: Camera, lights: Sequence[str], source_C: Array, axis_C: Array
+) -> Samples:
+    """Block means of all matte spheres under all lights.
+
+    Raises
+    ------
+    DegenerateError
+        No block of a sphere is lit and unsaturated.
+    """
+    parts: list[Samples] = []
+    blocks = 0
+    for s, (view, centre_C) in enumerate(zip(views, centres_C, strict=True)):
+        if view.shading is None:
+            continue
+        part = _blocks_of(view.shading, view, centre_C, camera, lights, source_C, axis_C)
+        if part.light.size == 0:
+            raise DegenerateError(
+                "no part of it is lit and unsaturated",
+                where=f"sphere {view.name}",
+                needed="a matte sphere neither dark nor saturated",
+                todo="change the exposure",
+            )
+        parts.append(
+            Samples(
+                part.light,
+                np.full_like(part.sphere, s),
+                part.block + blocks,
+                part.angle_rad,
+                part.log_ratio,
+                part.relative_sigma,
+                part.colour,
+            )
+        )
+        blocks += int(part.block.max()) + 1
+    return Samples(*(np.concatenate([getattr(part, name) for part in parts]) for name in Samples.__dataclass_fields__))
+
+
+def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names: Sequence[str], intensity_sd: float) -> ShadingFit:
+    """Intensities, lobes and albedos from block means.
+
+    Parameters
+    ----------
+    count : number of lights
+    leds : LED mode of each light; lights of one mode share their lobe
+    names : the spheres' names
+    intensity_sd : prior of the relative intensity of a light
+    """
+    modes = sorted({mode or 0 for mode in leds})
+    mode_of_light = np.array([modes.index(mode or 0) for mode in leds])
+    light, which = samples.light, samples.sphere
+    spheres, block = np.unique(which), np.unique(samples.block, return_inverse=True)[1]
+    interpolation = _interpolation(samples.angle_rad)
+    lobe_columns = [interpolation[:, 1:] * (mode_of_light[light] == m)[:, None] for m in range(len(modes))]
+    exponent_columns = [
+        np.log(np.maximum(np.cos(samples.angle_rad), 1e-3)) * (mode_of_light[light] == m)
+        for m in range(len(modes))
+        if modes[m] not in led_cluster.RINGS
+    ]
+    design = np.column_stack([np.eye(count)[light], (which[:, None] == spheres).astype(float), *lobe_columns, *exponent_columns])
+    known = np.zeros(light.size)
+    for m, mode in enumerate(modes):
+        if mode in led_cluster.RINGS:
+            known += np.where(mode_of_light[light] == m, np.log(led_cluster.mean_lobe(samples.angle_rad, mode)), 0.0)
+    target = samples.log_ratio - known
+    prior = np.zeros((design.shape[1],) * 2)
+    prior[:count, :count] += np.eye(count) / intensity_sd**2
+    start = count + len(spheres)
+    for m, mode in enumerate(modes):
+        at = slice(start + m * (len(KNOTS_RAD) - 1), start + (m + 1) * (len(KNOTS_RAD) - 1))
+        prior[at, at] += np.linalg.inv(_smooth_covariance(LOBE_SD if mode in led_cluster.RINGS else UNKNOWN_LOBE_SD))
+    for column in range(design.shape[1] - len(exponent_columns), design.shape[1]):
+        prior[column, column] += 1 / EXPONENT_SD**2
+    found, covariance, residual = _solve_with_blocks(design, target, np.hypot(samples.relative_sigma, MODEL_SD), block, prior)
+    logs = found[:count]
+    seen = np.isin(np.arange(count), light)
+    level = np.mean(np.exp(logs[seen]))
+    colour = np.ones((count, samples.colour.shape[1]))
+    for k in np.flatnonzero(seen):
+        colour[k] = np.median(samples.colour[light == k], axis=0)
+    colour /= colour[seen].mean(axis=0)
+    intensity = np.where(seen, np.exp(logs) / level, 1.0)[:, None] * colour
+    centring = np.eye(count)[seen] - np.mean(np.eye(count)[seen], axis=0)
+    std = np.full(count, np.nan)
+    std[seen] = np.sqrt(np.diag(centring @ covariance[:count, :count] @ centring.T))
+    unknown = [mode for mode in modes if mode not in led_cluster.RINGS]
+    seen_rad = float(samples.angle_rad.max())
+    lobes = [_lobe(mode, m, found, start, unknown, seen_rad) for m, mode in enumerate(modes)]
+    return ShadingFit(
+        intensity=intensity / intensity.mean(),
+        intensity_std=std,
+        lobes=tuple(lobes[m] for m in mode_of_light),
+        residual={names[s]: float(np.sqrt(np.mean(residual[which == s] ** 2))) for s in spheres},
+        seen_rad=seen_rad,
+    )
+
+
+def nominal_lobe(leds: int | None) -> Lobe:
+    """The lobe of a light before any matte sphere has been seen."""
+    if leds in led_cluster.RINGS:
+        return Lobe("table", angle_rad=KNOTS_RAD, value=led_cluster.mean_lobe(KNOTS_RAD, int(leds or 1)))
+    return Lobe("isotropic")
+
+
+def _blocks_of(
+    shading: Radiance, view: SphereView, centre_C: Array, camera: Camera, lights: Sequence[str], source_C: Array, axis_C: Array
+) -> Samples:
+    rows, columns = _box(view.outline_px, shading.saturated.shape[1:])
+    u_C = camera.unproject(np.stack([columns, rows], axis=-1).astype(float))
+    P_C, n_C = sphere.meet(u_C, centre_C, view.radius_m)
+    facing = np.nan_to_num(-np.sum(n_C * u_C, axis=-1), nan=-1.0) > FACING_CAMERA
+    block = (rows - rows.min()) // BLOCK_PX * (1 + (columns.max() - columns.min()) // BLOCK_PX) + (columns - columns.min()) // BLOCK_PX
+    members = np.bincount(block.ravel())
+    found: list[list[Array]] = []
+    for k, name in enumerate(shading.lights):
+        if name not in lights:
+            continue
+        row = list(lights).index(name)
+        d_C, r, angle = light_field.near_light(P_C, source_C[row], axis_C[row])
+        cosine = np.sum(n_C * d_C, axis=-1)
+        with np.errstate(invalid="ignore"):
+            good: Mask = facing & (cosine > FACING_LIGHT) & ~shading.saturated[k, rows, columns]
+        data, sigma = shading.signal[k, rows, columns].astype(float), shading.sigma[k, rows, columns].astype(float)
+        channels = data[..., None] if data.ndim == 2 else data
+        grey = channels.mean(axis=-1)
+        noise = sigma if sigma.ndim == 2 else np.sqrt(np.mean(sigma**2, axis=-1) / sigma.shape[-1])
+        number = np.bincount(block[good], minlength=len(members))
+        full = (number >= BLOCK_SHARE * members) & (number > 0)
+
+        def mean(value: Array, good: Mask = good, number: Index = number) -> Array:
+            return np.bincount(block[good], weights=value[good], minlength=len(members)) / np.maximum(number, 1)
+
+        level = mean(grey)
+        keep = np.flatnonzero(full & (level > 3 * np.sqrt(mean(noise**2) / np.maximum(number, 1))))
+        model = mean(cosine / r**2)[keep]
+        colour = np.stack([mean(channels[..., c])[keep] / level[keep] for c in range(channels.shape[-1])], axis=1)
+        relative = np.sqrt(mean(noise**2)[keep] / number[keep]) / level[keep]
+        found.append(
+            [
+                np.full(keep.size, float(row)),
+                np.zeros(keep.size),
+                keep.astype(float),
+                mean(angle)[keep],
+                np.log(level[keep] / model),
+                relative,
+                colour,
+            ]
+        )
+    if not found:
+        none, nothing = np.zeros(0, np.intp), np.zeros(0)
+        return Samples(none, none, none, nothing, nothing, nothing, np.zeros((0, 1)))
+    light, which, block, angle, log_ratio, relative, colour = (np.concatenate(column) for column in zip(*found, strict=True))
+    return Samples(light.astype(np.intp), which.astype(np.intp), block.astype(np.intp), angle, log_ratio, relative, colour)
+
+
+def _box(outline_px: Array, shape: tuple[int, ...]) -> tuple[Index, Index]:
+    low = np.maximum(np.floor(outline_px.min(axis=0)).astype(int), 0)
+    high = np.minimum(np.ceil(outline_px.max(axis=0)).astype(int), [shape[1] - 1, shape[0] - 1])
+    columns, rows = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
+    return rows, columns
+
+
+def _interpolation(angle_rad: Array) -> Array:
+    """Weights (N, knots) of linear interpolation between the knots."""
+    step = KNOTS_RAD[1] - KNOTS_RAD[0]
+    return np.clip(1 - np.abs(angle_rad[:, None] - KNOTS_RAD) / step, 0.0, 1.0)
+
+
+def _smooth_covariance(sd: float) -> Array:
+    """Covariance of the smooth function at the knots but the first, given that it is 0 there."""
+    gap = (KNOTS_RAD[:, None] - KNOTS_RAD) / LOBE_LENGTH_RAD
+    K = sd**2 * np.exp(-0.5 * gap**2)
+    return K[1:, 1:] - np.outer(K[1:, 0], K[0, 1:]) / K[0, 0] + (1e-4 * sd) ** 2 * np.eye(len(KNOTS_RAD) - 1)
+
+
+def _solve_with_blocks(design: Array, target: Array, sigma: Array, block: Index, prior: Array) -> tuple[Array, Array, Array]:
+    """Robust least squares with one more unknown a block (sd TEXTURE_SD), eliminated: estimate, covariance, residual."""
+    weight = 1 / sigma**2
+    count = int(block.max()) + 1
+    found, residual = np.zeros(design.shape[1]), target
+    N = prior
+    for _ in range(ROUNDS):
+        own = np.bincount(block, weights=weight, minlength=count) + 1 / TEXTURE_SD**2
+        mixed = np.zeros((count, design.shape[1]))
+        np.add.at(mixed, block, design * weight[:, None])
+        N = design.T @ (design * weight[:, None]) - mixed.T @ (mixed / own[:, None]) + prior
+        y = design.T @ (weight * target) - mixed.T @ (np.bincount(block, weights=weight * target, minlength=count) / own)
+        found = np.linalg.solve(N, y)
+        left = target - design @ found
+        delta = np.bincount(block, weights=weight * left, minlength=count) / own
+        residual = left - delta[block]
+        scale = np.maximum(1.4826 * np.median(np.abs(residual / sigma)), 1.0)
+        weight = 1 / (sigma * scale) ** 2 / (1 + (residual / (ROBUST * sigma * scale)) ** 2)
+    return found, np.linalg.inv(N), residual
+
+
+def _lobe(mode: int, m: int, found: Array, start: int, unknown: list[int], seen_rad: float) -> Lobe:
+    """The known shape times what was found; beyond the largest angle seen the factor stays what it was there."""
+    width = len(KNOTS_RAD) - 1
+    deviation = np.concatenate([[0.0], found[start + m * width : start + (m + 1) * width]])
+    deviation = np.interp(np.minimum(KNOTS_RAD, seen_rad), KNOTS_RAD, deviation)
+    if mode in led_cluster.RINGS:
+        base = led_cluster.mean_lobe(KNOTS_RAD, mode)
+    else:
+        base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(found[len(found) - len(unknown) + unknown.index(mode)], 0.0)
+    return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))

@@ -1,0 +1,69 @@
+"""lights.yaml: the refined lights, as in calibration.yaml, and what they rest on.
+
+``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual}],
+warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.formats.calibration_yaml import light_document, light_from_document
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.records.calibration import LightsSolution, SphereFinding
+
+KIND = "lights"
+
+
+def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -> None:
+    """Write lights.yaml."""
+    body = {
+        "focus_m": solution.focus_C,
+        "d_object_m": solution.d_object_m,
+        "H_CD": solution.H_CD,
+        "lights": [light_document(light) for light in solution.lights],
+        "spheres": [
+            {
+                "name": sphere.name,
+                "kind": sphere.kind,
+                "centre_m": sphere.centre_C,
+                "radius_m": sphere.radius_m,
+                "used": sphere.used,
+                "why": sphere.why,
+                "directions": sphere.directions_C,
+                "residual": sphere.residual,
+            }
+            for sphere in solution.spheres
+        ],
+        "warnings": solution.warnings,
+        "evidence": solution.evidence,
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_lights(path: Path) -> LightsSolution:
+    """Read lights.yaml."""
+    document = read_document(path, KIND)
+    return LightsSolution(
+        lights=tuple(light_from_document(entry) for entry in document["lights"]),
+        focus_C=np.array(document["focus_m"]),
+        d_object_m=document["d_object_m"],
+        H_CD=None if document["H_CD"] is None else np.array(document["H_CD"]),
+        spheres=tuple(
+            SphereFinding(
+                name=entry["name"],
+                kind=entry["kind"],
+                centre_C=None if entry["centre_m"] is None else np.array(entry["centre_m"]),
+                radius_m=entry["radius_m"],
+                used=entry["used"],
+                why=entry["why"],
+                directions_C={light: np.array(direction) for light, direction in entry["directions"].items()},
+                residual=float("nan") if entry["residual"] is None else entry["residual"],
+            )
+            for entry in document["spheres"]
+        ),
+        warnings=tuple(document["warnings"]),
+        evidence=document["evidence"],
+    )

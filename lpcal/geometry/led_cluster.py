@@ -1,0 +1,48 @@
+r"""The LightBlob as the sum of its LEDs, averaged over its roll.
+
+Symbols: LEDs of angular lobe cos(t)^m stand on a dome, one on the axis, 6 at `spacing` from it and 12 at twice that; seen from the dome's
+centre of curvature the whole emits::
+
+    lobe(theta) = sum_i cos(angle(direction(theta), axis_i))^m, averaged over the roll, 1 at theta = 0
+    m = -ln 2 / ln cos(half of the full half-power angle)
+
+Source: datasheet figures of the LightPanel (19 LEDs, 15 deg, 11.25 deg apart); half-power angle of a cosine-power lobe.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array
+
+RINGS = {1: (1,), 7: (1, 6), 19: (1, 6, 12)}
+SPACING_RAD = float(np.radians(11.25))
+HALF_POWER_RAD = float(np.radians(15.0))
+"""Full angle between the half-power directions of one LED."""
+ROLLS = 60
+
+
+def exponent(full_half_power_rad: float) -> float:
+    """Exponent m of a cosine-power lobe from its full half-power angle."""
+    return float(-np.log(2) / np.log(np.cos(full_half_power_rad / 2)))
+
+
+def led_axes(leds: int, spacing_rad: float = SPACING_RAD) -> Array:
+    """Axes (n, 3) of the LEDs of a cluster of 1, 7 or 19, in the blob's frame, z its axis."""
+    axes = []
+    for ring, count in enumerate(RINGS[leds]):
+        tilt, roll = ring * spacing_rad, 2 * np.pi * np.arange(count) / count
+        axes.append(np.stack([np.sin(tilt) * np.cos(roll), np.sin(tilt) * np.sin(roll), np.full(count, np.cos(tilt))], axis=1))
+    return np.concatenate(axes)
+
+
+def mean_lobe(angle_rad: Array, leds: int) -> Array:
+    """Emission (...) at angles from the axis, averaged over the roll, 1 on the axis."""
+    m, axes = exponent(HALF_POWER_RAD), led_axes(leds)
+    angle = np.append(np.ravel(angle_rad), 0.0)
+    roll = np.linspace(0, 2 * np.pi, ROLLS, endpoint=False)
+    direction = np.stack(
+        [np.outer(np.sin(angle), np.cos(roll)), np.outer(np.sin(angle), np.sin(roll)), np.outer(np.cos(angle), np.ones(ROLLS))], axis=-1
+    )
+    emission = np.mean(np.sum(np.maximum(direction @ axes.T, 0.0) ** m, axis=-1), axis=1)
+    return np.asarray((emission[:-1] / emission[-1]).reshape(np.shape(angle_rad)))
