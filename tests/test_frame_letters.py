@@ -54,6 +54,8 @@ MISTAKES = {
     "conditional": ("H_PC = H_CP_a if near else H_CP_b", "H_CP for H_PC"),
     "argument": ("def pixels(x_C, K): return K\nuv = pixels(x_B, K)", "x_B for x_C"),
     "method's argument": ("class M:\n    def see(self, H_CB): return 1\nm.see(H_BC)", "H_BC for H_CB"),
+    "record": ("@dataclass(frozen=True)\nclass Pose:\n    t_s: Array\n    H_OP: Array\npose = Pose(t_s, H_PO)", "H_PO for H_OP"),
+    "unlettered points": ("x_B = se3.apply(H_CB, outline)", "x_C for x_B"),
     "returned": ("def points_B(H_CB, x_B):\n    return se3.apply(H_CB, x_B)", "x_C for points_B"),
     "rotation for transform": ("H_AB = H_AB_old[:3, :3]", "R_AB for H_AB"),
 }

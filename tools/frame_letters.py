@@ -197,6 +197,8 @@ class Checker(ast.NodeVisitor):
                 return Letters(kind, source, frame)
             case (("apply" | "rotate"), [Letters(kind="H") as H, Letters(kind="x") as x, *_]):
                 return self.chained(node, H, x)
+            case (("apply" | "rotate"), [Letters(kind="H") as H, None, *_]):
+                return Letters("x", H.frame)
             case "transform", [Letters(kind="R") as R, t]:
                 if t and t.frame != R.frame:
                     self.report(node, f"transform({R}, {t})", f"a translation in {R.frame}")
@@ -216,13 +218,18 @@ def files(paths: list[str]) -> Iterator[Path]:
 
 
 def parameters_of(trees: list[ast.Module]) -> dict[str, list[str]]:
-    """Positional parameters by function name, of functions that are the only one of their name and hold for fixed frames."""
+    """Positional parameters of functions, and fields of records, that hold for fixed frames; of several of one name, what they agree on."""
     found: dict[str, list[str]] = {}
-    functions = [node for tree in trees for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
-    for function in functions:
-        names = [argument.arg for argument in (*function.args.posonlyargs, *function.args.args) if argument.arg not in {"self", "cls"}]
-        generic = any(GENERIC in f"{letters.frame}{letters.source}" for letters in map(letters_of, names) if letters)
-        found[function.name] = [] if generic or function.name in found else names
+    for node in (node for tree in trees for node in ast.walk(tree)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            names = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args) if argument.arg not in {"self", "cls"}]
+        elif isinstance(node, ast.ClassDef) and any("dataclass" in ast.unparse(one) for one in node.decorator_list):
+            names = [name_of(one.target) for one in node.body if isinstance(one, ast.AnnAssign)]
+        else:
+            continue
+        if any(GENERIC in letters for letters in map(letters_of, names) if letters):
+            names = []
+        found[node.name] = [a if a == b else "" for a, b in zip(found.get(node.name, names), names, strict=False)]
     return found
 
 
