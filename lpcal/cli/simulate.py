@@ -1,0 +1,35 @@
+"""``lpcal simulate``: a synthetic rig folder with its truth."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+
+from lpcal.errors import UsageError
+from lpcal.records.outcome import Outcome, Progress
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument("folder", type=Path, metavar="DIR", help="the folder to make; it must be new or empty")
+    parser.add_argument("--rig", metavar="R", help="a panel.yaml, its folder, or a bundled rig's name (default: lightpanel-6)")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="another number, another rig (default 1)")
+    parser.add_argument("--size", default="640x400", metavar="WxH", help="the camera's image size (default 640x400)")
+    parser.add_argument("--stations", type=int, default=22, metavar="N", help="board views (default 22)")
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:
+    """Simulate a rig."""
+    from lpcal.formats.bundled import rig_file
+    from lpcal.formats.panel_yaml import read_rig
+    from lpcal.pipeline.simulate import simulate
+    from lpcal.simulate.recipe import Recipe
+
+    size = re.fullmatch(r"(\d+)x(\d+)", options.size)
+    if not size or min(int(n) for n in size.groups()) < 120 or max(int(n) for n in size.groups()) > 8192:
+        raise UsageError(f"--size {options.size}", needed="width x height in pixels, 120 to 8192 each", todo="write for example 640x400")
+    if options.stations < 4 or options.seed < 0:
+        raise UsageError(f"--stations {options.stations} --seed {options.seed}", needed="at least 4 stations, a seed of 0 or more")
+    recipe = Recipe(seed=options.seed, image_size=(int(size[1]), int(size[2])), stations=options.stations)
+    return simulate(read_rig(rig_file(options.rig)), options.folder, recipe, progress)

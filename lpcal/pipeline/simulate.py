@@ -1,0 +1,285 @@
+"""A synthetic rig folder: whatever a panel.yaml asks for, with the truth beside it.
+
+The simulator makes arrays, the formats write them; here they meet. The folder appears whole or not at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import whole, write_text
+from lpcal.formats.mocap_motive_write import write_motive
+from lpcal.formats.truth_folder import README, write_field, write_leds, write_poses, write_surface, write_yaml
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.rig import Rig, RigFile
+from lpcal.simulate.boards import backdrop, make_scene
+from lpcal.simulate.built import Built, build
+from lpcal.simulate.captures import Capture, Studio, object_captures, place_spheres, sphere_captures
+from lpcal.simulate.motion import Session, plan
+from lpcal.simulate.recipe import Recipe
+from lpcal.simulate.sensor import Response, Stored
+from lpcal.simulate.tracking import Recording, record
+
+
+@dataclass(frozen=True)
+class _BoardImages:
+    """Names, true panel poses and times (camera clock) of the board images."""
+
+    names: list[str]
+    H_OP: Array
+    t_camera_s: Array
+
+
+def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress) -> Outcome:
+    """Write the rig folder.
+
+    Raises
+    ------
+    InputError
+        The folder is there already, or the rig asks for what cannot be simulated.
+    """
+    rig = rig_file.rig
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError("is there already", where=str(folder), needed="a new or an empty folder", todo="name another one, or remove it")
+    _check(rig_file)
+    built = build(rig, recipe)
+    response = _response(rig, built, recipe)
+    with whole(folder) as draft:
+        draft.mkdir()
+        write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
+        write_text(draft / "truth" / "README.md", README)
+        _write_camera(draft, rig, built, recipe)
+        counts = _write_boards(draft, rig, built, response, recipe, progress) if rig.board else {}
+        counts |= _write_captures(draft, rig, built, response, recipe, progress) if rig.lights else {}
+    made = ", ".join(f"{count} {what}" for what, count in counts.items())
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    return Outcome(
+        summary=[f"{folder}: a simulated {rig.name}, seed {recipe.seed}: {made}; {size / 1e6:.1f} MB, truth in {folder / 'truth'}"],
+        document={"folder": str(folder), "seed": recipe.seed, "bytes": size, **counts},
+        next_command=f"cd {folder} && lpcal run",
+    )
+
+
+def _check(rig_file: RigFile) -> None:
+    """What cannot be simulated is said before anything is drawn."""
+    rig = rig_file.rig
+    if rig.camera is None:
+        raise InputError(
+            "no section camera:", where=str(rig_file.file), needed="camera:", todo="add it: a rig is simulated through a camera"
+        )
+    if (rig.mocap or rig.camera.images) and rig.board is None:
+        raise InputError(
+            "no section board:", where=str(rig_file.file), needed="board:", todo="add it, or leave mocap: and camera.images out"
+        )
+    if rig.mocap and rig.mocap.board_poses:
+        todo = "name images instead: mocap.images"
+        raise InputError("board poses are not simulated", where=rig_file.where("mocap.board_poses"), needed="mocap.images", todo=todo)
+    if rig.mocap and rig.mocap.file and (rig.mocap.direction == "H_PO" or not rig.mocap.file.endswith(".csv")):
+        where = rig_file.where("mocap.direction" if rig.mocap.direction == "H_PO" else "mocap.file")
+        raise InputError("only Motive's CSV with H_OP is simulated", where=where, needed="a .csv and direction: H_OP", todo="change it")
+
+
+def _response(rig: Rig, built: Built, recipe: Recipe) -> Response:
+    camera = rig.camera
+    black, white, gamma = (camera.black_level, camera.white_level, camera.gamma) if camera else (0.0, 1.0, 1.0)
+    return Response(recipe.sensor, built.lens.vignetting(), black, white, gamma)
+
+
+def _write_camera(folder: Path, rig: Rig, built: Built, recipe: Recipe) -> None:
+    lens, camera = built.lens, rig.camera
+    truth: dict[str, Any] = {
+        "image_size": lens.image_size,
+        "model": "opencv5",
+        "K": lens.K,
+        "distortion": lens.distortion,
+        "black_level_percent": 100 * camera.black_level if camera else 0.0,
+        "gamma": camera.gamma if camera else 1.0,
+        "noise": {key: getattr(recipe.sensor, key) for key in ("full_well_e", "read_noise_e", "psf_sigma_px")},
+        "vignetting": {"power_of_cos4": 1.0, "extra_r4": lens.vignetting_r4, "centre_from_middle_px": lens.vignetting_centre_px},
+    }
+    write_yaml(folder / "truth" / "camera.yaml", truth)
+    if camera and camera.cameramodel:
+        core = [lens.K[0, 0], lens.K[1, 1], lens.K[0, 2], lens.K[1, 2], *lens.distortion]
+        lines = [
+            "{",
+            "    'lensmodel':  'LENSMODEL_OPENCV5',",
+            f"    'intrinsics': [ {', '.join(repr(float(value)) for value in core)} ],",
+            "    'extrinsics': [ 0, 0, 0, 0, 0, 0 ],",
+            f"    'imagersize': [ {lens.image_size[0]}, {lens.image_size[1]} ]",
+            "}",
+        ]
+        write_text(folder / camera.cameramodel, "\n".join(lines) + "\n")
+
+
+def _write_boards(folder: Path, rig: Rig, built: Built, response: Response, recipe: Recipe, progress: Progress) -> dict[str, int]:
+    """Stations and sweep: images, the mocap stream, the images' times, the truth."""
+    board = rig.board
+    if board is None:
+        return {}
+    moving = rig.mocap is not None and rig.mocap.file is not None and len(rig.mocap.images) > 1
+    recipe_here = recipe if moving else _still(recipe)
+    session = plan(built, board.corners, board.square, recipe_here)
+    recording = record(built, session, recipe_here)
+    groups = _board_images(rig, built, session)
+    scene = make_scene(built, board, recipe.sensor.psf_sigma_px)
+    names = [name for group in groups for name in group.names]
+    H_OP = np.concatenate([group.H_OP for group in groups])
+    H_CB = se3.inv(built.H_PC) @ se3.inv(H_OP) @ built.H_OB
+    rng = np.random.default_rng([recipe.seed, 6])
+    room, lamp_B = backdrop(built.lens.image_size, rng), rng.uniform(-0.18, 0.18, 2)
+    for k, name in enumerate(names):
+        _write_image(folder / name, response(scene.render(H_CB[k], lamp_B, room), np.random.default_rng([recipe.seed, 7, k])))
+        progress("board images", k + 1, len(names))
+    truth = folder / "truth"
+    write_poses(truth / "H_CB.csv", names, H_CB)
+    counts = {"station images": len(groups[0].names), "sweep images": sum(len(group.names) for group in groups[1:])}
+    if rig.mocap is None:
+        return counts
+    _write_mocap(folder, rig, built, groups, recording, recipe)
+    write_poses(truth / "H_OP.csv", names, H_OP, np.concatenate([group.t_camera_s for group in groups]))
+    write_yaml(truth / "handeye.yaml", _handeye_truth(rig, built, recording))
+    return counts | ({"mocap samples": len(recording.t_s)} if rig.mocap.file else {})
+
+
+def _still(recipe: Recipe) -> Recipe:
+    from dataclasses import replace
+
+    return replace(recipe, sweep_frames=0)
+
+
+def _board_images(rig: Rig, built: Built, session: Session) -> list[_BoardImages]:
+    """The stations take the names of camera.images, or of a folder stations/; the sweep a folder named like its csv."""
+    pattern = rig.camera.images[0] if rig.camera and rig.camera.images else "stations/*.png"
+    stations = [_numbered(pattern, "station", k) for k in range(len(session.station_s))]
+    groups = [_BoardImages(stations, session.station_H_OP, session.station_s + built.clock_offset_s)]
+    if len(session.sweep_s) and rig.mocap and len(rig.mocap.images) > 1:
+        stem = PurePosixPath(rig.mocap.images[1]).stem
+        sweep = [f"{stem}/{stem}_{k:03d}.png" for k in range(len(session.sweep_s))]
+        groups.append(_BoardImages(sweep, session.sweep_H_OP, session.sweep_s + built.clock_offset_s))
+    return groups
+
+
+def _numbered(pattern: str, word: str, index: int) -> str:
+    """``stations/*.png`` becomes ``stations/station_03.png``."""
+    path = PurePosixPath(pattern)
+    name = path.name.replace("*", f"{word}_{index:02d}") if path.name.count("*") == 1 else f"{word}_{index:02d}{path.suffix or '.png'}"
+    return (path.parent / name).as_posix()
+
+
+def _write_mocap(folder: Path, rig: Rig, built: Built, groups: Sequence[_BoardImages], recording: Recording, recipe: Recipe) -> None:
+    mocap = rig.mocap
+    if mocap is None:
+        return
+    if mocap.poses:
+        H = recording_at(recording, groups[0].t_camera_s - built.clock_offset_s)
+        H = se3.inv(H) if mocap.direction == "H_PO" else H
+        q = se3.quaternion(H[:, :3, :3])
+        lines = ["file,x_m,y_m,z_m,qx,qy,qz,qw"]
+        base = PurePosixPath(mocap.poses).parent
+        for k, name in enumerate(groups[0].names):
+            lines.append(f"{_relative(name, base)}," + ",".join(f"{value:.7f}" for value in (*H[k, :3, 3], *q[k])))
+        write_text(folder / mocap.poses, "\n".join(lines) + "\n")
+        return
+    if mocap.file:
+        tracked = (recording.t_s, recording.H_OP, recording.error_m, recording.markers_O)
+        write_motive(folder / mocap.file, mocap.body or "LightPanel", *tracked, recipe.tracking.rate_hz)
+    for csv_name, group in zip(mocap.images, groups, strict=False):
+        base = PurePosixPath(csv_name).parent
+        rows = [f"{_relative(name, base)},{t:.6f}" for name, t in zip(group.names, group.t_camera_s, strict=True)]
+        write_text(folder / csv_name, "\n".join(["file,time_s", *rows]) + "\n")
+
+
+def _relative(name: str, base: PurePosixPath) -> str:
+    return PurePosixPath(name).relative_to(base, walk_up=True).as_posix()
+
+
+def recording_at(recording: Recording, t_s: Array) -> Array:
+    """Reported poses (N, 4, 4) at times t_s (N,), of the samples that were not lost."""
+    seen = np.isfinite(recording.error_m)
+    return se3.interpolate(recording.H_OP[seen], recording.t_s[seen], t_s)
+
+
+def _handeye_truth(rig: Rig, built: Built, recording: Recording) -> dict[str, Any]:
+    note = "z_B = bow (m - 0.7 u^2 - 0.3 v^2 + twist u v), u, v from -1 to 1 over the corners, m so that the mean over the corners is 0"
+    clock = rig.mocap is not None and rig.mocap.file is not None
+    return {
+        "H_PC": built.H_PC,
+        "H_PD": built.H_PD,
+        "H_DC": built.H_DC,
+        "H_OB": built.H_OB,
+        "clock_offset_s": built.clock_offset_s if clock else None,
+        "bad_stations": [{"station": station, "why": why} for station, why in recording.bad_stations],
+        "marker_in_P_m": built.markers_P,
+        "board": {"bow_m": built.bow_m, "twist": built.twist, "note": note},
+    }
+
+
+def _write_captures(folder: Path, rig: Rig, built: Built, response: Response, recipe: Recipe, progress: Progress) -> dict[str, int]:
+    """Spheres, objects, the flat field, and the truth of lights, spheres and surfaces."""
+    truth = folder / "truth"
+    _write_lights(truth, built)
+    spheres = place_spheres(built, rig, np.random.default_rng([recipe.seed, 8]))
+    studio = Studio(built, recipe, response, spheres)
+    if rig.camera and rig.camera.flat_field:
+        _write_image(folder / rig.camera.flat_field, studio.flat(np.random.default_rng([recipe.seed, 9])))
+    total = len(rig.spheres) + len(rig.objects)
+    for done, (name, capture) in enumerate(sphere_captures(studio)):
+        _write_capture(folder / rig.spheres[name].images, capture)
+        progress("captures", done + 1, total)
+    if spheres:
+        found = {name: {"kind": s.kind, "centre_m": s.centre_C, "radius_m": s.radius_m} for name, s in spheres.items()}
+        write_yaml(truth / "spheres.yaml", found)
+    notes = {}
+    for done, (name, capture) in enumerate(object_captures(studio, list(rig.objects))):
+        _write_capture(folder / rig.objects[name], capture)
+        maps = {key: getattr(capture.truth, key) for key in ("normals", "depth", "albedo", "mask", "component")}
+        write_surface(truth / "objects" / f"{name}.npz", maps)
+        notes[name] = {"material": "diffuse", "note": capture.note}
+        progress("captures", len(rig.spheres) + done + 1, total)
+    if notes:
+        write_yaml(truth / "objects.yaml", notes)
+    return {"spheres": len(rig.spheres), "objects": len(rig.objects)}
+
+
+def _write_lights(truth: Path, built: Built) -> None:
+    entries: list[dict[str, Any]] = []
+    for light in built.lights:
+        entry: dict[str, Any] = {"name": light.name, "H_CL": light.H_CL}
+        entry |= {"H_DL": light.H_DL, **(light.setting or {})} if light.H_DL is not None else {}
+        entries.append(entry | {"intensity": light.intensity, "lit": len(light.power), "source_m": light.source_C})
+    write_yaml(truth / "lights.yaml", {"lights": entries})
+    write_leds(
+        truth / "leds.npz", {light.name: (light.position_C, light.axis_C, light.power) for light in built.lights}, built.lights[0].exponent
+    )
+    write_field(truth, built.points_C, {light.name: light.field(built.points_C) for light in built.lights})
+
+
+def _write_capture(folder: Path, capture: Capture) -> None:
+    for name, image in capture.images.items():
+        _write_image(folder / f"{name}.png", image)
+    lines = [f"exposure: {1e3 * capture.exposure_s:g} ms", "gain: 1.0"]
+    if capture.exposures_s:
+        lines.append("exposures: {" + ", ".join(f"{name}: {1e3 * seconds:g} ms" for name, seconds in capture.exposures_s.items()) + "}")
+    write_text(folder / "capture.yaml", "\n".join(lines) + "\n")
+
+
+def _write_image(path: Path, image: Stored) -> None:
+    """A noisy image packs best without a search for repeats, a dark one with runs: the smaller of the two is kept."""
+    import cv2
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    ways = [cv2.IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY, cv2.IMWRITE_PNG_STRATEGY_RLE] if path.suffix.lower() == ".png" else [None]
+    if not cv2.haveImageWriter(path.name):
+        raise InputError(
+            "cannot be written as an image", where=str(path), needed="a name that ends in .png or .tif", todo="change the pattern"
+        )
+    packed = [cv2.imencode(path.suffix, image, [] if way is None else [cv2.IMWRITE_PNG_STRATEGY, way])[1].tobytes() for way in ways]
+    path.write_bytes(min(packed, key=len))

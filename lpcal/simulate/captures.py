@@ -1,0 +1,176 @@
+"""Captures of spheres and objects: where they stand, how they are exposed, the images of each light."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.records.rig import Rig
+from lpcal.simulate import shapes
+from lpcal.simulate.built import Built
+from lpcal.simulate.mirror import highlight, led_image_sigma
+from lpcal.simulate.recipe import Recipe
+from lpcal.simulate.scene import MIRROR, Rendered, Scene, render
+from lpcal.simulate.sensor import Response, Stored, blur, splat
+
+EXPOSURE_S = 0.020
+BRIGHTEST = 0.60
+"""Of full scale: a white surface at the focus that faces the strongest light."""
+SHORT_PEAK = 0.6
+DEFAULT_SPHERE_M = 0.025
+CHROME_WALL, MATTE_WALL, OBJECT_WALL = 0.10, 0.06, 0.32
+
+
+@dataclass(frozen=True)
+class SphereTruth:
+    """Where a sphere really is."""
+
+    kind: str
+    centre_C: Array
+    radius_m: float
+
+
+@dataclass(frozen=True)
+class Capture:
+    """The images of one folder by name, its stated exposures, and the truth a pixel."""
+
+    images: dict[str, Stored]
+    exposure_s: float
+    exposures_s: dict[str, float]
+    truth: Rendered
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Studio:
+    """The rig at work on captures: exposure and room light are the same for all of them."""
+
+    built: Built
+    recipe: Recipe
+    response: Response
+    spheres: dict[str, SphereTruth] = field(default_factory=dict)
+
+    @property
+    def focus_irradiance(self) -> Array:
+        """Of each light at the focus."""
+        return np.array([np.linalg.norm(light.field(self.built.focus_C[None])) for light in self.built.lights])
+
+    @property
+    def gain(self) -> float:
+        """Share of the full well a unit of radiance, at the long exposure."""
+        return float(BRIGHTEST * np.pi / (0.75 * self.focus_irradiance.max() * (1 + self.recipe.ambient)))
+
+    @property
+    def ambient(self) -> float:
+        """The room's radiance on white."""
+        return float(self.recipe.ambient * self.focus_irradiance.mean() / np.pi * 0.75)
+
+    def sphere(self, name: str, rng: np.random.Generator) -> Capture:
+        """The capture of one sphere."""
+        truth = self.spheres[name]
+        chrome = truth.kind == "chrome"
+        waves = shapes.grain(0.25 * truth.radius_m, rng)
+        shape = shapes.sphere(truth.radius_m, None if chrome else waves)
+        turn = se3.rotation(np.zeros(3))
+        wall_m = float(truth.centre_C[2] + 4.5 * truth.radius_m)
+        scene = self._scene(
+            shape, se3.transform(turn, truth.centre_C), wall_m, CHROME_WALL if chrome else MATTE_WALL, chrome=chrome, rng=rng
+        )
+        rendered = render(self.built.lens, scene)
+        if not chrome:
+            return self._develop(rendered, rng, shape.note)
+        spots = [self._spots(truth, k) for k in range(len(self.built.lights))]
+        return self._develop(rendered, rng, "chrome", spots)
+
+    def item(self, name: str, index: int, rng: np.random.Generator) -> Capture:
+        """The capture of one object; its name picks the shape, or else its place in the list does."""
+        makers = list(shapes.SHAPES.values())
+        make = shapes.SHAPES.get(name, makers[index % 3])
+        lens, focus_C = self.built.lens, self.built.focus_C
+        half_m = focus_C[2] * min(lens.image_size[0] / lens.K[0, 0], lens.image_size[1] / lens.K[1, 1]) / 2
+        bare = make(0.56 * float(half_m))
+        shape = shapes.Shape(
+            bare.note, bare.bound_m, bare.pieces, bare.albedo, bare.texture, bare.texture_length_m, shapes.grain(bare.texture_length_m, rng)
+        )
+        x_C = focus_C + rng.uniform(-0.03, 0.03, 3) * half_m
+        H_CS = se3.transform(se3.rotation(rng.normal(0, [0.08, 0.25, 0.05])), x_C)
+        wall_m = float(x_C[2] + 1.25 * shape.bound_m + rng.uniform(0.02, 0.05))
+        scene = self._scene(shape, H_CS, wall_m, OBJECT_WALL, chrome=False, rng=rng)
+        return self._develop(render(lens, scene), rng, shape.note)
+
+    def flat(self, rng: np.random.Generator) -> Stored:
+        """The image of an evenly lit white card."""
+        width, height = self.built.lens.image_size
+        return self.response(np.full((height, width), 0.75), rng)
+
+    def _scene(self, shape: shapes.Shape, H_CS: Array, wall_m: float, albedo: float, *, chrome: bool, rng: np.random.Generator) -> Scene:
+        n_C = np.array([*rng.normal(0, 0.04, 2), -1.0])
+        panel_m = float(max((np.linalg.norm(light.H_CL[:2, 3]) for light in self.built.lights if light.H_DL is not None), default=0.05))
+        return Scene(
+            shape, H_CS, np.array([0, 0, wall_m]), n_C / np.linalg.norm(n_C), albedo, self.built.lights, self.ambient, chrome, 0.5 * panel_m
+        )
+
+    def _spots(self, truth: SphereTruth, k: int) -> Array:
+        """Light (H, W) of one light's mirror image, blurred."""
+        lens, light, sigma = self.built.lens, self.built.lights[k], self.recipe.sensor.psf_sigma_px
+        spots = np.zeros(lens.image_size[::-1])
+        pixels, flux = highlight(lens, truth.centre_C, truth.radius_m, light, MIRROR)
+        disc = led_image_sigma(lens, truth.centre_C, truth.radius_m, light, self.recipe.led_diameter_m)
+        for pixel, one in zip(pixels, flux, strict=True):
+            splat(spots, pixel, float(one), float(np.hypot(sigma, disc)))
+        return spots
+
+    def _develop(self, rendered: Rendered, rng: np.random.Generator, note: str, spots: list[Array] | None = None) -> Capture:
+        """Blur, expose and store: long images, the room alone, and short images where there are highlights."""
+        sigma, names = self.recipe.sensor.psf_sigma_px, [light.name for light in self.built.lights]
+        room = blur(rendered.room, sigma)
+        lit = [blur(light, sigma) + room for light in rendered.light]
+        if spots is not None:
+            lit = [light + spot for light, spot in zip(lit, spots, strict=True)]
+        images = {name: self.response(self.gain * light, rng) for name, light in zip(names, lit, strict=True)}
+        images["ambient"] = self.response(self.gain * room, rng)
+        exposures = {}
+        if spots is not None:
+            peak = max(float((light * self.response.vignetting).max()) for light in lit) * self.gain
+            short_s = float(f"{EXPOSURE_S * min(1.0, SHORT_PEAK / peak):.3g}")
+            for name, light in zip(names, lit, strict=True):
+                images[f"short_{name}"] = self.response(self.gain * short_s / EXPOSURE_S * light, rng)
+                exposures[f"short_{name}"] = short_s
+        return Capture(images, EXPOSURE_S, exposures, rendered, note)
+
+
+def place_spheres(built: Built, rig: Rig, rng: np.random.Generator) -> dict[str, SphereTruth]:
+    """Spheres all over the working volume, whole in the image, those of one kind apart from each other."""
+    found: dict[str, SphereTruth] = {}
+    scale = built.focus_C[2] / 0.35
+    for name, section in rig.spheres.items():
+        radius_m = section.radius or DEFAULT_SPHERE_M
+        best: tuple[float, Array] | None = None
+        for _ in range(60):
+            centre_C = built.focus_C + scale * rng.uniform([-0.055, -0.045, -0.035], [0.055, 0.045, 0.035])
+            around = centre_C + 1.35 * radius_m * np.concatenate([np.eye(3)[:2], -np.eye(3)[:2]])
+            if not built.lens.inside(around, 4):
+                continue
+            apart = min(
+                (float(np.linalg.norm(centre_C - other.centre_C)) for other in found.values() if other.kind == section.kind), default=1.0
+            )
+            if best is None or apart > best[0]:
+                best = apart, centre_C
+        found[name] = SphereTruth(section.kind, best[1] if best else built.focus_C, radius_m)
+    return found
+
+
+def sphere_captures(studio: Studio) -> Iterator[tuple[str, Capture]]:
+    """All spheres by name."""
+    for index, name in enumerate(studio.spheres):
+        yield name, studio.sphere(name, np.random.default_rng([studio.recipe.seed, 4, index]))
+
+
+def object_captures(studio: Studio, names: list[str]) -> Iterator[tuple[str, Capture]]:
+    """All objects by name."""
+    for index, name in enumerate(names):
+        yield name, studio.item(name, index, np.random.default_rng([studio.recipe.seed, 5, index]))

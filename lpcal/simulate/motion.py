@@ -1,0 +1,172 @@
+r"""Where the panel is at every moment of a session, and when the camera looks.
+
+Symbols: ``H_CB(t)`` the static board seen from the camera, ``H_OP = H_OB H_CB^-1 H_PC^-1`` the panel that goes with it. The panel rests
+at each station, goes to the next with the least jerk, and ends with one slow sweep; a hand's tremor lies over all of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.simulate.built import Built
+from lpcal.simulate.recipe import Recipe
+
+MARGIN_SQUARES = 0.6
+"""White border of the board, in squares."""
+TURN_RATE_RAD_S = 1.2
+SPEED_M_S = 0.9
+LEAD_IN_S = 1.0
+
+
+@dataclass(frozen=True)
+class Session:
+    """The panel's motion and the camera's moments, both on the mocap system's clock."""
+
+    t_s: Array
+    """Mocap samples (N,)."""
+    H_OP: Array
+    """True panel poses (N, 4, 4) at them."""
+    station_s: Array
+    station_H_OP: Array
+    sweep_s: Array
+    sweep_H_OP: Array
+    dwells_s: Array
+    """(S, 2) beginning and end of the rest at each station."""
+
+
+def board_outline(corners: tuple[int, int], square_m: tuple[float, float]) -> Array:
+    """Points (K, 3) in B round the board with its white border."""
+    low, high = np.full(2, -1 - MARGIN_SQUARES), np.array(corners) + MARGIN_SQUARES
+    s = np.linspace(0, 1, 9)
+    x, y = (low[i] + (high[i] - low[i]) * s for i in range(2))
+    edge = [np.stack([x, np.full(9, end)], axis=1) for end in (low[1], high[1])]
+    edge += [np.stack([np.full(9, end), y], axis=1) for end in (low[0], high[0])]
+    flat = np.concatenate(edge) * square_m
+    return np.column_stack([flat, np.zeros(len(flat))])
+
+
+def station_poses(built: Built, corners: tuple[int, int], square_m: tuple[float, float], count: int, rng: np.random.Generator) -> Array:
+    """H_CB (count, 4, 4): the board all over the image, near and far, tilted and turned, always whole."""
+    width, height = built.lens.image_size
+    outline_B = board_outline(corners, square_m)
+    centre_B = outline_B.mean(axis=0)
+    diagonal_m = float(np.linalg.norm(np.ptp(outline_B, axis=0)))
+    near_m = 1.02 * diagonal_m * built.lens.K[0, 0] / float(np.hypot(width, height)) / 0.9
+    cells = [(i, j) for j in range(4) for i in range(5)]
+    order = rng.permutation(len(cells))
+    poses = []
+    for index in range(count):
+        i, j = cells[order[index % len(cells)]]
+        for attempt in range(400):
+            share = np.array([(i + rng.uniform()) / 5, (j + rng.uniform()) / 4])
+            target = 0.5 + (share - 0.5) * (0.98 - 0.001 * attempt)
+            distance_m = near_m * rng.uniform(1.05, 1.5 + 1.4 * min(attempt, 200) / 200)
+            tilt = rng.uniform(np.radians(8), np.radians(38))
+            about = rng.uniform(0, 2 * np.pi)
+            roll = rng.uniform(-0.8, 0.8)
+            pose = board_pose(built, target * [width, height], distance_m, tilt * np.array([np.cos(about), np.sin(about)]), roll, centre_B)
+            if built.lens.inside(se3.apply(pose, outline_B), 5):
+                break
+        else:
+            pose = board_pose(built, np.array([width, height]) / 2, 2 * near_m, np.zeros(2) + 0.2, 0.0, centre_B)
+        poses.append(pose)
+    return np.array(poses)
+
+
+def board_pose(built: Built, pixel: Array, distance_m: float, tilt_rad: Array, roll_rad: float, centre_B: Array) -> Array:
+    """H_CB (4, 4) of a board whose centre is seen at a pixel, at a distance, tilted (2,) about x and y and rolled."""
+    R = se3.rotation(np.array([*tilt_rad, 0.0])) @ se3.rotation(np.array([0, 0, roll_rad]))
+    ray = np.array([*built.lens.plane(np.asarray(pixel)[None])[0], 1.0])
+    return se3.transform(R, distance_m * ray / np.linalg.norm(ray) - R @ centre_B)
+
+
+def plan(built: Built, corners: tuple[int, int], square_m: tuple[float, float], recipe: Recipe) -> Session:
+    """The whole session: stations, then the sweep."""
+    rng = np.random.default_rng([recipe.seed, 2])
+    stations = _panel(built, station_poses(built, corners, square_m, recipe.stations, rng))
+    sweep = _panel(built, _sweep_poses(built, corners, square_m, recipe, rng))
+    keys = np.concatenate([stations, sweep[:1]])
+    starts = [LEAD_IN_S]
+    travel = [_travel_s(keys[k], keys[k + 1]) for k in range(len(keys) - 1)]
+    for k in range(len(keys) - 1):
+        starts.append(starts[-1] + recipe.dwell_s + travel[k])
+    dwells = np.stack([starts, np.array(starts) + recipe.dwell_s], axis=1)
+    step = 1 / recipe.camera_rate_hz
+    sweep_s = dwells[-1, 1] + np.arange(1, recipe.sweep_frames + 1) * step
+    end = float(sweep_s[-1] + LEAD_IN_S) if recipe.sweep_frames else float(dwells[-1, 1])
+    t_s = np.arange(0, end, 1 / recipe.tracking.rate_hz)
+    station_s = dwells[:-1].mean(axis=1) + rng.uniform(-0.1, 0.1, len(stations)) * recipe.dwell_s
+    motion = _Motion(keys, dwells, sweep, float(step / SWEEP_OVERSAMPLING), _tremor(rng))
+    return Session(t_s, motion(t_s), station_s, motion(station_s), sweep_s, motion(sweep_s), dwells[:-1])
+
+
+SWEEP_OVERSAMPLING = 10
+
+
+@dataclass(frozen=True)
+class _Motion:
+    keys: Array
+    dwells_s: Array
+    sweep: Array
+    """H_OP at even steps from the end of the last rest on."""
+    sweep_step_s: float
+    tremor: tuple[Array, Array, Array]
+
+    def __call__(self, t_s: Array) -> Array:
+        """H_OP (N, 4, 4) at times t_s (N,)."""
+        leg = np.clip(np.searchsorted(self.dwells_s[:, 1], t_s), 0, len(self.keys) - 1)
+        before = np.maximum(leg - 1, 0)
+        travel = np.maximum(self.dwells_s[leg, 0] - self.dwells_s[before, 1], 1e-9)
+        s = np.clip((t_s - self.dwells_s[before, 1]) / travel, 0, 1)
+        s = np.where(leg > 0, s**3 * (10 - 15 * s + 6 * s * s), 1.0)
+        start, goal = self.keys[before], self.keys[leg]
+        turn = se3.rotation_vector(goal[:, :3, :3] @ np.swapaxes(start[:, :3, :3], -1, -2))
+        R = se3.rotation(s[:, None] * turn) @ start[:, :3, :3]
+        H_OP = se3.transform(R, start[:, :3, 3] + s[:, None] * (goal[:, :3, 3] - start[:, :3, 3]))
+        after = t_s > self.dwells_s[-1, 1]
+        if np.any(after) and len(self.sweep) > 1:
+            steps = np.arange(len(self.sweep)) * self.sweep_step_s + self.dwells_s[-1, 1]
+            H_OP[after] = se3.interpolate(self.sweep, steps, t_s[after])
+        rate, phase, amplitude = self.tremor
+        xi = np.sum(amplitude * np.sin(2 * np.pi * rate * t_s[:, None, None] + phase), axis=1)
+        return np.asarray(H_OP @ se3.exp(xi))
+
+
+def _panel(built: Built, H_CB: Array) -> Array:
+    return np.asarray(built.H_OB @ se3.inv(H_CB) @ se3.inv(built.H_PC))
+
+
+def _travel_s(H_a: Array, H_b: Array) -> float:
+    turn = float(se3.angle_rad(H_b[:3, :3] @ H_a[:3, :3].T))
+    return max(0.35, turn / TURN_RATE_RAD_S, float(np.linalg.norm(H_b[:3, 3] - H_a[:3, 3])) / SPEED_M_S)
+
+
+def _tremor(rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Rates (Hz), phases and amplitudes (4, 6) of a hand's tremor: 0.02 degrees, 0.15 mm."""
+    scale = np.array([np.radians(0.02)] * 3 + [0.00015] * 3) / 2
+    return rng.uniform(0.6, 4, (4, 6)), rng.uniform(0, 2 * np.pi, (4, 6)), scale * rng.uniform(0.5, 1.5, (4, 6))
+
+
+def _sweep_poses(built: Built, corners: tuple[int, int], square_m: tuple[float, float], recipe: Recipe, rng: np.random.Generator) -> Array:
+    """H_CB at even steps of the sweep: tilts, roll, place and distance go round slowly, easing in."""
+    width, height = built.lens.image_size
+    outline_B = board_outline(corners, square_m)
+    centre_B = outline_B.mean(axis=0)
+    near_m = float(np.linalg.norm(np.ptp(outline_B, axis=0))) * built.lens.K[0, 0] / float(np.hypot(width, height))
+    length_s = (recipe.sweep_frames + recipe.camera_rate_hz * LEAD_IN_S) / recipe.camera_rate_hz
+    t = np.arange(0, length_s, 1 / (recipe.camera_rate_hz * SWEEP_OVERSAMPLING)) if recipe.sweep_frames else np.zeros(1)
+    warped = np.where(t < 0.5, t * t, t - 0.25)
+    rate, phase = rng.uniform(0.3, 0.5, 6), rng.uniform(0, 2 * np.pi, 6)
+    wave = np.sin(2 * np.pi * rate * warped[:, None] + phase)
+    for shrink in np.linspace(1, 0.2, 17):
+        pixel = np.array([width, height]) * (0.5 + shrink * np.array([0.1, 0.08]) * wave[:, :2])
+        distance_m = near_m * (1.75 + 0.15 * wave[:, 2])
+        angles = np.radians([22, 22, 25]) * wave[:, 3:]
+        poses = np.array([board_pose(built, p, d, a[:2], a[2], centre_B) for p, d, a in zip(pixel, distance_m, angles, strict=True)])
+        if all(built.lens.inside(se3.apply(pose, outline_B), 5) for pose in poses):
+            break
+    return poses

@@ -1,0 +1,62 @@
+"""Rays against a shape: where they hit it, and whether it stands between two points. Sphere tracing; all arrays in S."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.simulate.shapes import Shape
+
+STEPS = 160
+TOUCH = 2e-5
+"""A ray has hit when it is this near, in bounding radii."""
+LEAVE = 1e-3
+"""A shadow ray starts this far off the surface, in bounding radii."""
+
+
+def cast(shape: Shape, o_S: Array, d_S: Array) -> Array:
+    """Distances (N,) along unit rays d_S (N, 3) from o_S (3,) to the shape, inf where they miss."""
+    near, far = bounding(o_S, d_S, shape.bound_m)
+    hit = np.full(len(d_S), np.inf)
+    active = np.flatnonzero(near < far)
+    t = np.maximum(near[active], 0)
+    for _ in range(STEPS):
+        if not len(active):
+            break
+        gap = shape.distance(o_S + t[:, None] * d_S[active])
+        touched = gap < TOUCH * shape.bound_m
+        hit[active[touched]] = t[touched]
+        t = t + gap
+        on = ~touched & (t < far[active])
+        active, t = active[on], t[on]
+    return hit
+
+
+def blocked(shape: Shape, x_S: Array, target_S: Array) -> Mask:
+    """Whether the shape stands between points x_S (N, 3) and targets (N, 3)."""
+    to = target_S - x_S
+    length = np.linalg.norm(to, axis=1)
+    d_S = to / length[:, None]
+    near, far = bounding(x_S, d_S, shape.bound_m)
+    found = np.zeros(len(x_S), bool)
+    active = np.flatnonzero((near < far) & (far > 0))
+    t = np.maximum(near[active], LEAVE * shape.bound_m)
+    for _ in range(STEPS):
+        if not len(active):
+            break
+        gap = shape.distance(x_S[active] + t[:, None] * d_S[active])
+        touched = gap < TOUCH * shape.bound_m
+        found[active[touched]] = True
+        t = t + np.maximum(gap, 2e-4 * shape.bound_m)
+        on = ~touched & (t < np.minimum(far, length)[active])
+        active, t = active[on], t[on]
+    return found
+
+
+def bounding(o_S: Array, d_S: Array, radius_m: float) -> tuple[Array, Array]:
+    """Where unit rays enter and leave the bounding sphere; (inf, -inf) where they miss."""
+    along = -np.sum(o_S * d_S, axis=-1)
+    across2 = np.sum(o_S * o_S, axis=-1) - along**2
+    inside2 = radius_m**2 - across2
+    half = np.sqrt(np.maximum(inside2, 0))
+    return np.where(inside2 > 0, along - half, np.inf), np.where(inside2 > 0, along + half, -np.inf)
