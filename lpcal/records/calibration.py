@@ -97,6 +97,8 @@ class ViewVerdict:
     residual_m: float | None = None
     residual_rad: float | None = None
     corners: int = 0
+    rejected: int = 0
+    """Corners that did not fit."""
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,7 @@ class CameraSolution:
     """One standard deviation of a corner coordinate."""
     evidence: dict[str, object] = field(default_factory=dict)
     """How the model was chosen, in figures that go into camera.yaml."""
+    warnings: tuple[str, ...] = ()
     cameramodel: str = ""
     """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
 

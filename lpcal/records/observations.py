@@ -42,8 +42,6 @@ class BoardView:
     """Corners (ny*nx, 2), in the order of `Board.points_B`, NaN where a corner was not seen; None: no board."""
     why: str | None = None
     """Why there is no board, in words."""
-    other_corners: tuple[int, int] | None = None
-    """Another count of corners that was seen in place of the one asked for."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +66,12 @@ class BoardPoses:
     """(N, M, 2) the corners that the poses come from, NaN where not seen; None: poses from elsewhere."""
     points_B: Array | None = None
     """(M, 3) the corners in B, warped as found."""
+    covariance: Array | None = None
+    """(N, 6, 6) of the left perturbations, the camera taken as exact."""
+    rms_px: Array | None = None
+    """(N,) residual of the corners, a coordinate."""
+    corner_sigma_px: float = float("nan")
+    """One standard deviation of a corner coordinate."""
 
 
 @dataclass(frozen=True)

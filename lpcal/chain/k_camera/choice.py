@@ -1,0 +1,91 @@
+"""Which lens model, and whether the board is flat: decided by how well halves of the views agree, not by the residual.
+
+Symbols: the views are split in two halves a, b; a candidate (model, warp) is solved on each; d its projection difference over the part
+of the imager that corners cover::
+
+    score = sqrt(mean over splits and pixels of |d|^2)
+
+The residual always falls with more parameters, the score does not. A candidate with more parameters must be better by MARGIN.
+Source: cross-validation as in mrcal's documentation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.chain.k_camera.problem import DISTORTIONS, CornerProblem, Solver
+from lpcal.errors import LpcalError
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.camera_difference import pixel_grid, projection_difference
+from lpcal.records.calibration import Camera
+
+MARGIN = 0.95
+FEWEST_VIEWS = 8
+"""Halves of fewer views than this, together, decide nothing."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A lens model and a board, and what speaks for them."""
+
+    model: str
+    warp: bool
+    score_px: float
+    """NaN: not tried."""
+
+    @property
+    def parameters(self) -> int:
+        """How many numbers it fits beside the poses."""
+        return DISTORTIONS.get(self.model, 99) + 2 * self.warp
+
+
+def choose(problem: CornerProblem, solver: Solver, models: Iterable[str], warps: Iterable[bool]) -> tuple[Candidate, list[Candidate]]:
+    """The candidate to take, and all of them with their scores."""
+    candidates = [Candidate(model, warp, float("nan")) for model in models for warp in warps]
+    if len(candidates) == 1 or len(problem.corners_px) < FEWEST_VIEWS:
+        return candidates[0], candidates
+    tried = [Candidate(c.model, c.warp, cross_validate(problem, solver, c.model, c.warp)) for c in candidates]
+    chosen = min(tried, key=lambda c: c.parameters)
+    for candidate in sorted(tried, key=lambda c: c.parameters):
+        if candidate.score_px < chosen.score_px * (MARGIN if candidate.parameters > chosen.parameters else 1.0):
+            chosen = candidate
+    return chosen, tried
+
+
+def cross_validate(problem: CornerProblem, solver: Solver, model: str, warp: bool) -> float:
+    """The score of one candidate in pixels; infinite where a half cannot be solved."""
+    pixels = covered_pixels(problem)
+    squares = []
+    for half in splits(len(problem.corners_px)):
+        try:
+            first, second = solver(problem.part(half), model, warp).camera, solver(problem.part(~half), model, warp).camera
+        except (LpcalError, np.linalg.LinAlgError):
+            return float("inf")
+        squares.append(np.mean(np.sum(difference(first, second, pixels) ** 2, axis=1)))
+    return float(np.sqrt(np.mean(squares)))
+
+
+def difference(first: Camera, second: Camera, pixels: Array) -> Array:
+    """Projection difference (N, 2) at the pixels where the first camera can be inverted."""
+    rays_C = first.unproject(pixels)
+    inverted = np.linalg.norm(first.project(rays_C) - pixels, axis=1) < 1e-3
+    return projection_difference(pixels[inverted], rays_C[inverted], second.project)[0]
+
+
+def splits(count: int) -> list[Mask]:
+    """Three ways (count,) to halve the views, none of which keeps neighbours together for long."""
+    k = np.arange(count)
+    return [k % 2 == 0, k % 4 < 2, (k % 4) % 3 == 0]
+
+
+def covered_pixels(problem: CornerProblem) -> Array:
+    """Pixels (N, 2) of a grid over the imager, inside the hull of all corners."""
+    from scipy.spatial import ConvexHull
+
+    corners_px = problem.corners_px[np.isfinite(problem.corners_px).all(axis=-1)]
+    sides = ConvexHull(corners_px).equations
+    grid = pixel_grid(problem.image_size)
+    return grid[np.all(grid @ sides[:, :2].T + sides[:, 2] <= 0, axis=1)]

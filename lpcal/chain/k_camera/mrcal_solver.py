@@ -1,0 +1,238 @@
+"""The intrinsics by mrcal: regularised lens models, outliers rejected, the board's bow along x and along y estimated.
+
+Symbols: intrinsics (fx, fy, cx, cy, distortion...), bow k along an axis with xi from 0 to 1: ``z = 4 k xi (1 - xi)``; J the derivative
+of all measurements (corners and regularisation) by all unknowns, J_q its rows of corners::
+
+    covariance = sigma^2 (J'J)^-1 J_q'J_q (J'J)^-1
+
+The order of the solve: a stereographic lens, poses alone, then its core; small distortions appended; all with outlier rejection; then
+the bow. Source: mrcal's documentation (formulation, uncertainty).
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, parameter_names, rms
+from lpcal.errors import ConvergenceError
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Camera
+
+FOCAL_GUESSES = (0.9, 0.5, 1.8, 3.6)
+"""In units of the image's width; the first that leads to a fit under GOOD_START is taken."""
+GOOD_START = 0.01
+"""rms of a start without distortion, in units of the image's width."""
+SPLINE_PX = 40
+"""About so many pixels between the knots of a splined lens."""
+
+
+def solve(problem: CornerProblem, model: str, warp: bool) -> CameraFit:
+    """Intrinsics, poses and the board's bow.
+
+    Raises
+    ------
+    ConvergenceError
+        mrcal finds no solution from any start.
+    """
+    import mrcal
+
+    with silenced():
+        inputs = _start(problem)
+        _append_lens(inputs, problem, model)
+        mrcal.optimize(**inputs)
+        if warp:
+            inputs |= {"calobject_warp": np.zeros(2), "do_optimize_calobject_warp": True}
+            mrcal.optimize(**inputs)
+        return _fit(problem, model, inputs)
+
+
+def _start(problem: CornerProblem) -> dict[str, Any]:
+    """Optimisation inputs with poses and a stereographic core, from whichever guess of the focal length fits best."""
+    import mrcal
+
+    width = problem.image_size[0]
+    best: tuple[float, dict[str, Any]] = (np.inf, {})
+    for guess in FOCAL_GUESSES:
+        inputs = _inputs(problem)
+        try:
+            core, _, rt_CB = mrcal.seed_stereographic(
+                imagersizes=inputs["imagersizes"],
+                focal_estimate=guess * width,
+                indices_frame_camera=np.ascontiguousarray(inputs["indices_frame_camintrinsics_camextrinsics"][:, :2]),
+                observations=inputs["observations_board"],
+                object_spacing=inputs["calibration_object_spacing"],
+            )
+            inputs |= {"intrinsics": np.array(core, dtype=float), "rt_ref_frame": np.array(rt_CB, dtype=float)}
+            mrcal.optimize(**inputs)
+            inputs["do_optimize_intrinsics_core"] = True
+            error = mrcal.optimize(**inputs)["rms_reproj_error__pixels"]
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+            continue
+        if error < best[0] and np.all(inputs["intrinsics"][0, :2] > 0):
+            best = (error, inputs)
+        if error < GOOD_START * width:
+            break
+    if not best[1]:
+        raise ConvergenceError(
+            "no start for the intrinsics leads anywhere", needed="board corners of a central camera", todo="look at the corners found"
+        )
+    return best[1]
+
+
+def _inputs(problem: CornerProblem) -> dict[str, Any]:
+    """All keys that mrcal asks for, unused ones None."""
+    count = len(problem.corners_px)
+    columns, rows = problem.board.corners
+    seen = np.isfinite(problem.corners_px).all(axis=-1, keepdims=True)
+    observations = np.concatenate([np.where(seen, problem.corners_px, 0.0), np.where(seen, 1.0, -1.0)], axis=-1)
+    indices = np.stack([np.arange(count), np.zeros(count), -np.ones(count)], axis=1)
+    return {
+        "intrinsics": None,
+        "rt_cam_ref": None,
+        "rt_ref_frame": None,
+        "points": None,
+        "observations_board": np.ascontiguousarray(observations.reshape(count, rows, columns, 3)),
+        "indices_frame_camintrinsics_camextrinsics": np.ascontiguousarray(indices, dtype=np.int32),
+        "observations_point": None,
+        "indices_point_camintrinsics_camextrinsics": None,
+        "observations_point_triangulated": None,
+        "indices_point_triangulated_camintrinsics_camextrinsics": None,
+        "lensmodel": "LENSMODEL_STEREOGRAPHIC",
+        "imagersizes": np.array([problem.image_size], dtype=np.int32),
+        "calobject_warp": None,
+        "do_optimize_intrinsics_core": False,
+        "do_optimize_intrinsics_distortions": False,
+        "do_optimize_extrinsics": False,
+        "do_optimize_frames": True,
+        "do_optimize_calobject_warp": False,
+        "calibration_object_spacing": float(problem.board.square_m[0]),
+        "point_min_range": 1e-3,
+        "point_max_range": 1e3,
+        "do_apply_outlier_rejection": False,
+        "do_apply_regularization": False,
+        "verbose": False,
+        "imagepaths": None,
+    }
+
+
+def _append_lens(inputs: dict[str, Any], problem: CornerProblem, model: str) -> None:
+    """Give the lens its model, with distortions that are small but not at their saddle."""
+    import mrcal
+
+    lensmodel = f"LENSMODEL_{model.upper()}" if model in DISTORTIONS else _spline(inputs, problem)
+    count = mrcal.lensmodel_num_params(lensmodel) - 4
+    small = 1e-6 * np.random.default_rng(0).uniform(-1, 1, (1, count))
+    inputs |= {
+        "lensmodel": lensmodel,
+        "intrinsics": np.concatenate([inputs["intrinsics"], small], axis=1),
+        "do_optimize_intrinsics_core": model in DISTORTIONS,
+        "do_optimize_intrinsics_distortions": True,
+        "do_apply_regularization": True,
+        "do_apply_outlier_rejection": True,
+    }
+
+
+def _spline(inputs: dict[str, Any], problem: CornerProblem) -> str:
+    """The splined lens model whose knots cover the imager a little beyond its edges."""
+    width, height = problem.image_size
+    fov_deg = 2 * np.degrees(2 * np.arctan(0.5 * width / 2 / inputs["intrinsics"][0, 0])) * 1.15
+    columns = int(np.clip(round(width / SPLINE_PX), 6, 30))
+    rows = max(5, round(columns * height / width))
+    return f"LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx={columns}_Ny={rows}_fov_x_deg={fov_deg:.0f}"
+
+
+def _fit(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> CameraFit:
+    import mrcal
+
+    H_CB, points_B = _geometry(problem, inputs)
+    camera = _camera(problem, model, inputs)
+    seen = np.isfinite(problem.corners_px).all(axis=-1)
+    residual_px = np.full(problem.corners_px.shape, np.nan)
+    projected = camera.project(se3.apply(H_CB, points_B))
+    residual_px[seen] = problem.corners_px[seen] - projected[seen]
+    inlier = seen & (inputs["observations_board"][..., 2].reshape(seen.shape) > 0)
+    covariance, freedom = _covariance(inputs, int(inlier.sum()))
+    sigma_px = float(np.sqrt(np.sum(residual_px[inlier] ** 2) / max(freedom, 1)))
+    names = parameter_names(model) if model in DISTORTIONS else ()
+    camera = Camera(
+        **{
+            **vars(camera),
+            "rms_px": rms(residual_px, inlier),
+            "parameters": names,
+            "covariance": sigma_px**2 * covariance if names else None,
+        }
+    )
+    text = io.StringIO()
+    mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0).write(text)
+    bow = inputs["calobject_warp"]
+    warp_m = None if bow is None else (float(bow[0]), float(bow[1]))
+    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, warp_m, text.getvalue())
+
+
+def _geometry(problem: CornerProblem, inputs: dict[str, Any]) -> tuple[Array, Array]:
+    """H_CB and points_B with the mean plane at z = 0."""
+    import mrcal
+
+    columns, rows = problem.board.corners
+    grid_B = mrcal.ref_calibration_object(
+        columns, rows, inputs["calibration_object_spacing"], calobject_warp=inputs["calobject_warp"]
+    ).reshape(-1, 3)
+    lift = np.array([0.0, 0.0, grid_B[:, 2].mean()])
+    rt_CB = inputs["rt_ref_frame"]
+    H_CB = se3.transform(se3.rotation(rt_CB[:, :3]), rt_CB[:, 3:])
+    return H_CB @ se3.transform(np.eye(3), lift), grid_B - lift
+
+
+def _camera(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> Camera:
+    vector = inputs["intrinsics"][0]
+    K = np.array([[vector[0], 0, vector[2]], [0, vector[1], vector[3]], [0, 0, 1.0]])
+    if model in DISTORTIONS:
+        return Camera(problem.image_size, model, K, vector[4:].copy())
+    return Camera(problem.image_size, model, K, np.zeros(0), lensmodel=inputs["lensmodel"], spline=vector.copy())
+
+
+def _covariance(inputs: dict[str, Any], corners: int) -> tuple[Array, int]:
+    """Covariance (P, P) of the intrinsics for corners of unit sigma, and the degrees of freedom of the corners."""
+    import mrcal
+
+    _, _, J, factor = mrcal.optimizer_callback(**inputs)
+    states = J.shape[1]
+    freedom = 2 * corners - states
+    first = mrcal.state_index_intrinsics(0, **inputs)
+    count = mrcal.num_intrinsics_optimization_params(**inputs)
+    if factor is None or count > 12:
+        return np.full((count, count), np.nan), freedom
+    picks = np.zeros((count, states))
+    picks[range(count), range(first, first + count)] = 1.0
+    solved = factor.solve_xt_JtJ_bt(picks)
+    observed = J[: mrcal.num_measurements_boards(**inputs)] @ solved.T
+    scale = np.ones(states)
+    mrcal.unpack_state(scale, **inputs)
+    scale = scale[first : first + count]
+    return scale[:, None] * (observed.T @ observed) * scale, freedom
+
+
+@contextmanager
+def silenced() -> Iterator[None]:
+    """Keep mrcal's C code from the terminal: it writes straight to the descriptors of stdout and stderr."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [os.dup(1), os.dup(2)]
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        os.dup2(kept[0], 1)
+        os.dup2(kept[1], 2)
+        for descriptor in (*kept, nowhere):
+            os.close(descriptor)

@@ -1,0 +1,68 @@
+"""What every solver of the intrinsics takes and gives.
+
+Symbols: corner m of view k, pixel q_km; board points x_B,m; ``q_km = project(K, H_CB[k] x_B,m)`` plus noise of `sigma_px` a coordinate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import Camera
+from lpcal.records.observations import Board
+
+DISTORTIONS = {"opencv4": 4, "opencv5": 5, "opencv8": 8}
+CORE = ("fx", "fy", "cx", "cy")
+COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
+
+
+@dataclass(frozen=True)
+class CornerProblem:
+    """The corners of all views in which the board was found."""
+
+    board: Board
+    image_size: tuple[int, int]
+    corners_px: Array
+    """(N, M, 2) in the order of ``board.points_B()``, NaN where one was not seen."""
+
+    def part(self, rows: Mask) -> CornerProblem:
+        """Some of the views."""
+        return replace(self, corners_px=self.corners_px[rows])
+
+
+@dataclass(frozen=True)
+class CameraFit:
+    """What a solver found with one lens model."""
+
+    camera: Camera
+    """Covariance included."""
+    H_CB: Array
+    """(N, 4, 4)."""
+    points_B: Array
+    """(M, 3), mean plane z = 0."""
+    inlier: Mask
+    """(N, M) seen and used."""
+    residual_px: Array
+    """(N, M, 2) seen less projected, outliers too; NaN where not seen."""
+    sigma_px: float
+    """One standard deviation of a corner coordinate, degrees of freedom counted."""
+    warp_m: tuple[float, float] | None
+    """Deflection of the board's middle along x and along y; None: taken as flat."""
+    cameramodel: str = ""
+
+
+type Solver = Callable[[CornerProblem, str, bool], CameraFit]
+"""A problem, a lens model, and whether the board may be warped."""
+
+
+def parameter_names(model: str) -> tuple[str, ...]:
+    """Names of a model's parameters, in the order of its covariance."""
+    return CORE + COEFFICIENTS[: DISTORTIONS[model]]
+
+
+def rms(residual_px: Array, inlier: Mask) -> float:
+    """Root mean square a coordinate over the inliers."""
+    return float(np.sqrt(np.mean(residual_px[inlier] ** 2))) if inlier.any() else float("nan")

@@ -1,0 +1,137 @@
+"""The board's inner corners in an image, to a few hundredths of a pixel, in the board's own order.
+
+Symbols: corner (i, j) of nx along x and ny along y, row j * nx + i of the result; spacing s, the distance of neighbouring corners in
+pixels. Two detectors of OpenCV find the grid, the quads of the classic one first (it is faster and finds more on distorted lenses),
+the sector-based one (SB) where it fails; neither is exact, so every corner is refined to the saddle of its window, whose half side is
+0.4 s. Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
+
+The order: x to y turns clockwise as seen (z of B points away from the camera); of the ends that are left, the one whose outer square is
+black; where the pattern does not tell, the one with x most to the right in the image, so that views of one roll agree.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
+from lpcal.geometry.arrays import Array, Image
+from lpcal.records.observations import Board, BoardView
+
+DETECTOR_VERSION = 1
+"""Part of the key under which detections are kept."""
+WINDOW_SHARE = 0.4
+"""Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
+LARGE_PX = 2000
+"""Images of a longer side are searched at half size first."""
+SMALL_SPACING_PX = 5.0
+"""Corners closer than this cannot be refined."""
+
+
+def find_board(image: Array | Image, board: Board, name: str = "") -> BoardView:
+    """Look for the board in a grey image (H, W) of any scale and type.
+
+    Returns
+    -------
+    The corners (ny*nx, 2) in the order of ``board.points_B()``, NaN where one was not seen; or None and why, in words, and another
+    count of corners where that is what the image shows.
+    """
+    grey = _stretched(image)
+    rough = _search(grey, board.corners)
+    return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _what_else(grey))
+
+
+def count_corners(image: Array | Image) -> tuple[int, int] | None:
+    """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows."""
+    import cv2
+
+    grey = _stretched(image)
+    try:
+        found, _, squares = cv2.findChessboardCornersSBWithMeta(grey, (3, 3), cv2.CALIB_CB_LARGER | cv2.CALIB_CB_NORMALIZE_IMAGE)
+    except cv2.error:
+        return None
+    if not found or squares is None:
+        return None
+    short, long = sorted(squares.shape[:2])
+    rough = _search(grey, (long, short))
+    return None if rough is None or any(beyond(grey, rough)) else (long, short)
+
+
+def _stretched(image: Array | Image) -> Array:
+    """8 bit, the darkest and brightest half percent clipped."""
+    low, high = np.percentile(image[::2, ::2], [0.5, 99.5])
+    if image.dtype == np.uint8 and high - low > 60:
+        return image
+    return np.asarray(np.clip((image.astype(np.float32) - low) * (255.0 / max(high - low, 1e-9)), 0, 255).astype(np.uint8))
+
+
+def _search(grey: Array, corners: tuple[int, int]) -> Array | None:
+    """Rough corners (ny, nx, 2) by whichever detector finds them."""
+    import cv2
+
+    shrink = 0.5 if max(grey.shape) > LARGE_PX else 1.0
+    sizes = [shrink, 1.0] if shrink < 1 else [1.0, 2.0] if max(grey.shape) < LARGE_PX / 2 else [1.0]
+    for size in sizes:
+        scaled = (
+            grey if size == 1 else cv2.resize(grey, None, fx=size, fy=size, interpolation=cv2.INTER_AREA if size < 1 else cv2.INTER_CUBIC)
+        )
+        for detector in (_classic, _sector_based):
+            found = detector(scaled, corners)
+            if found is not None:
+                return np.asarray((found.reshape(corners[1], corners[0], 2).astype(float) + 0.5) / size - 0.5)
+    return None
+
+
+def _classic(grey: Array, corners: tuple[int, int]) -> Array | None:
+    import cv2
+
+    found, places = cv2.findChessboardCorners(grey, corners, None, cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE)
+    return places if found else None
+
+
+def _sector_based(grey: Array, corners: tuple[int, int]) -> Array | None:
+    import cv2
+
+    found, places = cv2.findChessboardCornersSB(grey, corners, flags=0)
+    return places if found else None
+
+
+def _verdict(grey: Array, image: Array | Image, rough: Array, board: Board, name: str) -> BoardView:
+    """The refined corners in order, unless the grid goes on beyond them or is too fine."""
+    spacing = spacing_px(rough)
+    if not spacing >= SMALL_SPACING_PX:
+        return BoardView(
+            name, None, f"the board is too small in the image: its corners are {spacing:.1f} px apart, {SMALL_SPACING_PX:.0f} are needed"
+        )
+    refined = refine(image.astype(np.float32), rough, spacing)
+    if any(beyond(grey, refined)):
+        return BoardView(name, None, "the grid found goes on beyond its last corners: part of a larger board, or shifted by a square")
+    return BoardView(name, in_board_order(grey, refined).reshape(-1, 2))
+
+
+def refine(image: Array | Image, rough: Array, spacing: float) -> Array:
+    """Corners (..., 2) moved to the saddle of their window; NaN where that leads away by more than a third of the spacing."""
+    import cv2
+
+    half = max(2, round(WINDOW_SHARE * spacing))
+    seen = np.isfinite(rough).all(axis=-1)
+    start = np.ascontiguousarray(rough[seen], dtype=np.float32).reshape(-1, 1, 2)
+    criteria = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 60, 1e-4)
+    places = cv2.cornerSubPix(np.ascontiguousarray(image), start.copy(), (half, half), (-1, -1), criteria).astype(float)
+    strayed = np.linalg.norm(places - start, axis=-1) > spacing / 3
+    places[strayed] = np.nan
+    refined = np.full(rough.shape, np.nan)
+    refined[seen] = places.reshape(-1, 2)
+    return refined
+
+
+def _what_else(grey: Array) -> str:
+    """Why no board was found, as far as the image tells."""
+    import cv2
+
+    other = "no board found"
+    if contrast(grey) < 20:
+        return f"{other}: the image has hardly any contrast"
+    sharpness = float(np.percentile(np.abs(cv2.Laplacian(cv2.GaussianBlur(grey, (3, 3), 0), cv2.CV_32F)), 99.5))
+    if sharpness < 8:
+        return f"{other}: the image is blurred"
+    return f"{other}: it may be cut off, too small or hidden in part"

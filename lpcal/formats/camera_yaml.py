@@ -1,0 +1,125 @@
+"""camera.yaml: the intrinsics, how sure they are, how they were chosen, and what became of each view.
+
+Keys as in the contract (``rms_px`` a coordinate; ``covariance`` of ``parameters``); beside them ``white_level``, ``flat_field`` (Chebyshev
+coefficients of the logarithm of the response), ``solver``, ``corner_sigma_px``, ``evidence``, ``warnings``, and for a splined camera
+``lensmodel`` and ``spline``, whose K is that of its stereographic core. ``camera:`` in calibration.yaml has the keys that make images.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Camera, CameraSolution, FlatField, ViewVerdict
+
+KIND = "camera"
+MODELS = ("opencv4", "opencv5", "opencv8", "splined")
+
+
+def write_camera(path: Path, solution: CameraSolution, provenance: Provenance) -> None:
+    """Write camera.yaml."""
+    camera = solution.camera
+    body = camera_document(camera) | {
+        "rms_px": camera.rms_px,
+        "parameters": list(camera.parameters),
+        "covariance": camera.covariance,
+        "corner_sigma_px": solution.corner_sigma_px,
+        "solver": solution.solver,
+        "evidence": solution.evidence,
+        "warnings": list(solution.warnings),
+        "views": [_view(view) for view in solution.views],
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_camera(path: Path) -> Camera:
+    """Read the camera of a camera.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
+    """
+    document = read_document(path, KIND)
+    try:
+        return camera_from_document(document)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{error} is lacking or garbled", where=str(path), needed="a whole camera file", todo="write it anew with lpcal intrinsics"
+        ) from error
+
+
+def camera_document(camera: Camera) -> dict[str, Any]:
+    """What makes images of a camera, as it is written."""
+    document: dict[str, Any] = {
+        "image_size": list(camera.image_size),
+        "model": camera.model,
+        "K": camera.K,
+        "distortion": camera.distortion,
+        "black_level": camera.black_level,
+        "white_level": camera.white_level,
+        "gamma": camera.gamma,
+    }
+    if camera.flat_field is not None:
+        document["flat_field"] = camera.flat_field.coefficients
+    if camera.spline is not None:
+        document |= {"lensmodel": camera.lensmodel, "spline": camera.spline}
+    return document
+
+
+def camera_from_document(document: dict[str, Any]) -> Camera:
+    """A camera as it was written, in camera.yaml or in calibration.yaml.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds no numbers of the right count; the message is the key's name.
+    """
+    if document["model"] not in MODELS:
+        raise ValueError("model")
+    width, height = (int(side) for side in document["image_size"])
+    covariance = document.get("covariance")
+    spline = document.get("spline")
+    if document["model"] == "splined" and spline is None:
+        raise KeyError("spline")
+    return Camera(
+        image_size=(width, height),
+        model=document["model"],
+        K=_numbers(document, "K", (3, 3)),
+        distortion=_numbers(document, "distortion", (-1,)),
+        black_level=float(document.get("black_level", 0.0)),
+        white_level=float(document.get("white_level", 1.0)),
+        gamma=float(document.get("gamma", 1.0)),
+        flat_field=None if document.get("flat_field") is None else FlatField(np.array(document["flat_field"], dtype=float)),
+        rms_px=float("nan") if document.get("rms_px") is None else float(document["rms_px"]),
+        parameters=tuple(document.get("parameters") or ()),
+        covariance=None if covariance is None else np.array(covariance, dtype=float),
+        lensmodel=document.get("lensmodel", ""),
+        spline=None if spline is None else np.array(spline, dtype=float),
+    )
+
+
+def _numbers(document: dict[str, Any], key: str, shape: tuple[int, ...]) -> Array:
+    try:
+        numbers = np.array(document[key], dtype=float).reshape(shape)
+    except (TypeError, ValueError) as error:
+        raise ValueError(key) from error
+    if not np.isfinite(numbers).all():
+        raise ValueError(key)
+    return numbers
+
+
+def _view(view: ViewVerdict) -> dict[str, Any]:
+    return {
+        "image": view.image,
+        "used": view.used,
+        "why": view.why,
+        "corners": view.corners,
+        "rejected": view.rejected,
+        "rms_px": view.residual_px,
+    }

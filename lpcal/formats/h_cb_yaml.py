@@ -1,0 +1,79 @@
+"""H_CB.yaml: the board in every image of ``camera.images`` and ``mocap.images``, with the corners it comes from.
+
+- ``board``: ``corners`` [nx, ny], and ``points_m`` (nx*ny, 3) in B, x first, bowed as found, their mean plane z = 0
+- ``corner_sigma_px``: one standard deviation of a corner coordinate
+- ``views``, one an image: ``image, used, why, H_CB`` (null where no board), ``covariance`` (6, 6, rotation then translation, of the left
+  perturbation, the camera taken as exact), ``rms_px`` a coordinate, ``corners_px`` (nx*ny, 2), [null, null] where not seen or rejected
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.geometry.arrays import Array
+from lpcal.records.observations import BoardPoses
+
+KIND = "H_CB"
+
+
+def write_h_cb(path: Path, poses: BoardPoses, left_out: dict[str, str], corners: tuple[int, int], provenance: Provenance) -> None:
+    """Write H_CB.yaml; `left_out` are the images without a pose, and why."""
+    found = [_view(poses, row) for row in range(len(poses.images))]
+    lacking = [
+        {"image": image, "used": False, "why": why, "H_CB": None, "covariance": None, "rms_px": None, "corners_px": None}
+        for image, why in left_out.items()
+    ]
+    body = {
+        "board": {"corners": list(corners), "points_m": poses.points_B},
+        "corner_sigma_px": poses.corner_sigma_px,
+        "views": found + lacking,
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_h_cb(path: Path) -> BoardPoses:
+    """Board poses of the images in which the board was found; no times.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or garbled.
+    """
+    document = read_document(path, KIND)
+    try:
+        views = [view for view in document["views"] if view["H_CB"] is not None]
+        return BoardPoses(
+            images=tuple(view["image"] for view in views),
+            t_camera_s=None,
+            H_CB=_stack([view["H_CB"] for view in views], (4, 4)),
+            corners_px=_stack([view["corners_px"] for view in views], (len(document["board"]["points_m"]), 2)),
+            points_B=np.array(document["board"]["points_m"], dtype=float),
+            covariance=_stack([view["covariance"] for view in views], (6, 6)),
+            rms_px=np.array([view["rms_px"] for view in views], dtype=float),
+            corner_sigma_px=float(document["corner_sigma_px"]),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{error} is lacking or garbled", where=str(path), needed="a whole H_CB file", todo="write it anew with lpcal intrinsics"
+        ) from error
+
+
+def _view(poses: BoardPoses, row: int) -> dict[str, Any]:
+    return {
+        "image": poses.images[row],
+        "used": True,
+        "why": None,
+        "H_CB": poses.H_CB[row],
+        "covariance": None if poses.covariance is None else poses.covariance[row],
+        "rms_px": None if poses.rms_px is None else poses.rms_px[row],
+        "corners_px": None if poses.corners_px is None else np.round(poses.corners_px[row], 4),
+    }
+
+
+def _stack(entries: list[Any], shape: tuple[int, ...]) -> Array:
+    return np.array(entries, dtype=float).reshape(len(entries), *shape)

@@ -1,0 +1,128 @@
+"""Look for the board in all images: read, detect (or recall what was found), and refuse what cannot be one camera's views of one board."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.detect.board import DETECTOR_VERSION, count_corners, find_board
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.formats.corner_cache import cache_key, named, read_corner_cache, write_corner_cache
+from lpcal.formats.images import read_image
+from lpcal.geometry.arrays import Image
+from lpcal.pipeline.workspace import Workspace
+from lpcal.records.observations import Board, BoardView, BoardViews
+from lpcal.records.outcome import Progress
+
+COUNTED_IMAGES = 6
+"""So many of the images without a board are searched for a board of another count."""
+FEW = 0.5
+"""A board found in fewer images than this is suspected to be another one."""
+
+
+def search(workspace: Workspace, images: Sequence[Path], board: Board, progress: Progress) -> BoardViews:
+    """The board in each image, in the images' order.
+
+    Raises
+    ------
+    InputError
+        An image that cannot be read.
+    DisagreementError
+        Images of two sizes, or a board of another corner count.
+    DegenerateError
+        No board in any image.
+    """
+    store = workspace.calib(".cache/corners.json")
+    kept = read_corner_cache(store)
+    keys = [cache_key(image, board, DETECTOR_VERSION) for image in images]
+    sizes = [image_size(path) for path in images]
+    refuse_two_sizes([workspace.relative(path) for path in images], sizes)
+    new = [row for row, key in enumerate(keys) if key not in kept]
+    found: dict[str, BoardView] = {key: kept[key] for key in keys if key in kept}
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        # threads, not processes: OpenCV gives up the interpreter's lock while it searches
+        tasks = {pool.submit(_look, images[row], board): keys[row] for row in new}
+        try:
+            for done, task in enumerate(as_completed(tasks), start=1):
+                found[tasks[task]] = task.result()
+                progress("board", done, len(new))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    if new:
+        write_corner_cache(store, found)
+    views = tuple(named(found[key], workspace.relative(path)) for key, path in zip(keys, images, strict=True))
+    return BoardViews(sizes[0], views)
+
+
+def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board) -> None:
+    """Say so where the images show a board of another corner count, or none at all.
+
+    Raises
+    ------
+    DisagreementError, DegenerateError
+    """
+    empty = [row for row, view in enumerate(views.views) if view.corners_px is None]
+    found = len(images) - len(empty)
+    if found >= FEW * len(images) and found > 0:
+        return
+    picks = [empty[k] for k in np.unique(np.linspace(0, len(empty) - 1, COUNTED_IMAGES).round().astype(int))]
+    others = [other for row in picks if (other := count_corners(_grey(images[row]))) is not None and set(other) != set(board.corners)]
+    asked = f"{board.corners[0]}x{board.corners[1]}"
+    if others and board.kind == "chessboard":
+        (columns, rows), votes = Counter(others).most_common(1)[0]
+        if found == 0 or votes > len(picks) / 2:
+            raise DisagreementError(
+                f"found a board of {columns}x{rows} inner corners in {votes} of the {len(picks)} images looked at, you asked for {asked}",
+                where=views.views[picks[0]].image,
+                needed="board.corners as on the board: inner corners, one fewer than squares, along x and y",
+                todo=f"write corners: [{columns}, {rows}], or give the images of the other board",
+            )
+    if found == 0:
+        reasons = Counter(view.why for view in views.views)
+        why, count = reasons.most_common(1)[0]
+        raise DegenerateError(
+            f"no board of {asked} inner corners in any of {len(images)} images; {count} of them: {why}",
+            where=views.views[0].image,
+            needed="images that show the whole board, sharp and lit evenly",
+            todo="look at the images, and at board.corners",
+        )
+
+
+def image_size(path: Path) -> tuple[int, int]:
+    """Width and height of an image."""
+    return read_image(path).size
+
+
+def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> None:
+    """All images must be of one size.
+
+    Raises
+    ------
+    DisagreementError
+        They are not: both sizes, an image of each.
+    """
+    counts = Counter(sizes)
+    if len(counts) > 1:
+        (usual, many), (other, few) = counts.most_common(2)
+        first, second = names[sizes.index(usual)], names[sizes.index(other)]
+        raise DisagreementError(
+            f"two sizes: {first} and {many - 1} more are {usual[0]}x{usual[1]}, {second} and {few - 1} more {other[0]}x{other[1]}",
+            where=second,
+            needed="images of one camera, not cropped, scaled or turned",
+            todo="leave out those of the other size",
+        )
+
+
+def _look(path: Path, board: Board) -> BoardView:
+    return find_board(_grey(path), board, str(path))
+
+
+def _grey(path: Path) -> Image:
+    pixels = read_image(path).pixels
+    return pixels if pixels.ndim == 2 else np.asarray(pixels @ np.array([0.299, 0.587, 0.114], np.float32))

@@ -1,0 +1,90 @@
+"""What ``lpcal intrinsics`` says: views, residual, focal length with its sigma, the board's bow, the model and why."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from lpcal.records.calibration import CameraSolution
+from lpcal.records.observations import BoardPoses
+from lpcal.records.outcome import Outcome
+from lpcal.records.rig import Rig
+
+NAMED_VIEWS = 6
+
+
+def summarise(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, str], rig: Rig) -> Outcome:
+    """The outcome of the stage."""
+    camera = solution.camera
+    lines = [f"camera      {camera.model}, {camera.image_size[0]}x{camera.image_size[1]}, {solution.solver}"]
+    lines += _figures(solution)
+    images = len(poses.images) + len(left_out)
+    if images:
+        lines.append(f"board       found in {len(poses.images)} of {images} images, H_CB in calib/H_CB.yaml")
+    lines += [f"  without:  {why}: {names}" for why, names in _grouped(left_out)]
+    return Outcome(
+        summary=[*lines, "written     calib/camera.yaml, calib/camera.cameramodel, calib/H_CB.yaml"],
+        document=_document(solution, poses, left_out),
+        warnings=list(solution.warnings),
+        next_command=_next(rig),
+    )
+
+
+def _figures(solution: CameraSolution) -> list[str]:
+    camera, evidence = solution.camera, solution.evidence
+    if not solution.views:
+        K = camera.K
+        return [f"            f {K[0, 0]:.2f} {K[1, 1]:.2f} px, c {K[0, 2]:.2f} {K[1, 2]:.2f} px, as given"]
+    chosen: dict[str, Any] = dict(evidence.get("chosen", {}))  # type: ignore[call-overload]
+    used = sum(view.used for view in solution.views)
+    found = sum(view.corners + view.rejected > 0 for view in solution.views)
+    rejected = sum(view.rejected for view in solution.views)
+    lines = [
+        f"views       {used} used, board found in {found} of {len(solution.views)}; {rejected} corners rejected",
+        f"residual    {camera.rms_px:.4f} px rms a coordinate (over both coordinates: {np.sqrt(2) * camera.rms_px:.4f})",
+    ]
+    for label, first, second in (("f", 0, 1), ("c", 2, 3)):
+        values = (camera.K[0, 0], camera.K[1, 1]) if label == "f" else (camera.K[0, 2], camera.K[1, 2])
+        sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
+        lines.append(f"{label}           {values[0]:.2f} +- {sigma[0]:.2f}, {values[1]:.2f} +- {sigma[1]:.2f} px")
+    warp = evidence.get("board_warp_m")
+    shape = "taken as flat" if not isinstance(warp, list) else f"bowed by {1e3 * warp[0]:.2f} mm along x, {1e3 * warp[1]:.2f} mm along y"
+    return [*lines, f"board       {shape}", f"model       {camera.model}: {chosen.get('why', 'as asked')}"]
+
+
+def _grouped(left_out: dict[str, str]) -> list[tuple[str, str]]:
+    """Reasons, and the images of each, the first few by name."""
+    lines = []
+    for why in Counter(left_out.values()):
+        names = [image for image, reason in left_out.items() if reason == why]
+        more = f" and {len(names) - NAMED_VIEWS} more" if len(names) > NAMED_VIEWS else ""
+        lines.append((why, ", ".join(names[:NAMED_VIEWS]) + more))
+    return lines
+
+
+def _document(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, str]) -> dict[str, Any]:
+    camera = solution.camera
+    return {
+        "model": camera.model,
+        "image_size": camera.image_size,
+        "K": camera.K,
+        "distortion": camera.distortion,
+        "rms_px": camera.rms_px,
+        "parameters": camera.parameters,
+        "std": None if camera.covariance is None else np.sqrt(np.diag(camera.covariance)),
+        "solver": solution.solver,
+        "evidence": solution.evidence,
+        "views": [vars(view) for view in solution.views],
+        "boards_found": len(poses.images),
+        "boards_not_found": left_out,
+    }
+
+
+def _next(rig: Rig) -> str | None:
+    if rig.mocap is not None:
+        return "lpcal handeye"
+    if rig.lights and rig.panel is not None:
+        return "lpcal wings"
+    return "lpcal refine" if rig.spheres else None
