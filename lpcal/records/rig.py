@@ -15,7 +15,7 @@ from lpcal.records.quantities import Angle, Duration, Length, Pixels, Share, Siz
 
 type Names = list[str]
 type Count = Annotated[int, Field(ge=2)]
-type Factor = Annotated[float, Field(gt=0)]
+type Factor = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
 class Section(BaseModel):
