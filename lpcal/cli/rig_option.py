@@ -15,9 +15,9 @@ def add_rig_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rig", type=Path, default=Path(), metavar="PANEL", help="panel.yaml or its folder (default: here or above)")
 
 
-def open_workspace(options: argparse.Namespace) -> Workspace:
-    """The rig that the command is about."""
+def open_workspace(options: argparse.Namespace, panel: Path | None = None) -> Workspace:
+    """The rig that the command is about; `panel` is the command's own word for it."""
     from lpcal.formats.panel_yaml import find, read_rig
     from lpcal.pipeline.workspace import Workspace
 
-    return Workspace(read_rig(find(options.rig)))
+    return Workspace(read_rig(find(panel or options.rig)))

@@ -14,6 +14,8 @@ from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance, SphereView
 
 REFINED_STARTS = 3
+CLEAR_RAYS, CLEAR_CONTRAST = 0.9, 20.0
+"""An outline that so many rays see so clearly needs no rival."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,9 @@ def _best_outline(
             found.append(sphere_outline.refine_outline(image, expected.kind, start, curve))
         except DegenerateError as error:
             complaint = complaint or error
+            continue
+        if len(found[-1].points_px) > CLEAR_RAYS * sphere_outline.RAYS and found[-1].contrast > CLEAR_CONTRAST:
+            break
     if not found:
         raise complaint or DegenerateError("no round outline is found", needed="one sphere, whole and sharp in the picture")
     return max(found, key=lambda outline: len(outline.points_px) * np.sqrt(outline.radius_px) * min(outline.contrast, 20.0))

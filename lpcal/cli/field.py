@@ -1,0 +1,32 @@
+"""``lpcal field``: the calibrated light field at given points."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from lpcal.records.outcome import Outcome, Progress
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument("calibration", type=Path, help="calibration.yaml")
+    parser.add_argument("points", type=Path, metavar="POINTS.csv", help="columns x_m, y_m, z_m: points in C")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FIELD.csv", help="light, x_m, y_m, z_m, dx, dy, dz, irradiance"
+    )
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:
+    """Write the field of every light at every point."""
+    from lpcal.formats.calibration_yaml import read_calibration
+    from lpcal.formats.field_csv import read_points, write_field
+
+    calibration = read_calibration(options.calibration)
+    x_C = read_points(options.points)
+    fields = {}
+    for done, light in enumerate(calibration.lights, start=1):
+        fields[light.name] = light.field(x_C)
+        progress("lights", done, len(calibration.lights))
+    write_field(options.output, x_C, fields)
+    return Outcome([f"{options.output}: {len(calibration.lights)} lights at {len(x_C)} points"], {"file": str(options.output)})

@@ -1,0 +1,79 @@
+"""calibration.yaml, the product, from whatever the stages found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from lpcal.chain.refine_lights import as_designed
+from lpcal.errors import DegenerateError
+from lpcal.formats.calibration_yaml import KIND, write_calibration
+from lpcal.formats.camera_yaml import read_camera
+from lpcal.formats.handeye_yaml import read_handeye
+from lpcal.formats.lights_yaml import read_lights
+from lpcal.formats.wings_yaml import read_wings
+from lpcal.pipeline import refine as refine_stage
+from lpcal.pipeline import wings as wings_stage
+from lpcal.pipeline.refine import summary_of
+from lpcal.pipeline.sensor import has_lens
+from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.records.calibration import Calibration, LightsSolution
+from lpcal.records.outcome import Outcome, Progress
+
+FILE = "calibration.yaml"
+
+
+def wanted(workspace: Workspace) -> bool:
+    """Whether the rig's lights can be known."""
+    return refine_stage.wanted(workspace) or wings_stage.wanted(workspace)
+
+
+def inputs(workspace: Workspace) -> list[Path]:
+    """The stages' files."""
+    found = [workspace.calib("camera.yaml")] if has_lens(workspace) else []
+    found += [workspace.calib("handeye.yaml")] if wings_stage.tracks_panel(workspace) else []
+    found.append(workspace.calib(refine_stage.FILE if refine_stage.wanted(workspace) else wings_stage.FILE))
+    return found
+
+
+def settings(workspace: Workspace) -> dict[str, Any]:
+    """The rig's name and lights."""
+    return {"name": workspace.rig_file.rig.name, "lights": list(workspace.rig_file.rig.lights)}
+
+
+def run(workspace: Workspace, progress: Progress) -> Outcome:
+    """Write calibration.yaml."""
+    progress("export", 0, 1)
+    rig = workspace.rig_file.rig
+    if not wanted(workspace):
+        raise DegenerateError(
+            "nothing says where the lights are",
+            where=str(workspace.rig_file.file),
+            needed="lights: with spheres:, or lights: with their wings' settings and panel:",
+            todo="add one of them to panel.yaml",
+        )
+    camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
+    H_PC = read_handeye(workspace.calib("handeye.yaml")).H_PC if wings_stage.tracks_panel(workspace) else None
+    solution = _lights(workspace)
+    calibration = Calibration(
+        rig.name, solution.lights, camera, H_PC, solution.d_object_m, solution.focus_C if camera is not None else None
+    )
+    write_calibration(workspace.calib(FILE), calibration, STAGE.provenance(workspace))
+    progress("export", 1, 1)
+    return Outcome(
+        summary=[f"{workspace.relative(workspace.calib(FILE))}: {len(solution.lights)} lights", *summary_of(solution)[1:]],
+        document={"file": str(workspace.calib(FILE))},
+        warnings=list(solution.warnings),
+        next_command="lpcal reconstruct",
+    )
+
+
+def _lights(workspace: Workspace) -> LightsSolution:
+    if refine_stage.wanted(workspace):
+        return read_lights(workspace.calib(refine_stage.FILE))
+    panel = workspace.rig_file.rig.panel
+    wings = read_wings(workspace.calib(wings_stage.FILE))
+    return as_designed(wings, list(workspace.rig_file.rig.lights), panel.tolerance.intensity if panel else 0.1)
+
+
+STAGE = Stage("export", {FILE: KIND}, wanted, inputs, settings, run)

@@ -1,0 +1,132 @@
+"""lights.yaml: the lights refined from the sphere images."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.refine_lights import refine
+from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.detect.spheres import Expected, observe_sphere
+from lpcal.errors import DegenerateError, InputError
+from lpcal.formats.camera_yaml import read_camera
+from lpcal.formats.capture import read_capture
+from lpcal.formats.lights_yaml import KIND, write_lights
+from lpcal.formats.wings_yaml import read_wings
+from lpcal.pipeline import wings as wings_stage
+from lpcal.pipeline.sensor import flat_field_path, has_lens, sensor_of_camera, sensor_of_panel
+from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.records.calibration import Camera, LightsSolution
+from lpcal.records.observations import SphereView
+from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.rig import SphereSection
+
+FILE = "lights.yaml"
+NEAREST, FARTHEST = 0.4, 2.5
+"""Spheres are looked for between these multiples of d_object."""
+
+
+def wanted(workspace: Workspace) -> bool:
+    """Whether the rig has spheres."""
+    return bool(workspace.rig_file.rig.spheres and workspace.rig_file.rig.lights)
+
+
+def inputs(workspace: Workspace) -> list[Path]:
+    """Every image of every sphere, the camera, the wings."""
+    found = [workspace.calib("camera.yaml")] if has_lens(workspace) else []
+    found += [workspace.calib(wings_stage.FILE)] if wings_stage.wanted(workspace) else []
+    flat = flat_field_path(workspace)
+    found += [flat] if flat and not has_lens(workspace) else []
+    for name, sphere in workspace.rig_file.rig.spheres.items():
+        folder = workspace.path(sphere.images, f"spheres.{name}.images")
+        found += sorted(path for path in folder.iterdir() if path.is_file())
+    return found
+
+
+def settings(workspace: Workspace) -> dict[str, Any]:
+    """Spheres, lights, tolerance and radiometry."""
+    rig = workspace.rig_file.rig
+    levels = rig.camera.model_dump(include={"black_level", "white_level", "gamma"}) if rig.camera else {}
+    return {
+        "spheres": {name: sphere.model_dump() for name, sphere in rig.spheres.items()},
+        "lights": list(rig.lights),
+        "intensity": rig.panel.tolerance.intensity if rig.panel else None,
+        "levels": levels,
+    }
+
+
+def run(workspace: Workspace, progress: Progress) -> Outcome:
+    """Write lights.yaml."""
+    lights = list(workspace.need("lights"))
+    spheres: dict[str, SphereSection] = workspace.need("spheres")
+    camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
+    wings = read_wings(workspace.calib(wings_stage.FILE)) if wings_stage.wanted(workspace) else None
+    sensor = sensor_of_camera(camera) if camera else sensor_of_panel(workspace)
+    distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
+    views, warnings = [], []
+    for done, (name, section) in enumerate(spheres.items()):
+        progress("spheres", done, len(spheres))
+        try:
+            views.append(_observe(workspace, name, section, lights, sensor, camera, distance_m))
+        except DegenerateError as error:
+            if len(spheres) == 1:
+                raise
+            warnings.append(f"left out: {error}")
+    progress("spheres", len(spheres), len(spheres))
+    panel = workspace.rig_file.rig.panel
+    solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5)
+    write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
+    return Outcome(
+        summary=summary_of(solution),
+        document={
+            "file": str(workspace.calib(FILE)),
+            "lights": {light.name: light.direction_C for light in solution.lights},
+            "evidence": solution.evidence,
+        },
+        warnings=[*warnings, *solution.warnings],
+        next_command="lpcal export",
+    )
+
+
+def summary_of(solution: LightsSolution) -> list[str]:
+    """A line a light, and what it rests on."""
+    used = [sphere for sphere in solution.spheres if sphere.used]
+    lines = [f"{len(solution.lights)} lights from {len(used)} of {len(solution.spheres)} spheres"]
+    for light in solution.lights:
+        intensity = " ".join(f"{value:.3f}" for value in light.intensity)
+        turn = f"direction +- {np.degrees(light.direction_std_rad):.2f} deg  intensity {intensity}"
+        if light.source_C is None:
+            lines.append(f"{light.name:<6} from {_numbers(light.direction_C, 4)}  {turn}")
+        else:
+            lines.append(
+                f"{light.name:<6} source {_numbers(1e3 * light.source_C, 1)} mm  position +- {1e3 * light.position_std_m:.1f} mm  {turn}"
+            )
+    return lines
+
+
+def _observe(
+    workspace: Workspace,
+    name: str,
+    section: SphereSection,
+    lights: list[str],
+    sensor: Sensor,
+    camera: Camera | None,
+    distance_m: tuple[float, float] | None,
+) -> SphereView:
+    if camera is not None and section.radius is None:
+        raise InputError(
+            "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
+        )
+    folder = workspace.path(section.images, f"spheres.{name}.images")
+    radiance = to_radiance(read_capture(folder, lights, name=name), sensor)
+    hint = None if section.hint is None else np.array(section.hint)
+    return observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
+
+
+def _numbers(values: Any, digits: int) -> str:
+    return "[" + " ".join(f"{value:.{digits}f}" for value in values) + "]"
+
+
+STAGE = Stage("refine", {FILE: KIND}, wanted, inputs, settings, run)

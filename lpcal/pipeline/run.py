@@ -1,0 +1,54 @@
+"""The chain on one page.
+
+::
+
+board images             -> K, H_CB        intrinsics
+mocap, H_CB              -> H_OP, H_PC     handeye
+wings, H_PC, H_PD        -> H_CL drawn     wings       H_CL = (H_OP H_PC)^-1 H_OL
+spheres, H_CL drawn      -> H_CL           refine
+all of it                -> calibration    export
+captures, calibration    -> surfaces       reconstruct
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lpcal.pipeline import export, handeye, intrinsics, refine, wings
+from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.records.outcome import Outcome, Progress
+
+CHAIN: tuple[Stage, ...] = (intrinsics.STAGE, handeye.STAGE, wings.STAGE, refine.STAGE, export.STAGE)
+
+
+def before(stage: Stage) -> tuple[Stage, ...]:
+    """The stages that come before one."""
+    return CHAIN[: CHAIN.index(stage)]
+
+
+def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Progress) -> Outcome:
+    """Run those of the stages that the rig has the sections for and whose files are out of date, in order."""
+    summary: list[str] = []
+    document: dict[str, object] = {}
+    warnings: list[str] = []
+    for stage in stages:
+        if not stage.wanted(workspace):
+            continue
+        if stage.up_to_date(workspace):
+            summary.append(f"{stage.name}: up to date")
+            continue
+        outcome = stage.run(workspace, progress)
+        summary += [f"{stage.name}: {outcome.summary[0]}", *(f"  {line}" for line in outcome.summary[1:])]
+        document[stage.name] = outcome.document
+        warnings += [f"{stage.name}: {warning}" for warning in outcome.warnings]
+    return Outcome(summary, document, warnings)
+
+
+def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome:
+    """Run one stage after whatever it rests on; what comes before it and was out of date is told on top."""
+    earlier = bring_up_to_date(workspace, before(stage), progress)
+    outcome = stage.run(workspace, progress)
+    told = [line for line in earlier.summary if not line.endswith(": up to date")]
+    return Outcome(
+        [*told, *outcome.summary], outcome.document, [*earlier.warnings, *outcome.warnings], outcome.next_command, outcome.exit_code
+    )
