@@ -13,7 +13,7 @@ from lpcal.formats.images import read_image
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.report.page import render
-from lpcal.report.pictures import png, shrink
+from lpcal.report.pictures import png, shaded, shrink
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.verdict import headline, verdicts
 
@@ -59,22 +59,23 @@ def _surface(folder: Path) -> SurfaceReport:
         raise InputError(
             "not readable as JSON", where=str(folder / "summary.json"), needed="a summary that lpcal wrote", todo=todo
         ) from error
-    pictures = {}
-    for what, name in (("normals", "normals_gl.png"), ("albedo", "albedo.png")):
-        picture = _thumbnail(folder, name)
-        if picture is not None:
-            pictures[what] = picture
     relight = f"../surfaces/{folder.name}/relight.html" if (folder / "relight.html").is_file() else None
-    return SurfaceReport(folder.name, summary, pictures, relight)
+    return SurfaceReport(folder.name, summary, _pictures(folder), relight)
 
 
-def _thumbnail(folder: Path, name: str) -> bytes | None:
-    """A small picture of one of the maps, cropped to the mask; None where it is not there."""
-    if not (folder / name).is_file():
-        return None
-    pixels = read_image(folder / name).pixels
-    value = pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
-    inside = read_image(folder / "mask.png").pixels > 0 if (folder / "mask.png").is_file() else value.max(axis=2) > 0
-    if name == "albedo.png":
-        value = np.asarray((0.85 * value) ** (1 / 2.2), dtype=np.float32)
-    return png(shrink(value, inside, THUMBNAIL))
+def _pictures(folder: Path) -> dict[str, bytes]:
+    """Small pictures of the maps that are there, cropped to the mask."""
+    if not (folder / "mask.png").is_file():
+        return {}
+    inside = read_image(folder / "mask.png").pixels > 0
+    found: dict[str, bytes] = {}
+    if (folder / "normals_gl.png").is_file():
+        normals_gl = read_image(folder / "normals_gl.png").pixels
+        normals = (2 * normals_gl - 1) * np.array([1, -1, -1], np.float32)
+        found["shape"] = png(shrink(shaded(normals), inside, THUMBNAIL))
+        found["normals"] = png(shrink(normals_gl, inside, THUMBNAIL))
+    if (folder / "albedo.png").is_file():
+        albedo = read_image(folder / "albedo.png").pixels
+        colour = albedo if albedo.ndim == 3 else np.repeat(albedo[..., None], 3, axis=2)
+        found["albedo"] = png(shrink(np.asarray((0.85 * colour) ** (1 / 2.2), dtype=np.float32), inside, THUMBNAIL))
+    return found

@@ -8,11 +8,15 @@ import numpy as np
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from lpcal.report import charts
-from lpcal.report.rig_report import RigReport, array, board_points, items, origin_sigmas, poses, sigmas
+from lpcal.report.rig_report import RigReport, array, board_points, items, origin_sigmas, sigmas
 from lpcal.report.wording import Document, fixed, number, plural, with_sigma
 
 type Section = dict[str, Any]
+
+CELLS = (9, 6)
+FEWEST_CORNERS = 8
 
 
 def camera_section(report: RigReport) -> Section | None:
@@ -31,6 +35,7 @@ def camera_section(report: RigReport) -> Section | None:
         ],
         "residuals": _view_bars(views, "rms_px", "px", "views in order; amber: left out") if views else None,
         "coverage": _coverage(report, points_B, document),
+        "choice": _choice(document),
         "warp": _warp(points_B),
         "warp_mm": None if points_B is None else fixed(1000 * float(np.ptp(points_B[:, 2])), 2, "mm"),
         "views": plural(len(views), "view"),
@@ -52,9 +57,7 @@ def handeye_section(report: RigReport) -> Section | None:
         "transforms": [_transform(name, document) for name in ("H_PC", "H_OB") if document.get(name)],
         "clock": with_sigma(1000 * offset, None if std is None else 1000 * std, "ms") if offset is not None else None,
         "used": f"{len(used)} of {plural(len(views), 'view')}",
-        "rms": [
-            (name, f"{number(_rms(used, key, scale), 3)} {unit}") for (key, unit, scale), name in zip(measures, _MEASURES, strict=True)
-        ],
+        "rms": [(name, number(_rms(used, key, scale), 3, unit)) for (key, unit, scale), name in zip(measures, _MEASURES, strict=True)],
         "residuals": [
             (name, _view_bars(views, key, unit, "views in order; amber: left out", scale))
             for (key, unit, scale), name in zip(measures, _MEASURES, strict=True)
@@ -115,22 +118,82 @@ def _left_out(views: list[dict[str, Any]]) -> list[tuple[str, str]]:
     return [(str(view.get("image")), str(view.get("why") or "no reason given")) for view in views if not view.get("used")]
 
 
-def _coverage(report: RigReport, points_B: Any, document: Document) -> str | None:
-    """The board's corners in the image, by the solved camera: the views that the intrinsics used."""
-    found = poses(report.get("H_CB"), "H_CB")
-    if points_B is None or not found or not document.get("K") or not document.get("image_size"):
+def _coverage(report: RigReport, points_B: Array | None, document: Document) -> Section | None:
+    """The corners of the views that the intrinsics used, over the image, and the mean of what is left over in each cell."""
+    seen = _corners(report, points_B, document)
+    if seen is None:
+        return None
+    pixels, left = seen
+    w, h = (int(side) for side in document["image_size"])
+    arrows, noise = _cell_means(pixels, left, w, h)
+    if not len(arrows):
+        return {"svg": charts.over_image(pixels, (w, h)), "note": "where the board's corners fell"}
+    longest = float(np.linalg.norm(arrows[:, 2:], axis=1).max())
+    factor = _round_down(0.8 * w / CELLS[0] / max(longest, 1e-9))
+    note = f"where the board's corners fell; arrows: mean of what is left over in a cell, × {factor:g}"
+    note += f"; the longest is {number(longest, 2, 'px')}"
+    note += f", noise alone leaves {number(noise, 2, 'px')}" if np.isfinite(noise) else ""
+    return {"svg": charts.over_image(pixels, (w, h), arrows * [1, 1, factor, factor]), "note": note}
+
+
+def _corners(report: RigReport, points_B: Array | None, document: Document) -> tuple[Array, Array] | None:
+    """Corners (N, 2) of the used views and what is left over (N, 2), seen less expected; a splined lens is not projected here: NaN."""
+    if points_B is None or not document.get("K") or not document.get("image_size"):
         return None
     used = {str(view.get("image")) for view in items(document, "views") if view.get("used")}
-    chosen = [pose for image, pose in found.items() if not used or image in used]
-    if not chosen:
+    found = [
+        view for view in items(report.get("H_CB"), "views") if view.get("corners_px") and view.get("H_CB") and view.get("image") in used
+    ]
+    if not found:
         return None
-    points_C = np.concatenate([se3.apply(H_CB, points_B) for H_CB in chosen])
-    pixels = central.project(points_C[points_C[:, 2] > 0], array(document["K"]), array(document.get("distortion") or [0.0]))
-    w, h = document["image_size"]
-    return charts.over_image(pixels, (int(w), int(h)))
+    pixels = array([view["corners_px"] for view in found])
+    points_C = np.stack([se3.apply(array(view["H_CB"]), points_B) for view in found])
+    if document.get("model") == "splined":
+        expected = np.full_like(pixels, np.nan)
+    else:
+        expected = central.project(points_C, array(document["K"]), array(document.get("distortion") or [0.0]))
+    seen = np.isfinite(pixels).all(axis=-1)
+    return pixels[seen], (pixels - expected)[seen]
 
 
-def _warp(points_B: Any) -> str | None:
+def _cell_means(pixels: Array, left: Array, w: int, h: int) -> tuple[Array, float]:
+    """Arrows (M, 4) at the cells' middles with the mean of what is left over, and the length that noise alone would give them."""
+    cell = np.floor(pixels / [w, h] * CELLS).astype(int)
+    arrows, counts = [], []
+    for i, j in np.ndindex(*CELLS):
+        inside = (cell == [i, j]).all(axis=1) & np.isfinite(left).all(axis=1)
+        if inside.sum() >= FEWEST_CORNERS:
+            arrows.append([(i + 0.5) * w / CELLS[0], (j + 0.5) * h / CELLS[1], *left[inside].mean(axis=0)])
+            counts.append(int(inside.sum()))
+    noise = float(np.nanstd(left) * np.sqrt(2 / np.median(counts))) if counts else float("nan")
+    return np.array(arrows).reshape(-1, 4), noise
+
+
+def _round_down(value: float) -> float:
+    """1, 2 or 5 times a power of ten at or under a value."""
+    power = 10 ** np.floor(np.log10(value))
+    return float(max(step for step in (1, 2, 5) if step * power <= value * 1.0001) * power)
+
+
+def _choice(document: Document) -> Section | None:
+    """How the lens model was chosen: the difference between the halves of the views, for each model, board flat and bowed."""
+    tried = (document.get("evidence") or {}).get("cross_validation") or []
+    found: dict[str, dict[bool, float]] = {}
+    for entry in tried:
+        found.setdefault(str(entry.get("model")), {})[bool(entry.get("warp"))] = entry.get("cross_validation_px")
+    if not found:
+        return None
+    chosen = (document.get("evidence") or {}).get("chosen") or {}
+    return {
+        "why": chosen.get("why"),
+        "rows": [
+            (model, [(number(values.get(warp), 3), model == chosen.get("model") and warp == chosen.get("warp")) for warp in (False, True)])
+            for model, values in found.items()
+        ],
+    }
+
+
+def _warp(points_B: Array | None) -> str | None:
     if points_B is None or float(np.ptp(points_B[:, 2])) < 1e-7:
         return None
     return charts.signed_grid(points_B[:, :2], 1000 * points_B[:, 2], unit="mm")

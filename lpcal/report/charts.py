@@ -45,8 +45,8 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
     return plot.svg([*parts, plot.x_line(), plot.x_title(across)], f"bars, {across}, {unit}")
 
 
-def over_image(points_px: Array, image_size: tuple[int, int]) -> str:
-    """Points (N, 2) over the image's frame, with a 6 by 4 grid of how many fell where."""
+def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array | None = None) -> str:
+    """Points (N, 2) over the image's frame with a 6 by 4 grid; arrows (M, 4) start at x, y and go by dx, dy."""
     w, h = image_size
     scale = (WIDTH - 4) / w
     height = round(h * scale) + 4
@@ -55,6 +55,10 @@ def over_image(points_px: Array, image_size: tuple[int, int]) -> str:
     parts += [f'<path d="M2 {2 + k * h * scale / 4:.1f}h{w * scale:.1f}" class="grid"/>' for k in range(1, 4)]
     inside = points_px[np.all((points_px > -1) & (points_px < [w, h]), axis=1)] * scale + 2
     parts.append(f'<path class="dots" d="{"".join(f"M{u:.1f} {v:.1f}h0" for u, v in inside)}"/>')
+    for x, y, dx, dy in [] if arrows_px is None else arrows_px * scale:
+        parts.append(
+            f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/><circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>'
+        )
     return _svg(height, parts, "where the board's corners fell in the image")
 
 

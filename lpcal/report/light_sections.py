@@ -44,7 +44,7 @@ def spheres_section(report: RigReport) -> Section | None:
     if not spheres:
         return None
     lights = items(document, "lights")
-    rows = []
+    rows: list[tuple[str, list[tuple[float, str, str]]]] = []
     for light in lights:
         dots = []
         for sphere in spheres:
@@ -53,8 +53,11 @@ def spheres_section(report: RigReport) -> Section | None:
                 tone = "accent" if sphere.get("used") else "fair"
                 dots.append((angle, f"{sphere['name']}: {angle:.3f}°" + ("" if sphere.get("used") else ", not used"), tone))
         rows.append((str(light.get("name")), dots))
+    angles = [angle for _, dots in rows for angle, _, _ in dots]
     return {
         "rows": [_sphere(sphere) for sphere in spheres],
+        "median": fixed(float(np.median(angles)), 2, "°") if angles else None,
+        "largest": fixed(max(angles), 2, "°") if angles else None,
         "directions": charts.dot_rows(rows, unit="degrees from the refined light; amber: spheres not used")
         if any(dots for _, dots in rows)
         else None,

@@ -16,7 +16,9 @@ from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.scene import rig_scene, room_scene
 from lpcal.report.templates import environment
 from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import number
+from lpcal.report.wording import Document, number, with_sigma
+
+FIGURES_SHOWN = 16
 
 __all__ = ["RigReport", "SurfaceReport", "render"]
 
@@ -68,16 +70,28 @@ def _latest(report: RigReport) -> str:
 
 
 def _surface(surface: SurfaceReport) -> dict[str, Any]:
-    figures = [(key.replace("_", " "), _figure(value)) for key, value in surface.summary.items() if _is_figure(value)]
-    nested = surface.summary.get("figures") or {}
-    figures += [(key.replace("_", " "), _figure(value)) for key, value in nested.items() if _is_figure(value)]
+    summary = surface.summary
+    figures = [
+        *(summary.get("counts_and_residuals") or {}).items(),
+        *((f"{key}, s", value) for key, value in (summary.get("times_s") or {}).items()),
+        ("peak memory, MB", summary.get("peak_memory_mb")),
+    ]
     return {
         "name": surface.name,
         "relight": surface.relight,
         "pictures": [(what, data_uri(content)) for what, content in surface.pictures.items()],
-        "pieces": surface.summary.get("components") or [],
-        "figures": figures[:14],
+        "pieces": [_piece(piece, summary) for piece in summary.get("components") or []],
+        "notes": [str(note) for note in summary.get("notes") or []],
+        "figures": [(str(key).replace("_", " "), _figure(value)) for key, value in figures if _is_figure(value)][:FIGURES_SHOWN],
     }
+
+
+def _piece(piece: dict[str, Any], summary: Document) -> tuple[str, str]:
+    depth, spread = piece.get("mean_depth_m"), piece.get("scale_std")
+    label = f"piece {piece.get('label')}, {piece.get('pixels')} pixels"
+    if summary.get("units") == "pixels" or not _is_figure(depth):
+        return label, "relative depth"
+    return label, with_sigma(1000 * depth, None if spread is None else 1000 * depth * spread, "mm")
 
 
 def _is_figure(value: Any) -> bool:

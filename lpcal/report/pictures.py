@@ -14,6 +14,8 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Image, Mask
 
+STILL_LIGHT = np.array([-0.45, -0.55, -0.7]) / np.linalg.norm([0.45, 0.55, 0.7])
+
 type Bytes = npt.NDArray[np.uint8]
 
 
@@ -58,3 +60,9 @@ def block_sum(value: npt.NDArray[np.float32], step: int) -> npt.NDArray[np.float
     padded = np.pad(value, [(0, -h % step), (0, -w % step), *[(0, 0)] * (value.ndim - 2)])
     blocks = padded.reshape(padded.shape[0] // step, step, padded.shape[1] // step, step, *value.shape[2:])
     return np.asarray(blocks.sum(axis=(1, 3)), dtype=np.float32)
+
+
+def shaded(normals: Image) -> Image:
+    """Grey values (H, W, 3) in 0..1 of normals (H, W, 3) in C under one distant light from above, on the left."""
+    shade = 0.06 + 0.9 * np.maximum(np.nan_to_num(normals) @ STILL_LIGHT, 0)
+    return np.asarray(np.repeat((shade ** (1 / 2.2))[..., None], 3, axis=2), dtype=np.float32)

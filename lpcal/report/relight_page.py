@@ -7,19 +7,15 @@ Source of the gloss lobe: Walter et al., Microfacet models for refraction throug
 
 from __future__ import annotations
 
-import numpy as np
-
 from lpcal import __version__
-from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 from lpcal.records.surface import Surface
 from lpcal.report.page import data_uri, script_json
-from lpcal.report.pictures import png, shrink
+from lpcal.report.pictures import png, shaded, shrink
 from lpcal.report.relight_pack import pack
 from lpcal.report.templates import environment
 
 POSTER_PX = 420
-POSTER_LIGHT = np.array([-0.45, -0.55, -0.7])
 
 
 def render(surface: Surface, calibration: Calibration | None) -> str:
@@ -31,15 +27,7 @@ def render(surface: Surface, calibration: Calibration | None) -> str:
             name=surface.name,
             version=__version__,
             data=script_json(pack(surface, calibration)),
-            poster=data_uri(poster(surface.normals, surface.mask, POSTER_PX)),
+            poster=data_uri(png(shrink(shaded(surface.normals), surface.mask, POSTER_PX))),
             pieces=surface.components,
         )
     )
-
-
-def poster(normals: Array | object, mask: object, largest: int) -> bytes:
-    """A still picture of normals (H, W, 3) under one distant light, as PNG: what is seen where no script runs."""
-    light = POSTER_LIGHT / np.linalg.norm(POSTER_LIGHT)
-    shade = 0.06 + 0.9 * np.maximum(np.nan_to_num(np.asarray(normals)) @ light, 0)
-    grey = np.repeat((shade ** (1 / 2.2))[..., None], 3, axis=2).astype(np.float32)
-    return png(shrink(grey, np.asarray(mask, dtype=bool), largest))

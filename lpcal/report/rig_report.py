@@ -54,11 +54,8 @@ def items(document: Document, key: str) -> list[dict[str, Any]]:
 
 def board_points(report: RigReport) -> Array | None:
     """Corners (M, 3) of the board with its warp, metres."""
-    for kind in ("camera", "H_CB"):
-        for key in ("points_B_m", "points_B"):
-            if report.get(kind).get(key) is not None:
-                return array(report.get(kind)[key])
-    return None
+    found = (report.get("H_CB").get("board") or {}).get("points_m")
+    return None if found is None else array(found)
 
 
 def poses(document: Document, name: str) -> dict[str, Array]:

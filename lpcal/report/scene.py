@@ -19,6 +19,7 @@ type Item = dict[str, Any]
 
 CONE_M = 0.06
 BOARDS_SHOWN = 48
+MANY = 30
 
 
 def rig_scene(report: RigReport) -> Scene | None:
@@ -36,14 +37,14 @@ def rig_scene(report: RigReport) -> Scene | None:
         where = _place(light)
         if where is not None:
             reach.append(where)
-    drawn += _designed(report, lights)
+    drawn += _designed(report, lights) + _struts(report)
     H_CD = document.get("H_CD") or report.get("wings").get("H_CD")
     if H_CD:
-        drawn += _triad(array(H_CD), 0.04, "D", "frames")
-    drawn += _triad(np.eye(4), 0.04, "C", "frames")
+        drawn += _triad(array(H_CD), 0.055, "D", "frames")
+    drawn += _triad(np.eye(4), 0.035, "C", "frames")
     H_PC = report.get("handeye").get("H_PC")
     if H_PC:
-        drawn += _triad(se3.inv(array(H_PC)), 0.04, "P", "frames")
+        drawn += _triad(se3.inv(array(H_PC)), 0.075, "P", "frames")
     if focus is not None:
         drawn.append({"kind": "point", "p": [focus], "tone": "focus", "r": 4, "layer": "rig"})
         drawn.append(
@@ -65,9 +66,9 @@ def room_scene(report: RigReport) -> Scene | None:
     drawn: list[Item] = []
     H_OC = {image: H_OP @ H_PC for image, H_OP in found.items() if image in verdict}
     for image, pose in H_OC.items():
-        tone = "camera" if verdict[image].get("used") else "fair"
-        drawn += _camera(pose, report.get("camera"), 0.05, tone, "used" if tone == "camera" else "left out")
-    reach = [pose[:3, 3] for pose in H_OC.values()]
+        used = bool(verdict[image].get("used"))
+        drawn += _camera(pose, report.get("camera"), 0.05, "accent" if used else "fair", "used" if used else "left out")
+    reach = [pose[:3, 3] for image, pose in H_OC.items() if verdict[image].get("used")]
     points_B, H_OB = board_points(report), document.get("H_OB")
     if points_B is not None and H_OB:
         outline = se3.apply(array(H_OB), _outline(points_B))
@@ -81,15 +82,17 @@ def room_scene(report: RigReport) -> Scene | None:
 
 
 def _scene(drawn: list[Item], reach: Array, *, up: Any, yaw: float, pitch: float) -> Scene:
-    low, high = reach.min(axis=0), reach.max(axis=0)
+    centre = (reach.min(axis=0) + reach.max(axis=0)) / 2 if len(reach) < MANY else np.median(reach, axis=0)
+    away = np.linalg.norm(reach - centre, axis=1)
+    radius = float(away.max()) if len(reach) < MANY else 1.2 * float(np.percentile(away, 90))
     for item in drawn:
         for key in ("p", "from", "by"):
             if key in item:
                 item[key] = np.round(np.asarray(item[key], dtype=float), 5).tolist()
     return {
         "items": drawn,
-        "centre": np.round((low + high) / 2, 5).tolist(),
-        "radius": round(float(np.linalg.norm(high - low)) / 2 or 0.1, 5),
+        "centre": np.round(centre, 5).tolist(),
+        "radius": round(radius or 0.1, 5),
         "up": np.round(np.asarray(up, dtype=float), 5).tolist(),
         "yaw": yaw,
         "pitch": pitch,
@@ -104,8 +107,9 @@ def _camera(H_AC: Array, camera: Any, length: float, tone: str, layer: str) -> l
     rays = np.column_stack([(corners_px - K[:2, 2]) / [K[0, 0], K[1, 1]], np.ones(4)]) * length
     far = se3.apply(H_AC, rays)
     eye = H_AC[:3, 3]
-    sides: list[Item] = [{"kind": "line", "p": [eye, corner], "tone": tone, "layer": layer} for corner in far]
-    return [*sides, {"kind": "line", "p": far, "closed": True, "fill": 0.12, "tone": tone, "layer": layer}]
+    thin = tone != "camera"
+    sides: list[Item] = [{"kind": "line", "p": [eye, corner], "tone": tone, "thin": thin, "layer": layer} for corner in far]
+    return [*sides, {"kind": "line", "p": far, "closed": True, "fill": 0.12, "tone": tone, "thin": thin, "layer": layer}]
 
 
 def _place(light: dict[str, Any]) -> Array | None:
@@ -176,10 +180,26 @@ def _triad(H_AB: Array, length: float, name: str, layer: str) -> list[Item]:
     drawn: list[Item] = [
         {"kind": "line", "p": [origin, origin + length * H_AB[:3, k]], "tone": "xyz"[k], "layer": layer, "bold": True} for k in range(3)
     ]
-    return [
-        *drawn,
-        {"kind": "label", "p": [origin - 0.25 * length * H_AB[:3, :3].sum(axis=1)], "text": name, "tone": "ink", "layer": layer},
-    ]
+    tip = origin + 1.1 * length * H_AB[:3, 1]
+    return [*drawn, {"kind": "label", "p": [tip], "text": name, "tone": "ink", "layer": layer}]
+
+
+def _struts(report: RigReport) -> list[Item]:
+    """Each wing as designed, from the disc's centre over its joint to its blob."""
+    wings = report.get("wings")
+    if not wings.get("H_CD"):
+        return []
+    H_CD = array(wings["H_CD"])
+    drawn: list[Item] = []
+    for light in items(wings, "lights"):
+        setting, end = light.get("setting") or {}, _place(light)
+        if end is None or setting.get("d1_m") is None or setting.get("azimuth_deg") is None:
+            continue
+        azimuth = np.radians(float(setting["azimuth_deg"]))
+        joint = se3.apply(H_CD, float(setting["d1_m"]) * np.array([np.cos(azimuth), np.sin(azimuth), 0]))
+        drawn.append({"kind": "line", "p": [H_CD[:3, 3], joint, end], "tone": "board", "layer": "wings"})
+        drawn.append({"kind": "point", "p": [joint], "tone": "board", "r": 2.2, "layer": "wings"})
+    return drawn
 
 
 def _outline(points_B: Array) -> Array:

@@ -130,14 +130,6 @@ def _wings(document: Document) -> Verdict:
     found += f", axes meet at {fixed(1000 * document['d_object_m'], 1, 'mm')}" if document.get("d_object_m") else ""
     position, axis = 1000 * _worst(lights, "position_std_m"), _worst(lights, "axis_std_deg")
     found += f", known to {fixed(position, 1, 'mm')} and {fixed(axis, 1, '°')} an axis" if np.isfinite(position) else ""
-    return Verdict("wings", "Wings", "absent", "No wings: a rig whose lights are not described has no prior.")
-    lights = items(document, "lights")
-    found = f"{plural(len(lights), 'light')} as designed"
-    found += f", axes meet at {fixed(1000 * document['d_object_m'], 1, 'mm')}" if document.get("d_object_m") else ""
-    covariance = document.get("covariance")
-    if covariance is not None and lights:
-        sigma = sigmas(covariance, 6 * len(lights)).reshape(-1, 6)
-        found += f", expected within {fixed(1000 * np.nanmax(sigma[:, 3:]), 1, 'mm')} an axis"
     return Verdict("wings", "Wings", "none", found, "the prior: refined by the spheres", _warnings(document))
 
 
@@ -164,13 +156,13 @@ def _worst(lights: list[dict[str, object]], key: str) -> float:
 
 
 def _surface(surface: SurfaceReport) -> Verdict:
-    pieces = items(surface.summary, "components")
-    spread = [100 * float(piece["scale_std"]) for piece in pieces if isinstance(piece.get("scale_std"), (int, float))]
+    summary = surface.summary
+    pieces = items(summary, "components")
+    metric = summary.get("units") != "pixels"
+    spread = [100 * float(piece["scale_std"]) for piece in pieces if metric and isinstance(piece.get("scale_std"), (int, float))]
     pixels = sum(int(piece.get("pixels") or 0) for piece in pieces)
-    depth = [piece.get("mean_depth_m") for piece in pieces]
     found = f"{pixels:,} pixels in {plural(len(pieces), 'piece')}".replace(",", "\N{NARROW NO-BREAK SPACE}") if pieces else "a surface"
-    if spread and depth[0] is not None:
-        found += f", {with_sigma(1000 * float(depth[0]), 10 * spread[0] * float(depth[0]), 'mm')} away"
-    tone = _level((max(spread, default=float("nan")), "surface_percent"))
-    notes = _warnings(surface.summary)
-    return Verdict("surface", surface.name, _lower(tone, notes), found, "distance ≤ 1 %", notes)
+    if spread and pieces[0].get("mean_depth_m") is not None:
+        depth = float(pieces[0]["mean_depth_m"])
+        found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away"
+    return Verdict("surface", surface.name, _level((max(spread, default=float("nan")), "surface_percent")), found, "distance ≤ 1 %")

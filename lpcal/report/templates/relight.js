@@ -28,7 +28,7 @@ function calibratedLights(names) {
     const d = l.source.map((x, c) => x - surface.centre[c]), r2 = d[0] ** 2 + d[1] ** 2 + d[2] ** 2;
     return Math.max(...l.intensity) / r2;
   };
-  const unit = names.length > 1 ? names.reduce((sum, l) => sum + strength(l), 0) * 0.8 : Math.max(...data.lights.map(strength));
+  const unit = names.length > 1 ? names.reduce((sum, l) => sum + strength(l), 0) : 1.15 * Math.max(...data.lights.map(strength));
   return names.slice(0, MOST_LIGHTS).map((l) => ({
     source: l.source ? [...l.source, 1] : [...l.direction, 0], axis: l.source ? [...l.axis, rows.indexOf(l)] : [0, 0, 1, -1], power: l.intensity.map((x) => x / unit),
   }));
@@ -45,16 +45,16 @@ function turned() {
   const cy = Math.cos(state.yaw), sy = Math.sin(state.yaw), cp = Math.cos(state.pitch), sp = Math.sin(state.pitch);
   const size = Math.max(surface.radius, (data.depth[1] - data.depth[0]) / 2), far = 4.2 * size;
   const matrix = [cy, 0, -sy, -sp * sy, cp, -sp * cy, cp * sy, sp, cp * cy];
-  const f = (state.zoom * 3.4 * Math.min(canvas.width, canvas.height)) / size / far * size;
+  const f = state.zoom * 3.9 * Math.min(canvas.width, canvas.height);
   const eye = [0, 1, 2].map((c) => surface.centre[c] - far * matrix[6 + c]);
-  return { matrix, lens: [f / canvas.width * far / 3.4 * 3.4, f / canvas.height * far / 3.4 * 3.4, far, 3 * size], eye: [...eye, 1] };
+  return { matrix, lens: [f / canvas.width, f / canvas.height, far, 3 * size], eye: [...eye, 1] };
 }
 
 function draw() {
   waiting = false;
   const ratio = Math.min(window.devicePixelRatio || 1, 2), w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(canvas.clientHeight * ratio));
   if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
-  const turn = turned(), step = niceStep((data.depth[1] - data.depth[0]) / 12);
+  const turn = turned(), step = niceStep((data.depth[1] - data.depth[0]) / 24);
   const eye = state.does === "turn" ? turn.eye : data.perspective ? [0, 0, 0, 1] : [0, 0, -1, 0];
   renderer.draw({ does: state.does, mode: state.mode, shadows: state.shadows, gloss: state.gloss, frame: frame(), lights: lights(), turn, eye, exposure: 2 ** state.exposure, contour: step });
   legend(step);
@@ -145,6 +145,18 @@ function controls() {
   add(find("names"), "all", "all", "all calibrated lights together");
 }
 
+// A view may be asked for in the address: relight.html#mode=normals&does=turn&yaw=0.6, #light=L0, #distance=0.2&gloss=0.7
+function asked() {
+  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
+    const light = data.lights.findIndex((l) => l.name === value);
+    if (key === "light" && (light >= 0 || value === "all")) state.chosen = value === "all" ? value : light;
+    else if ((key === "mode" && MODES.includes(value)) || (key === "does" && ["light", "turn"].includes(value))) state[key] = value;
+    else if (["distance", "exposure", "gloss", "yaw", "pitch", "zoom"].includes(key) && Number.isFinite(Number(value))) state[key] = Number(value);
+    else continue;
+    state.touched = true;
+  }
+}
+
 // Until someone takes it, the light goes round slowly; not where reduced motion is asked for.
 function wander(time) {
   if (state.touched || window.matchMedia("(prefers-reduced-motion: reduce)").matches) return;
@@ -163,7 +175,7 @@ async function begin() {
   renderer = glRenderer(canvas, surface);
   if (!renderer) { renderer = plainRenderer(canvas, surface); message("Drawn without WebGL2: no gloss, no shadows, no turning."); find("does").hidden = true; }
   find("poster").hidden = true;
-  pointers(); controls(); show();
+  asked(); pointers(); controls(); show();
   new ResizeObserver(later).observe(canvas);
   requestAnimationFrame(wander);
   document.documentElement.dataset.ready = renderer.turns ? "webgl2" : "canvas";

@@ -46,7 +46,7 @@
       if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) { canvas.width = Math.round(w * ratio); canvas.height = Math.round(h * ratio); }
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.clearRect(0, 0, w, h);
-      const size = { w, h, scale: zoom * 0.43 * Math.min(w, 1.25 * h) / data.radius };
+      const size = { w, h, scale: zoom * 0.42 * Math.min(w, 1.1 * h) / data.radius };
       pen.lineJoin = pen.lineCap = "round";
       for (const { item, flat } of primitives(axes(), size)) paint(item, flat);
     }
