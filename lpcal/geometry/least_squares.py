@@ -198,6 +198,8 @@ class Options:
     damping: float = 1e-6
     tolerance: float = 1e-9
     """Relative fall of the cost, twice in a row, that ends it."""
+    strict: bool = True
+    """Whether running out of iterations is an error; an outer loop may go on by itself."""
 
 
 @dataclass(frozen=True)
@@ -244,6 +246,15 @@ class Solution:
             return np.asarray(C_inverse + np.einsum("ina,nm,imb->iab", G, self._S, G, optimize=True))
         at = np.concatenate([self._layout.columns(name).ravel() for name in names])
         return self._S[np.ix_(at, at)]
+
+    @property
+    def parameters(self) -> int:
+        """Number of free parameters, the eliminated ones too."""
+        return int(self._layout.free.sum()) + self._layout.items * self._layout.size * bool(self._layout.items)
+
+    def covariance_of_all(self) -> Array:
+        """Covariance (n, n) of all that is not eliminated, in the order of `columns`; zero for what is fixed."""
+        return self._S
 
     def leverage(self, term: int) -> Array:
         """Share (N, rows) of each residual that the fit absorbs: diag(J cov J^T); a residual's variance is 1 - leverage."""
@@ -307,6 +318,8 @@ def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str 
         raise ConvergenceError("the residuals are not finite at the start", needed="a start in front of the camera, finite data")
     now, damping, small, iteration = dict(blocks), options.damping, 0, 0
     while small < 2 and damping < NO_WAY_DOWN:
+        if iteration == options.iterations and not options.strict:
+            break
         if iteration == options.iterations:
             raise ConvergenceError(
                 f"the cost still falls after {iteration} iterations", needed="a solve that settles", todo="look at the data's residuals"

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 SINGULAR = 1e-13
 """Least eigenvalue of the information, its diagonal scaled to 1, below which it counts as singular."""
 
+FEW = 4
+"""Observations a group, from which on a product a group is faster than one an observation."""
+
 type Index = npt.NDArray[np.intp]
 
 
@@ -122,21 +125,44 @@ def _loss(r: Array, term: Term) -> tuple[float, Array]:
 
 
 def _add(system: System, layout: Layout, term: Term, r: Array, J: Array) -> None:
-    """Add a term to the normal equations, observations that share their columns together."""
+    """Add a term to the normal equations; observations that share their items go together, as one matrix product."""
     columns, item = layout.of_term(term)
+    kept = [term.items(place) for place, name in enumerate(term.blocks) if name != layout.eliminate]
     if item is not None:
         start, stop = layout.eliminated_columns(term)
         J_e, J = J[:, start:stop], np.delete(J, np.s_[start:stop], axis=1)
-        J_eT = np.swapaxes(J_e, 1, 2)
-        np.add.at(system.C, item, J_e @ J_eT)
-        np.add.at(system.gradient_e, item, (J_e @ r[:, :, None])[:, :, 0])
-        np.add.at(system.B, (item[:, None], columns), J @ J_eT)
-    groups, member = np.unique(columns, axis=0, return_inverse=True)
-    for group, at in enumerate(groups):
-        J_T = (J if len(groups) == 1 else J[member.ravel() == group]).transpose(1, 0, 2).reshape(len(at), -1)
-        of_group = r if len(groups) == 1 else r[member.ravel() == group]
+        groups = _groups([*kept, item], term.count)
+        if len(groups) * FEW <= term.count:
+            for group in groups:
+                first, J_eT, r_g = group[0], _rows(J_e[group]), r[group].ravel()
+                system.C[item[first]] += J_eT @ J_eT.T
+                system.gradient_e[item[first]] += J_eT @ r_g
+                np.add.at(system.B[item[first]], columns[first], _rows(J[group]) @ J_eT.T)
+        else:
+            J_eT = np.swapaxes(J_e, 1, 2)
+            np.add.at(system.C, item, J_e @ J_eT)
+            np.add.at(system.gradient_e, item, (J_e @ r[:, :, None])[:, :, 0])
+            np.add.at(system.B, (item[:, None], columns), J @ J_eT)
+    for group in _groups(kept, term.count):
+        at, J_T = columns[group[0]], _rows(J[group])
         np.add.at(system.A, np.ix_(at, at), J_T @ J_T.T)
-        np.add.at(system.gradient, at, J_T @ of_group.ravel())
+        np.add.at(system.gradient, at, J_T @ r[group].ravel())
+
+
+def _groups(items: Sequence[Index], count: int) -> list[Index]:
+    """Observations that take the same items, group by group."""
+    key = np.zeros(count, dtype=np.intp)
+    for each in items:
+        key = key * (int(each.max(initial=0)) + 1) + each
+    if count == 0 or np.all(key == key[0]):
+        return [np.arange(count)] if count else []
+    order = np.argsort(key, kind="stable")
+    return list(np.split(order, np.flatnonzero(np.diff(key[order])) + 1))
+
+
+def _rows(J: Array) -> Array:
+    """Transposed Jacobians (N, n, rows) as one (n, N rows)."""
+    return J.transpose(1, 0, 2).reshape(J.shape[1], -1)
 
 
 def reduced(system: System, damping: float) -> tuple[Array, Array, Array, Array]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
 
@@ -72,6 +73,22 @@ class BoardPoses:
     """(N,) residual of the corners, a coordinate."""
     corner_sigma_px: float = float("nan")
     """One standard deviation of a corner coordinate."""
+
+    def of(self, rows: npt.NDArray[np.intp]) -> BoardPoses:
+        """Some of the views."""
+
+        def some(array: Array | None) -> Array | None:
+            return None if array is None else array[rows]
+
+        return replace(
+            self,
+            images=tuple(self.images[row] for row in rows),
+            t_camera_s=some(self.t_camera_s),
+            H_CB=self.H_CB[rows],
+            corners_px=some(self.corners_px),
+            covariance=some(self.covariance),
+            rms_px=some(self.rms_px),
+        )
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,217 @@
+r"""The maximum-likelihood hand-eye problem at given noise: corners, mocap poses and the camera's prior, all with their own errors.
+
+Unknown: H_PC, H_OB, the camera's parameters, the clock offset, and a latent panel pose H_OP,k a view, which is eliminated. With the
+measured pose H~_k, the velocity (w, v) of the panel and d = offset - offset_0::
+
+    corner m of view k:   ( project( inv(H_OP,k H_PC) H_OB x_B,m ) - seen ) / sigma_px
+    board pose k:         rotation and translation of inv(H~_k H_PC) H_OB against the pose found elsewhere: one scatter for both
+                          sensors (they cannot be told apart without corners), so that no latent pose is needed
+    mocap pose k:         [ rotation( R_OP,k R~_k^T (I + d hat(w)) ),  t_OP,k - t~_k + d v ] / sigmas
+    camera:               its prior from the intrinsics' covariance
+
+The clock's part is linear in d: `solve` relinearises. Source: the usual joint formulation of robot-world hand-eye calibration with
+errors in both sensors, for example Koide & Menegatti, General hand-eye calibration based on reprojection error minimization (2019).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.least_squares import POSE, Block, Model, Options, Solution, Term, compile_residual, matrix, prior, small_rotation, solve
+
+CAMERA_SIZE = 12
+"""fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6."""
+
+
+@dataclass(frozen=True)
+class Views:
+    """What the solve is given, one row a view."""
+
+    H_CB: Array
+    """(N, 4, 4)."""
+    H_OP: Array
+    """(N, 4, 4) as measured, at the offset `offset_s`."""
+    velocity: Array
+    """(N, 6) of the measured pose, zero where there is no clock."""
+    noise_class: npt.NDArray[np.intp]
+    """(N,) views of one class share the mocap's sigmas: 0 moving or single samples, 1 dwells."""
+    deflation: Array
+    """(N,) factor on the mocap's variance for errors that neighbouring views share."""
+    corners_px: Array | None = None
+    """(N, M, 2), NaN where not seen; None: board poses alone."""
+    points_B: Array | None = None
+    """(M, 3)."""
+
+    @property
+    def count(self) -> int:
+        """Number of views."""
+        return len(self.H_CB)
+
+    def of(self, rows: npt.NDArray[Any]) -> Views:
+        """Some of the views."""
+        corners = None if self.corners_px is None else self.corners_px[rows]
+        return Views(
+            self.H_CB[rows], self.H_OP[rows], self.velocity[rows], self.noise_class[rows], self.deflation[rows], corners, self.points_B
+        )
+
+
+@dataclass(frozen=True)
+class CameraPrior:
+    """The camera's parameters (12,), as `CAMERA_SIZE` names them, which may move, and their covariance (F, F) for those that may."""
+
+    mean: Array
+    free: npt.NDArray[np.bool_]
+    covariance: Array
+
+
+@dataclass(frozen=True)
+class Sigmas:
+    """One standard deviation of every kind of measurement."""
+
+    px: float = 0.1
+    board_rad: float = np.deg2rad(0.3)
+    board_lateral_m: float = 2e-3
+    board_depth_m: float = 4e-3
+    mocap_rad: tuple[float, ...] = (np.deg2rad(0.075), np.deg2rad(0.075))
+    """By noise class."""
+    mocap_m: tuple[float, ...] = (2e-4, 2e-4)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """H_PC, H_OB, camera, offset, and the solution that they come from."""
+
+    H_PC: Array
+    H_OB: Array
+    camera: Array
+    d_offset_s: float
+    solution: Solution
+    order: tuple[str, ...] = field(default=())
+    """Kinds of the solution's terms: corners | board, mocap, camera."""
+
+    def term(self, kind: str) -> int:
+        """Place of a kind of term; -1 where there is none."""
+        return self.order.index(kind) if kind in self.order else -1
+
+    def covariance(self) -> Array:
+        """(13, 13) of H_PC, H_OB (left perturbations) and the offset."""
+        return self.solution.covariance("H_PC", "H_OB", "clock")
+
+
+def estimate(
+    views: Views,
+    camera: CameraPrior | None,
+    sigmas: Sigmas,
+    start: Estimate | tuple[Array, Array],
+    *,
+    clock: bool,
+    options: Options | None = None,
+) -> Estimate:
+    """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB).
+
+    Raises
+    ------
+    DegenerateError, ConvergenceError
+        As `least_squares.solve`.
+    """
+    H_PC, H_OB = (start.H_PC, start.H_OB) if isinstance(start, Estimate) else start
+    blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock)}
+    if views.corners_px is None or camera is None:
+        found = solve(blocks, [_board_term(views, sigmas)], options=options)
+        return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",))
+    earlier = start if isinstance(start, Estimate) else None
+    same = earlier is not None and len(earlier.solution["H_OP"]) == views.count
+    blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same else views.H_OP)
+    blocks["camera"] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
+    terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas)], ["mocap", "corners"]
+    if camera.free.any():
+        terms.append(_camera_prior(camera))
+        order.append("camera")
+    found = solve(blocks, terms, eliminate="H_OP", options=options)
+    return Estimate(found["H_PC"][0], found["H_OB"][0], found["camera"][0], float(found["clock"][0, 0]), found, tuple(order))
+
+
+def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
+    rad, metre = np.array(sigmas.mocap_rad)[views.noise_class], np.array(sigmas.mocap_m)[views.noise_class]
+    weight = np.repeat(1 / np.stack([rad**2, metre**2], axis=1), 3, axis=1) / views.deflation[:, None]
+    data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity], axis=1)
+    return Term(_mocap_model(), ("H_OP", "clock"), (np.arange(views.count), 0), data, weight=weight)
+
+
+def _corner_term(views: Views, sigmas: Sigmas) -> Term:
+    corners, points_B = np.asarray(views.corners_px), np.asarray(views.points_B)
+    view, corner = np.nonzero(np.isfinite(corners).all(axis=2))
+    data = np.concatenate([corners[view, corner], points_B[corner]], axis=1)
+    return Term(_corner_model(), ("H_PC", "H_OB", "H_OP", "camera"), (0, 0, view, 0), data, weight=np.full((len(data), 2), sigmas.px**-2.0))
+
+
+def _board_term(views: Views, sigmas: Sigmas) -> Term:
+    s = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
+    weight = np.array(s) ** -2.0 / views.deflation[:, None]
+    data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity, views.H_CB.reshape(-1, 16)], axis=1)
+    return Term(_board_model(), ("H_PC", "H_OB", "clock"), (0, 0, 0), data, weight=weight)
+
+
+def _camera_prior(camera: CameraPrior) -> Term:
+    """The prior of the free parameters; those that are held get a unit variance that never acts."""
+    covariance = np.eye(CAMERA_SIZE)
+    covariance[np.ix_(camera.free, camera.free)] = camera.covariance
+    return prior("camera", Block(camera.mean[None]), camera.mean, covariance)
+
+
+@cache
+def _mocap_model() -> Model:
+    import casadi as ca
+
+    def residual(H_OP: Any, d: Any, data: Any) -> Any:
+        H_seen, w, v = matrix(data[:16], 4, 4), data[16:19], data[19:22]
+        R = H_OP[:3, :3] @ H_seen[:3, :3].T @ (ca.SX.eye(3) + ca.skew(w) * d)
+        return ca.vertcat(small_rotation(R), H_OP[:3, 3] - H_seen[:3, 3] + v * d)
+
+    return compile_residual(residual, (POSE, 1), 22)
+
+
+@cache
+def _board_model() -> Model:
+    import casadi as ca
+
+    def residual(H_PC: Any, H_OB: Any, d: Any, data: Any) -> Any:
+        H_then, w, v, H_seen = matrix(data[:16], 4, 4), data[16:19], data[19:22], matrix(data[22:], 4, 4)
+        R_OP, t_OP = (ca.SX.eye(3) - ca.skew(w) * d) @ H_then[:3, :3], H_then[:3, 3] - v * d
+        R_OC, t_OC = R_OP @ H_PC[:3, :3], R_OP @ H_PC[:3, 3] + t_OP
+        turn = R_OC.T @ H_OB[:3, :3] @ H_seen[:3, :3].T
+        return ca.vertcat(small_rotation(turn), R_OC.T @ (H_OB[:3, 3] - t_OC) - H_seen[:3, 3])
+
+    return compile_residual(residual, (POSE, POSE, 1), 38)
+
+
+@cache
+def _corner_model() -> Model:
+    import casadi as ca
+
+    def residual(H_PC: Any, H_OB: Any, H_OP: Any, camera: Any, data: Any) -> Any:
+        x_O = H_OB[:3, :3] @ data[2:] + H_OB[:3, 3]
+        x_P = H_OP[:3, :3].T @ (x_O - H_OP[:3, 3])
+        x_C = H_PC[:3, :3].T @ (x_P - H_PC[:3, 3])
+        x, y = x_C[0] / x_C[2], x_C[1] / x_C[2]
+        k1, k2, p1, p2, k3, k4, k5, k6 = ca.vertsplit(camera[4:])
+        r2 = x * x + y * y
+        radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / (1 + r2 * (k4 + r2 * (k5 + r2 * k6)))
+        x_d = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
+        y_d = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
+        return ca.vertcat(camera[0] * x_d + camera[2], camera[1] * y_d + camera[3]) - data[:2]
+
+    return compile_residual(residual, (POSE, POSE, POSE, CAMERA_SIZE), 5)
+
+
+def misfit(views: Views, found: Estimate) -> tuple[Array, Array]:
+    """Angle (N,) and distance (N,) by which each view's board, seen through the measured panel pose, misses H_OB."""
+    H_OB_k = views.H_OP @ found.H_PC @ views.H_CB
+    return se3.angle_rad(H_OB_k[:, :3, :3] @ found.H_OB[:3, :3].T), np.linalg.norm(H_OB_k[:, :3, 3] - found.H_OB[:3, 3], axis=1)

@@ -1,0 +1,145 @@
+r"""How noisy the measurements are, told by the solve itself, and the covariance that follows where neighbours share their errors.
+
+Symbols: residual r_j with the weight w_j = 1/sigma_j^2 and leverage h_j (the share of it that the fit absorbs), frozen set of views::
+
+    sigma_g^2 <- sum_g r_j^2 / f_j  /  sum_g (1 - h_j)          variance components, a group g of measurements (Forstner 1979)
+    f_k = sum_l correlation(t_k - t_l)                           views that stand for one, where mocap errors drift slowly
+    cov = S^-1 ( sum_b g_b g_b^T ) S^-1                          block-robust: g_b the gradient that the views of a stretch b give
+
+Mocap errors are coloured: differences of the stream understate them fifty times. Sources: Forstner, Ein Verfahren zur Schatzung von
+Varianz- und Kovarianzkomponenten (1979); Liang & Zeger, Longitudinal data analysis using generalized linear models (1986).
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.chain.h_pc_handeye.likelihood import Estimate, Sigmas, Views
+from lpcal.geometry.arrays import Array
+
+LAGS_S = (0.0, 0.15, 0.3, 0.6, 1.2, 2.5, 5.0, 10.0)
+"""Edges of the bins of time in which the correlation of mocap errors is taken."""
+SIGNIFICANT = 3.0
+FEWEST_PAIRS = 15
+LEAST_FREEDOM = 6.0
+"""Redundancy under which a group keeps the sigma it has."""
+SHRINK = 0.2
+"""The least that a sigma may become in one step, as a share of what it was: a component that collapses stays away from zero."""
+BLOCK_S = 2.0
+BLOCK_VIEWS = 15
+FEWEST_BLOCKS = 8
+FLOOR_PX = 1e-3
+
+
+def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
+    """The sigmas that the residuals show, at the present weights."""
+    if (place := found.term("board")) >= 0:
+        r, free = found.solution.residuals[place], 1 - found.solution.leverage(place)
+        return replace(
+            sigmas,
+            board_rad=_updated(sigmas.board_rad, r[:, :3], free[:, :3]),
+            board_lateral_m=_updated(sigmas.board_lateral_m, r[:, 3:5], free[:, 3:5]),
+            board_depth_m=_updated(sigmas.board_depth_m, r[:, 5:], free[:, 5:]),
+        )
+    place = found.term("mocap")
+    r, leverage = found.solution.residuals[place], found.solution.leverage(place)
+    free = 1 - leverage
+    rad, metre = list(sigmas.mocap_rad), list(sigmas.mocap_m)
+    for group in np.unique(views.noise_class):
+        of = views.noise_class == group
+        rad[group] = _updated(rad[group], r[of, :3], free[of, :3])
+        metre[group] = _updated(metre[group], r[of, 3:], free[of, 3:])
+    corners = found.solution.residuals[found.term("corners")]
+    absorbed = found.solution.parameters - float(leverage.sum())  # all leverages add up to the parameters; the prior's are the camera's
+    px = np.sqrt(np.sum(corners**2) / max(corners.size - absorbed, LEAST_FREEDOM))
+    return replace(sigmas, mocap_rad=tuple(rad), mocap_m=tuple(metre), px=max(float(px), SHRINK * sigmas.px, FLOOR_PX))
+
+
+def row_sigmas(views: Views, sigmas: Sigmas, kind: str) -> Array:
+    """One standard deviation (N, 6) of the rows of a term, mocap | board, of one view by itself."""
+    if kind == "board":
+        row = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
+        return np.tile(np.array(row), (views.count, 1))
+    both = np.stack([np.array(sigmas.mocap_rad), np.array(sigmas.mocap_m)], axis=1)[views.noise_class]
+    return np.asarray(np.repeat(both, 3, axis=1))
+
+
+def change(before: Sigmas, after: Sigmas) -> float:
+    """The largest relative change of a sigma."""
+    old, new = (np.array([s.px, s.board_rad, s.board_lateral_m, s.board_depth_m, *s.mocap_rad, *s.mocap_m]) for s in (before, after))
+    return float(np.max(np.abs(new / old - 1)))
+
+
+def deflation(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array) -> Array:
+    """Factor (N,) on the mocap's variance of each view: the number of views that share its error, by the residuals' correlation."""
+    kind = "mocap" if found.term("mocap") >= 0 else "board"
+    z = found.solution.residuals[found.term(kind)] / row_sigmas(views, sigmas, kind)
+    gap = np.abs(t_s[:, None] - t_s[None])
+    np.fill_diagonal(gap, np.inf)
+    product = z @ z.T / z.shape[1]
+    level = float(np.mean(z**2))
+    factor, ceiling = np.ones(len(z)), 1.0
+    for low, high in itertools.pairwise(LAGS_S):
+        near = (gap > low) & (gap <= high)
+        pairs = near.sum() / 2
+        if pairs < FEWEST_PAIRS:
+            continue
+        found_here = float(product[near].mean()) / level
+        if found_here < SIGNIFICANT / np.sqrt(min(pairs, len(z)) * z.shape[1]):
+            break
+        ceiling = min(ceiling, found_here)
+        factor += ceiling * near.sum(axis=1)
+    return factor
+
+
+def block_factor(views: Views, found: Estimate, t_s: Array | None) -> float:
+    """Factor on the covariance of H_PC and H_OB by which stretches of neighbouring views scatter more than their noise; at least 1.
+
+    Counted only where the scatter is beyond chance, so that white noise keeps its covariance.
+    """
+    solution = found.solution
+    blocks = _blocks(views.count, t_s)
+    number = int(blocks.max()) + 1
+    if number < FEWEST_BLOCKS:
+        return 1.0
+    at = solution.columns("H_PC", "H_OB")
+    scores = np.zeros((number, len(solution.scores(0)[0])))
+    for place, kind in enumerate(found.order):
+        if kind == "camera":
+            continue
+        term = solution.terms[place]
+        items = term.items(term.blocks.index("H_OP")) if "H_OP" in term.blocks else np.arange(term.count)
+        np.add.at(scores, blocks[items], solution.scores(place))
+    formal = solution.covariance("H_PC", "H_OB")
+    whole = solution.covariance_of_all()
+    influence = scores @ whole[:, at]
+    robust = influence.T @ influence * number / (number - 1)
+    ratio = float(np.trace(np.linalg.solve(formal, robust))) / len(at)
+    chance = np.sqrt(2 / (number * 6))
+    return ratio if ratio > 1 + 2 * chance else 1.0
+
+
+def _updated(sigma: float, r: Array, free: Array) -> float:
+    freedom = float(free.sum())
+    if freedom < LEAST_FREEDOM:
+        return sigma
+    return float(max(np.sqrt(np.sum(r**2) / freedom), SHRINK * sigma))
+
+
+def _blocks(count: int, t_s: Array | None) -> npt.NDArray[np.intp]:
+    """Stretches of views next to each other in time (or in order): up to some seconds, or views, long."""
+    if t_s is None:
+        return np.arange(count) // max(1, count // 15)
+    blocks = np.zeros(count, dtype=np.intp)
+    order = np.argsort(t_s)
+    number, first, size = 0, t_s[order[0]], 0
+    for k in order:
+        if t_s[k] - first > BLOCK_S or size >= 4 * BLOCK_VIEWS:
+            number, first, size = number + 1, t_s[k], 0
+        blocks[k] = number
+        size += 1
+    return blocks

@@ -1,0 +1,78 @@
+"""H_OP.yaml: the tracked body at every image of ``mocap.images``.
+
+- ``body``; ``clock_offset_s`` (t_camera = t_mocap + offset; null without clocks)
+- ``views``, one an image: ``image, t_camera_s, used`` (whether the pose is to be trusted), ``why`` (null where it is), ``H_OP`` (4x4, null
+  where there is none), ``steady`` (a mean over a dwell rather than an interpolation)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.geometry.arrays import Array
+
+KIND = "H_OP"
+
+
+@dataclass(frozen=True)
+class ImagePanelPoses:
+    """The body's pose at each image. Row k is one image."""
+
+    body: str
+    images: tuple[str, ...]
+    t_camera_s: Array | None
+    H_OP: Array
+    """(N, 4, 4), NaN where there is none to trust."""
+    why: tuple[str | None, ...]
+    steady: npt.NDArray[np.bool_]
+    clock_offset_s: float | None
+
+
+def write_h_op(path: Path, poses: ImagePanelPoses, provenance: Provenance) -> None:
+    """Write H_OP.yaml."""
+    views = [
+        {
+            "image": image,
+            "t_camera_s": None if poses.t_camera_s is None else float(poses.t_camera_s[k]),
+            "used": poses.why[k] is None,
+            "why": poses.why[k],
+            "steady": bool(poses.steady[k]),
+            "H_OP": poses.H_OP[k] if np.isfinite(poses.H_OP[k]).all() else None,
+        }
+        for k, image in enumerate(poses.images)
+    ]
+    write_document(path, KIND, {"body": poses.body, "clock_offset_s": poses.clock_offset_s, "views": views}, provenance)
+
+
+def read_h_op(path: Path) -> ImagePanelPoses:
+    """Read H_OP.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
+    """
+    document = read_document(path, KIND)
+    try:
+        views = document["views"]
+        nothing = np.full((4, 4), np.nan)
+        times = [view["t_camera_s"] for view in views]
+        return ImagePanelPoses(
+            body=document["body"],
+            images=tuple(view["image"] for view in views),
+            t_camera_s=None if any(time is None for time in times) else np.array(times, dtype=float),
+            H_OP=np.array([nothing if view["H_OP"] is None else view["H_OP"] for view in views], dtype=float).reshape(len(views), 4, 4),
+            why=tuple(view["why"] for view in views),
+            steady=np.array([view["steady"] for view in views], dtype=bool),
+            clock_offset_s=document["clock_offset_s"],
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{error} is lacking or garbled", where=str(path), needed="a whole H_OP file", todo="write it anew with lpcal handeye"
+        ) from error

@@ -1,0 +1,95 @@
+"""handeye.yaml: the camera in the tracked body, the board in the room, the clock offset, and what became of each view.
+
+- ``H_PC``, ``H_OB`` (4x4) and ``H_PC_covariance``, ``H_OB_covariance`` (6x6, rotation in rad then translation in m, of the left
+  perturbation); ``H_PC`` takes camera coordinates to the body's, its last column is the camera's centre in the body's frame
+- ``clock_offset_s``, ``clock_offset_std_s``: t_camera = t_mocap + offset; null where the data do not show it
+- ``views``: ``image, used, why`` (null where used), ``residual_px`` (corners, rms a coordinate), ``residual_m``, ``residual_deg``
+  (the board seen through the measured body pose against H_OB)
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import HandEye, ViewVerdict
+
+KIND = "handeye"
+
+
+def write_handeye(path: Path, found: HandEye, provenance: Provenance) -> None:
+    """Write handeye.yaml."""
+    body = {
+        "H_PC": found.H_PC,
+        "H_PC_covariance": found.H_PC_covariance,
+        "H_OB": found.H_OB,
+        "H_OB_covariance": found.H_OB_covariance,
+        "clock_offset_s": found.clock_offset_s,
+        "clock_offset_std_s": found.clock_offset_std_s,
+        "warnings": list(found.warnings),
+        "evidence": found.evidence,
+        "views": [_view(view) for view in found.views],
+    }
+    write_document(path, KIND, body, provenance)
+
+
+def read_handeye(path: Path) -> HandEye:
+    """Read handeye.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
+    """
+    document = read_document(path, KIND)
+    try:
+        return HandEye(
+            H_PC=_matrix(document, "H_PC", 4),
+            H_PC_covariance=_matrix(document, "H_PC_covariance", 6),
+            H_OB=_matrix(document, "H_OB", 4),
+            H_OB_covariance=_matrix(document, "H_OB_covariance", 6),
+            clock_offset_s=document["clock_offset_s"],
+            clock_offset_std_s=document["clock_offset_std_s"],
+            views=tuple(_verdict(view) for view in document["views"]),
+            warnings=tuple(document.get("warnings") or ()),
+            evidence=document.get("evidence") or {},
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{error} is lacking or garbled", where=str(path), needed="a whole handeye file", todo="write it anew with lpcal handeye"
+        ) from error
+
+
+def _matrix(document: dict[str, Any], key: str, size: int) -> Array:
+    found = np.array(document[key], dtype=float)
+    if found.shape != (size, size) or not np.isfinite(found).all():
+        raise ValueError(key)
+    return found
+
+
+def _view(view: ViewVerdict) -> dict[str, Any]:
+    return {
+        "image": view.image,
+        "used": view.used,
+        "why": view.why,
+        "residual_px": view.residual_px,
+        "residual_m": view.residual_m,
+        "residual_deg": None if view.residual_rad is None else float(np.degrees(view.residual_rad)),
+    }
+
+
+def _verdict(view: dict[str, Any]) -> ViewVerdict:
+    degrees = view.get("residual_deg")
+    return ViewVerdict(
+        view["image"],
+        view["used"],
+        view["why"],
+        view.get("residual_px"),
+        view.get("residual_m"),
+        None if degrees is None else float(np.radians(degrees)),
+    )

@@ -1,0 +1,91 @@
+"""Boards and tracked body -> handeye.yaml (H_PC, H_OB, clock offset), H_OP.yaml (the body at every image)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.h_op_panel import clean, poses_at
+from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
+from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
+from lpcal.formats.handeye_yaml import write_handeye
+from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
+from lpcal.pipeline.handeye_summary import summarise
+from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.records.calibration import HandEye, ViewVerdict
+from lpcal.records.outcome import Outcome, Progress
+
+
+def run(workspace: Workspace, progress: Progress, recording: Path | None = None) -> Outcome:
+    """Find H_PC, H_OB and the clock offset; `recording` stands in for ``mocap.file``.
+
+    Raises
+    ------
+    InputError, DegenerateError, ConvergenceError, DisagreementError
+        As the steps raise them.
+    """
+    workspace = with_recording(workspace, recording)
+    given = gather(workspace, progress)
+    progress("hand-eye", 0, 1)
+    finding = _solved(workspace, given)
+    progress("hand-eye", 1, 1)
+    handeye = _with_all_images(finding.handeye, given)
+    provenance = workspace.provenance(input_files(workspace), settings(workspace))
+    write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding), provenance)
+    write_handeye(workspace.calib("handeye.yaml"), handeye, provenance)
+    return summarise(handeye, given, workspace.rig_file.rig)
+
+
+def settings(workspace: Workspace) -> dict[str, Any]:
+    """The section that the stage depends on."""
+    section = workspace.rig_file.rig.mocap
+    return {"mocap": section.model_dump() if section else None}
+
+
+def _solved(workspace: Workspace, given: HandEyeInputs) -> HandEyeFinding:
+    offset = section_of(workspace).clock_offset
+    options = Options(None if offset == "estimate" else float(offset), given.camera_share)
+    if given.stream is not None:
+        return solve_moving(given.boards, given.stream, given.camera, options)
+    assert given.H_OP is not None
+    return solve_paired(given.boards, given.H_OP, given.camera, options)
+
+
+def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
+    """The verdicts of all images asked for, in their order."""
+    verdicts = {view.image: view for view in handeye.views}
+    verdicts |= {image: ViewVerdict(image, False, why) for image, why in (given.without_board | given.without_pose).items()}
+    return replace(handeye, views=tuple(verdicts[image] for image in given.images))
+
+
+def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> ImagePanelPoses:
+    """The body's pose at every image, those without a board too."""
+    body = given.stream.body if given.stream is not None else ""
+    if given.stream is not None and given.t_camera_s is not None:
+        offset = finding.offset_s
+        panel = poses_at(clean(given.stream), given.t_camera_s - offset)
+        H_OP = np.where(panel.trusted[:, None, None], panel.H_OP, np.nan)
+        why, steady = panel.why, panel.steady
+    else:
+        assert given.H_OP is not None
+        pose_of = dict(zip(given.boards.images, given.H_OP, strict=True))
+        nothing = np.full((4, 4), np.nan)
+        H_OP = np.array([pose_of.get(image, nothing) for image in given.images])
+        why = tuple(None if image in pose_of else given.without_pose.get(image, "no pose kept: no board") for image in given.images)
+        steady = np.zeros(len(given.images), dtype=bool)
+    refused = {view.image: view.why for view in finding.handeye.views if not view.used}
+    verdict = tuple(each if each is not None else refused.get(image) for image, each in zip(given.images, why, strict=True))
+    return ImagePanelPoses(body, given.images, given.t_camera_s, H_OP, verdict, steady, finding.handeye.clock_offset_s)
+
+
+STAGE = Stage(
+    name="handeye",
+    kinds={"H_OP.yaml": "H_OP", "handeye.yaml": "handeye"},
+    wanted=lambda workspace: workspace.rig_file.rig.mocap is not None,
+    inputs=input_files,
+    settings=settings,
+    run=run,
+)
