@@ -56,9 +56,8 @@ def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array |
     inside = points_px[np.all((points_px > -1) & (points_px < [w, h]), axis=1)] * scale + 2
     parts.append(f'<path class="dots" d="{"".join(f"M{u:.1f} {v:.1f}h0" for u, v in inside)}"/>')
     for x, y, dx, dy in [] if arrows_px is None else arrows_px * scale:
-        parts.append(
-            f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/><circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>'
-        )
+        parts.append(f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/>')
+        parts.append(f'<circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>')
     return _svg(height, parts, "where the board's corners fell in the image")
 
 

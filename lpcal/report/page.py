@@ -89,7 +89,7 @@ def _surface(surface: SurfaceReport) -> dict[str, Any]:
 def _piece(piece: dict[str, Any], summary: Document) -> tuple[str, str]:
     depth, spread = piece.get("mean_depth_m"), piece.get("scale_std")
     label = f"piece {piece.get('label')}, {piece.get('pixels')} pixels"
-    if summary.get("units") == "pixels" or not _is_figure(depth):
+    if summary.get("units") == "pixels" or not isinstance(depth, (int, float)):
         return label, "relative depth"
     return label, with_sigma(1000 * depth, None if spread is None else 1000 * depth * spread, "mm")
 
