@@ -1,30 +1,214 @@
-"""Which pixels are the object."""
+"""Which pixels are the object: not the wall behind it, not the support under it, not the dark.
+
+Near light places the plane behind the object from the border of the image; a pixel that this plane explains, shadows counted, is wall. What
+is left and touches the border is tried as further planes (support, shelf), and dark matter that hangs on those or on the border is support
+too. Without near light, or where no plane is lit, the strength of the signal decides.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
-from lpcal.geometry.arrays import Mask
-from lpcal.surface.sight import Grey
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Light
+from lpcal.surface import cut, planes
+from lpcal.surface.sight import Grey, Sight, look_at
+
+COARSE_PIXELS = 110_000
+BORDER_SHARE = 0.06
+LIT_SIGMAS = 6.0
+WALL_SIGMAS = 2.5
+FIT_SIGMAS = 3.0
+FURTHER_PLANES = 3
+MANY = 3
+"""Samples beyond the first that make a plane's claim on a pixel a full one."""
+STIFFNESS = 0.6
+SMALLEST_SHARE = 0.02
+"""Pieces under this share of the largest are dropped."""
+HOLE_SHARE = 0.004
+DARK_SHARE = 0.3
+"""Matter darker than this share of the object's own is dark."""
+LEAST_OF_IMAGE = 0.003
 
 
-def automatic(maps: Grey) -> Mask:
-    """The object by the strength of its signal alone (Otsu 1979 on the logarithm)."""
+@dataclass(frozen=True)
+class Found:
+    """A mask and how it was found, in words."""
+
+    mask: Mask
+    how: str
+    planes: tuple[planes.Plane, ...] = ()
+
+
+def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:
+    """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes."""
+    if distance_m is not None:
+        found = _by_planes(maps, rays_C, lights, distance_m)
+        if found is not None:
+            return found
+    return Found(_by_strength(maps), "by the strength of the signal")
+
+
+def strength(maps: Grey) -> Image:
+    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
+    return np.asarray(np.sort(maps.signal, axis=0)[-2], np.float32)
+
+
+def _by_strength(maps: Grey) -> Mask:
+    """Otsu 1979 on the logarithm of the strength, then the seam."""
+    lit = strength(maps)
+    noise = np.median(maps.sigma, axis=0)
+    level = np.log(np.maximum(lit, noise))
+    mask = level > _otsu(level)
+    mask &= lit > LIT_SIGMAS * noise
+    return _tidy(cut.along_the_seam(_tidy(mask), _picture(maps)))
+
+
+def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Found | None:
+    coarse, coarse_rays = _binned(maps, rays_C)
+    shape = coarse.signal.shape[1:]
+    everywhere = look_at(coarse, coarse_rays, np.ones(shape, bool), central=True)
+    bright = strength(coarse)
+    lit = np.sum(coarse.signal > LIT_SIGMAS * coarse.sigma, axis=0) >= 3
+    border = _border(shape)
+    wall = planes.fit(look_at(coarse, coarse_rays, border & lit, central=True), lights, distance_m)
+    if wall is None or wall.misfit > FIT_SIGMAS or np.mean(lit[border]) < 0.2:
+        return None
+    left = cut.total_variation(_evidence(everywhere, wall, lights), _log(bright), STIFFNESS)
+    found = [wall]
+    support = np.zeros(shape, bool)
+    for _ in range(FURTHER_PLANES):
+        touching = _hangs_on(left & ~support, border)
+        at_border = touching & border & lit
+        if at_border.sum() < 0.01 * border.sum():
+            break
+        plane = planes.fit(look_at(coarse, coarse_rays, at_border, central=True), lights, distance_m, tilted=True)
+        if plane is None or plane.misfit > FIT_SIGMAS:
+            break
+        found.append(plane)
+        explained = touching & ~cut.total_variation(_evidence(everywhere, plane, lights), _log(bright), STIFFNESS)
+        grown = _hangs_on(explained, at_border)
+        if grown.sum() <= at_border.sum() // 2:
+            break
+        support |= grown
+    mask = _without_support(left, support, border, bright)
+    if mask.sum() < LEAST_OF_IMAGE * mask.size:
+        return Found(_enlarged(lit, maps), "all that is lit lies in one plane: that is the object", tuple(found))
+    return Found(_seam(_enlarged(mask, maps), maps), f"against {len(found)} plane{'s' * (len(found) > 1)}", tuple(found))
+
+
+def _evidence(seen: Sight, plane: planes.Plane, lights: Sequence[Light]) -> Image:
+    """From -1 (a plane explains the pixel well, and by many lights) to 1 (it does not); 0 where nothing is seen."""
+    square, count = planes.misfit(seen, planes.foretold(plane.q, seen.rays_C, lights))
+    score = np.sqrt(np.nan_to_num(square, posinf=WALL_SIGMAS**2))
+    found = np.clip(np.log(np.clip(score, 0.1, 1e3) / WALL_SIGMAS), -1, 1)
+    found = np.where(found < 0, found * np.minimum(1, (count - 1) / MANY), found)
+    return np.asarray(found.reshape(seen.mask.shape), np.float32)
+
+
+def _without_support(left: Mask, support: Mask, border: Mask, bright: Image) -> Mask:
+    """What is left without the support: the planes found, and the dark matter that hangs on them or on the border."""
+    object_ = left & ~support
+    if not object_.any():
+        return object_
+    free = object_ & ~_hangs_on(object_, border | support)
+    typical = np.median(bright[free] if free.sum() > 0.2 * object_.sum() else bright[object_])
+    dark = _hangs_on(object_ & (bright < DARK_SHARE * typical), border | _grown(support, 2))
+    return _tidy(object_ & ~dark)
+
+
+def _border(shape: tuple[int, ...]) -> Mask:
+    width = max(2, round(BORDER_SHARE * min(shape)))
+    border = np.ones(shape, bool)
+    border[width:-width, width:-width] = False
+    return border
+
+
+def _hangs_on(mask: Mask, seeds: Mask) -> Mask:
+    """The pieces of a mask that touch seeds."""
     from scipy import ndimage
 
-    strength = np.sort(maps.signal / np.maximum(maps.sigma, 1e-12), axis=0)[-2]
-    level = np.log10(np.clip(strength, 1.0, None))
-    threshold = _otsu(level.ravel())
-    lit = ndimage.binary_opening(level > threshold, iterations=2)
-    return np.asarray(ndimage.binary_fill_holes(lit))
+    label, _ = ndimage.label(mask)
+    touched = np.unique(label[mask & seeds])
+    return np.asarray(np.isin(label, touched[touched > 0]))
 
 
-def _otsu(values: np.ndarray) -> float:
+def _grown(mask: Mask, by: int) -> Mask:
+    from scipy import ndimage
+
+    return np.asarray(ndimage.binary_dilation(mask, iterations=by))
+
+
+def _tidy(mask: Mask) -> Mask:
+    """Without crumbs and small holes."""
+    from scipy import ndimage
+
+    label, count = ndimage.label(ndimage.binary_opening(mask))
+    if not count:
+        return np.asarray(mask & False)
+    size = np.bincount(label.ravel())
+    size[0] = 0
+    kept = np.isin(label, np.flatnonzero(size >= SMALLEST_SHARE * size.max()))
+    holes, _ = ndimage.label(~kept)
+    area = np.bincount(holes.ravel())
+    small = np.flatnonzero(area < HOLE_SHARE * kept.sum())
+    return np.asarray(kept | np.isin(holes, small[small > 0]))
+
+
+def _seam(mask: Mask, maps: Grey) -> Mask:
+    return _tidy(cut.along_the_seam(mask, _picture(maps)))
+
+
+def _picture(maps: Grey) -> Image:
+    """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
+    ordered = np.sort(maps.signal, axis=0)
+    three = np.stack([ordered[-2], ordered.mean(axis=0), ordered[len(ordered) // 3]], axis=-1)
+    top = np.percentile(three, 99.5, axis=(0, 1))
+    return np.asarray(np.sqrt(np.clip(three / np.maximum(top, 1e-12), 0, 1)), np.float32)
+
+
+def _log(bright: Image) -> Image:
+    return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
+
+
+def _binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array]:
+    """The maps with blocks of pixels joined, so many that COARSE_PIXELS are left at most."""
+    height, width = maps.signal.shape[1:]
+    f = int(np.ceil(np.sqrt(height * width / COARSE_PIXELS)))
+    rows, columns = height // f, width // f
+
+    def blocks(values: Array) -> Array:
+        return values[..., : rows * f, : columns * f].reshape(*values.shape[:-2], rows, f, columns, f)
+
+    signal = blocks(maps.signal.astype(float)).mean(axis=(-3, -1))
+    sigma = np.sqrt((blocks(maps.sigma.astype(float)) ** 2).sum(axis=(-3, -1))) / f**2
+    usable = blocks(maps.usable.astype(float)).min(axis=(-3, -1)) > 0
+    rays = np.moveaxis(blocks(np.moveaxis(rays_C, -1, 0)).mean(axis=(-3, -1)), 0, -1)
+    return Grey(signal.astype(np.float32), sigma.astype(np.float32), usable), rays
+
+
+def _enlarged(mask: Mask, maps: Grey) -> Mask:
+    """A coarse mask at the maps' own size."""
+    import cv2
+
+    height, width = maps.signal.shape[1:]
+    f = int(np.ceil(np.sqrt(height * width / COARSE_PIXELS)))
+    large = cv2.resize(mask.astype(np.float32), (mask.shape[1] * f, mask.shape[0] * f), interpolation=cv2.INTER_LINEAR) > 0.5
+    found = np.zeros((height, width), bool)
+    found[: large.shape[0], : large.shape[1]] = large
+    return found
+
+
+def _otsu(values: Image) -> float:
+    """The threshold that parts values into the two classes furthest apart."""
     count, edges = np.histogram(values, 256)
     middle = (edges[1:] + edges[:-1]) / 2
     below = np.cumsum(count)
     total = below[-1]
     mean = np.cumsum(count * middle)
-    share = np.clip(below * (total - below), 1, None)
-    between = (mean[-1] * below / total - mean) ** 2 / share
+    parted = np.clip(below * (total - below), 1, None).astype(float)
+    between = (mean[-1] * below - mean * total) ** 2 / parted
     return float(middle[np.argmax(between)])

@@ -58,9 +58,10 @@ class Estimate:
 
 def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
     """Samples (L, P) that a light seems to reach unhindered."""
-    shading = np.where(sight.usable, sight.signal / E, np.inf)
-    bright = np.sort(np.where(np.isfinite(shading), shading, 0.0), axis=0)[-2]
-    found = sight.usable & (shading > SHADOW * bright) & (sight.signal > DARK_SIGMAS * sight.sigma)
+    lit = sight.usable & (E > 0)
+    shading = np.where(lit, sight.signal / np.maximum(E, 1e-300), 0.0)
+    bright = np.sort(shading, axis=0)[-2]
+    found = lit & (shading > SHADOW * bright) & (sight.signal > DARK_SIGMAS * sight.sigma)
     return found if hidden is None else found & ~hidden
 
 
@@ -91,10 +92,10 @@ def _estimate(start: Callable[..., Array], signal: Array, B: Array, usable: Mask
     for _ in range(ROUNDS):
         b, covariance = lambert.weighted(B, signal, inliers / variance)
         inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
-    square = _square_residual(signal, B, b, variance)
+    square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
     towards = np.einsum("pi,pi->p", b, rays_C) < FACING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
     good = (inliers.sum(axis=0) >= LEAST) & towards
-    found = Estimate(b, inliers, covariance, np.sum(square * inliers, axis=0), np.sum(np.minimum(square, OUTLIER**2) * usable, axis=0))
+    found = Estimate(b, inliers, covariance, np.sum(np.where(inliers, square, 0.0), axis=0), np.sum(np.minimum(square, OUTLIER**2), axis=0))
     return replace(found, b=np.where(good[:, None], b, np.nan))
 
 

@@ -68,20 +68,27 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     sight.agree_on_size(radiance, calibration.camera)
     lights = sight.lights_of(calibration, radiance)
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    object_mask = _object(maps, radiance, options)
-    seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
-    near = options.near and seen.central and any(light.source_C is not None for light in lights)
+    central = calibration.camera is not None
+    near = options.near and central and any(light.source_C is not None for light in lights)
     begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else DISTANCE_M)
+    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
+    object_mask = _object(background, radiance, options)
+    seen = sight.look_at(maps, rays_C, object_mask, central=central)
     grid = Grid.of(object_mask)
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     state = _rounds(seen, grid, lights, focus_C, float(begin), progress, radiance.name)
     return _surface(radiance, lights, seen, grid, state, rays_C, focus_C)
 
 
-def _object(maps: sight.Grey, radiance: Radiance, options: Options) -> Mask:
+def _is_wanted(radiance: Radiance, options: Options) -> bool:
+    """Whether the mask is to be found."""
+    return options.mask is None and radiance.mask is None and options.automatic_mask
+
+
+def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
     given = options.mask if options.mask is not None else radiance.mask
     if given is None:
-        given = mask.automatic(maps) if options.automatic_mask else np.ones(maps.signal.shape[1:], bool)
+        given = background.mask if background is not None else np.ones(radiance.signal.shape[1:3], bool)
     if given.sum() < FEWEST_PIXELS:
         raise DegenerateError(
             f"the mask holds {given.sum()} pixels",

@@ -1,0 +1,110 @@
+r"""Planes, placed by near light.
+
+Symbols: a plane is q (3,) with ``q . x = 1`` for its points x, so a ray r meets it at depth ``z = 1 / (q . r)``; its normal is -q / abs(q).
+Light k would give a white plane the signal ``m_k = E_k(x) (n . d_k)``; a pixel of albedo rho on it has ``I_k = rho m_k`` unless it lies in
+shadow. Near light alone places the plane: E and d change with x. Robust least squares over q, the albedo free at every pixel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Light
+from lpcal.surface.sight import Sight, light_vectors
+
+MODEL = 0.03
+"""Share of a signal that a plane's model may lack: light from elsewhere, ripples of the lobe."""
+SHADE = 0.5
+"""A signal under this share of what the second highest foretells is in shadow."""
+WEAK = 0.1
+"""A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
+FIT_PIXELS = 1200
+SPAN = (0.55, 3.5)
+"""Of the working distance: where planes are looked for."""
+TILTS = ((0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0))
+"""Slopes of the planes that a fit starts from: x and y parts of q by its z part."""
+BEHIND = 1e-3
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane and how well it fits the pixels that it was fitted to."""
+
+    q: Array
+    misfit: float
+    """Root of the median of the pixels' mean square residuals."""
+
+
+def foretold(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
+    """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
+    slope = rays_C @ q
+    depth = np.where(slope > BEHIND, 1 / np.maximum(slope, BEHIND), np.nan)
+    d, E = light_vectors(lights, np.nan_to_num(depth, nan=1.0)[:, None] * rays_C)
+    shading = E * np.maximum(d @ (-q / np.linalg.norm(q)), 0.0)
+    return np.where(np.isfinite(depth), shading, np.nan)
+
+
+def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
+    """Residuals (L, P) in sigmas, 0 for samples in shadow or saturated, and the number (P,) of samples that count; pixels that miss: inf.
+
+    `shaded`: shadow may lie on most of the samples of a pixel, else on fewer than half.
+    """
+    hit = np.isfinite(m).all(axis=0) & (m > 0).any(axis=0)
+    m = np.where(hit, m, 1.0)
+    variance = seen.sigma**2 + (MODEL * seen.signal) ** 2
+    strong = seen.usable & (m > WEAK * m.max(axis=0))
+    ratio = np.where(strong, seen.signal / np.maximum(m, 1e-9), -np.inf)
+    ranked = np.sort(ratio, axis=0)
+    middle = len(m) - 1 - np.maximum(strong.sum(axis=0) - 1, 0) // 2
+    high = ranked[-2] if shaded else np.take_along_axis(ranked, middle[None], axis=0)[0]
+    counted = strong & (ratio > SHADE * high)
+    weight = counted / variance
+    albedo = np.sum(weight * m * seen.signal, axis=0) / np.maximum(np.sum(weight * m**2, axis=0), 1e-30)
+    r = np.where(counted, (seen.signal - albedo * m) / np.sqrt(variance), 0.0)
+    return np.where(hit, r, np.inf), counted.sum(axis=0)
+
+
+def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
+    """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples speak; their number."""
+    r, count = residuals(seen, m, shaded=shaded)
+    return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
+
+
+def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool = False) -> Plane | None:
+    """The plane that most of the pixels lie in; None where they are too few."""
+    from scipy import optimize
+
+    if seen.pixels < 30:
+        return None
+    some = _thinned(seen)
+
+    def cost(q: Array) -> Array:
+        r, _ = residuals(some, foretold(q, some.rays_C, lights), shaded=False)
+        return np.nan_to_num(r, posinf=1e2).ravel()
+
+    def robust(q: Array) -> float:
+        return float(np.sum(np.log1p(cost(q) ** 2)))
+
+    nearest, furthest = SPAN
+    starts = [
+        np.array([sx, sy, 1.0]) / (distance_m * share)
+        for share in np.geomspace(nearest, furthest, 14)
+        for sx, sy in (TILTS if tilted else TILTS[:1])
+    ]
+    best = sorted(starts, key=robust)[:3]
+    found = [optimize.least_squares(cost, q, loss="cauchy", method="trf", x_scale=np.array([1.0, 1.0, 1.0]), max_nfev=40) for q in best]
+    q = np.asarray(min(found, key=lambda one: one.cost).x)
+    return Plane(q, float(np.sqrt(np.median(misfit(some, foretold(q, some.rays_C, lights), shaded=False)[0]))))
+
+
+def _thinned(seen: Sight) -> Sight:
+    """Every so many pixels, FIT_PIXELS at most."""
+    every = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
+    thin = np.zeros_like(seen.mask)
+    rows, columns = np.nonzero(seen.mask)
+    thin[rows[every], columns[every]] = True
+    return Sight(thin, seen.rays_C[every], seen.signal[:, every], seen.sigma[:, every], seen.usable[:, every], seen.central)
