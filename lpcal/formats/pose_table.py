@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry import se3
@@ -45,14 +46,20 @@ class PoseTable:
     notes: tuple[str, ...] = ()
 
 
-def stream_of(table: PoseTable, path: Path, direction: str = "H_OP") -> PoseStream:
-    """The stream of a table.
+@dataclass(frozen=True)
+class TimedPoses:
+    """Poses in order of time, and the rows of the table that they come from."""
 
-    Parameters
-    ----------
-    table : what the file says
-    path : the file, for messages
-    direction : H_OP | H_PO, what the file's poses are
+    t_s: Array
+    H: Array
+    """(N, 4, 4)."""
+    rows: npt.NDArray[np.intp]
+    lost: int
+    notes: tuple[str, ...]
+
+
+def timed_poses(table: PoseTable, path: Path, *, inverse: bool = False) -> TimedPoses:
+    """The poses of a table, or their inverses.
 
     Raises
     ------
@@ -61,7 +68,6 @@ def stream_of(table: PoseTable, path: Path, direction: str = "H_OP") -> PoseStre
     DegenerateError
         No row holds a pose.
     """
-    scale = METRES[table.units]
     R, whole = _rotations(table, path)
     seen = whole & np.isfinite(table.position).all(axis=1) & np.isfinite(table.t_s)
     lost = int(np.sum(np.isfinite(table.t_s) & ~seen))
@@ -70,17 +76,26 @@ def stream_of(table: PoseTable, path: Path, direction: str = "H_OP") -> PoseStre
     order = np.flatnonzero(seen)[np.argsort(table.t_s[seen], kind="stable")]
     unsorted = int(np.sum(np.diff(table.t_s[seen]) < 0))
     repeated = np.concatenate([[False], np.diff(table.t_s[order]) < SUPERFLUOUS])
-    notes = list(table.notes)
-    notes += [f"{unsorted} rows stood out of order of time: sorted"] * bool(unsorted)
+    notes = [f"{unsorted} rows stood out of order of time: sorted"] * bool(unsorted)
     notes += [f"{int(repeated.sum())} repeated times: the first of each kept"] * bool(repeated.any())
     keep = order[~repeated]
-    H = se3.transform(R[keep], scale * table.position[keep])
-    t_s = table.t_s[keep]
-    rate = 1 / float(np.median(np.diff(t_s))) if len(t_s) > 1 else float("nan")
-    error = np.full(len(keep), np.nan) if table.error is None else scale * table.error[keep]
-    markers_O = {name: scale * track[keep] for name, track in table.markers.items()}
+    H = se3.transform(R[keep], METRES[table.units] * table.position[keep])
+    return TimedPoses(table.t_s[keep], se3.inv(H) if inverse else H, keep, lost, (*table.notes, *notes))
+
+
+def stream_of(table: PoseTable, path: Path, direction: str = "H_OP") -> PoseStream:
+    """The stream of a table whose poses are H_OP, or H_PO. Raises as `timed_poses`."""
+    poses = timed_poses(table, path, inverse=direction == "H_PO")
+    scale = METRES[table.units]
     return PoseStream(
-        table.body, t_s, se3.inv(H) if direction == "H_PO" else H, error, markers_O, lost=lost, rate_hz=rate, notes=tuple(notes)
+        body=table.body,
+        t_s=poses.t_s,
+        H_OP=poses.H,
+        error_m=np.full(len(poses.rows), np.nan) if table.error is None else scale * table.error[poses.rows],
+        markers_O={name: scale * track[poses.rows] for name, track in table.markers.items()},
+        lost=poses.lost,
+        rate_hz=1 / float(np.median(np.diff(poses.t_s))) if len(poses.t_s) > 1 else float("nan"),
+        notes=poses.notes,
     )
 
 

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.h_op_panel import clean, poses_at
+from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
+from lpcal.geometry.pose_track import poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
 from lpcal.pipeline.handeye_summary import summarise
 from lpcal.pipeline.workspace import Stage, Workspace
@@ -49,7 +50,7 @@ def _solved(workspace: Workspace, given: HandEyeInputs) -> HandEyeFinding:
     offset = section_of(workspace).clock_offset
     options = Options(None if offset == "estimate" else float(offset), given.camera_share)
     if given.stream is not None:
-        return solve_moving(given.boards, given.stream, given.camera, options)
+        return solve_moving(given.boards, track_of(given.stream), given.camera, options)
     assert given.H_OP is not None
     return solve_paired(given.boards, given.H_OP, given.camera, options)
 
@@ -66,8 +67,8 @@ def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> Image
     body = given.stream.body if given.stream is not None else ""
     if given.stream is not None and given.t_camera_s is not None:
         offset = finding.offset_s
-        panel = poses_at(clean(given.stream), given.t_camera_s - offset)
-        H_OP = np.where(panel.trusted[:, None, None], panel.H_OP, np.nan)
+        panel = poses_at(track_of(given.stream), given.t_camera_s - offset)
+        H_OP = np.where(panel.trusted[:, None, None], panel.H, np.nan)
         why, steady = panel.why, panel.steady
     else:
         assert given.H_OP is not None

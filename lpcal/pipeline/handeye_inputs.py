@@ -13,7 +13,7 @@ from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap
 from lpcal.formats.mocap_generic import read_generic
-from lpcal.formats.pose_table import stream_of
+from lpcal.formats.pose_table import timed_poses
 from lpcal.formats.robot_poses import ImagePoses, read_robot_poses
 from lpcal.geometry.arrays import Array
 from lpcal.pipeline.workspace import Workspace
@@ -189,10 +189,9 @@ def _from_board_poses(workspace: Workspace, section: MocapSection) -> HandEyeInp
     """Board poses found elsewhere: no images, no corners, no camera."""
     assert section.board_poses is not None
     path = workspace.path(section.board_poses.file, "mocap.board_poses")
-    direction = "H_PO" if section.board_poses.direction == "H_BC" else "H_OP"
-    boards = stream_of(read_generic(path), path, direction)
-    names = tuple(f"{path.name} at {t:.4f} s" for t in boards.t_s)
-    found = BoardPoses(names, boards.t_s, boards.H_OP)
+    rows = timed_poses(read_generic(path), path, inverse=section.board_poses.direction == "H_BC")
+    names = tuple(f"{path.name} at {t:.4f} s" for t in rows.t_s)
+    found = BoardPoses(names, rows.t_s, rows.H)
     if section.file is None:
         raise InputError("no file", where=workspace.rig_file.where("mocap"), needed="mocap.file: a recording", todo="name it")
-    return HandEyeInputs(found, None, 0.0, _recording(workspace, section), None, {}, names, boards.t_s, {})
+    return HandEyeInputs(found, None, 0.0, _recording(workspace, section), None, {}, names, rows.t_s, {})

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.chain.h_op_panel import CleanStream, poses_at
 from lpcal.errors import DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.pose_track import PoseTrack, poses_at
 
 REACH_S = 60.0
 """Clocks further apart than this, beyond what their ranges overlap, are not compared."""
@@ -43,12 +43,12 @@ class OffsetCandidate:
     """Width of the range around it over which the cost hardly rises."""
 
 
-def offset_candidates(stream: CleanStream, t_camera_s: Array, H_CB: Array) -> list[OffsetCandidate]:
+def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[OffsetCandidate]:
     """The most likely clock offsets, best first.
 
     Parameters
     ----------
-    stream : the tracked body
+    track : the tracked body
     t_camera_s : times (N,) of the views
     H_CB : (N, 4, 4)
 
@@ -57,22 +57,22 @@ def offset_candidates(stream: CleanStream, t_camera_s: Array, H_CB: Array) -> li
     DisagreementError
         The clocks are further apart than the search reaches.
     """
-    low, high = t_camera_s.min() - stream.t_s[-1], t_camera_s.max() - stream.t_s[0]
+    low, high = t_camera_s.min() - track.t_s[-1], t_camera_s.max() - track.t_s[0]
     if low > REACH_S or high < -REACH_S:
         raise DisagreementError(
-            f"the clocks do not meet: images from {t_camera_s.min():.1f} to {t_camera_s.max():.1f} s, mocap from {stream.t_s[0]:.1f} to "
-            f"{stream.t_s[-1]:.1f} s",
+            f"the clocks do not meet: images from {t_camera_s.min():.1f} to {t_camera_s.max():.1f} s, mocap from {track.t_s[0]:.1f} to "
+            f"{track.t_s[-1]:.1f} s",
             needed=f"recordings of the same minutes, their clocks within {REACH_S:.0f} s",
             todo="pair the right files, or state the offset: mocap.clock_offset",
         )
     i, j = _pairs(t_camera_s)
     angle = se3.angle_rad(H_CB[i, :3, :3] @ np.swapaxes(H_CB[j, :3, :3], 1, 2))
-    tried = [_scan(stream, t_camera_s[i], t_camera_s[j], angle, *_range(stream, t_camera_s), STEP_S)]
+    tried = [_scan(track, t_camera_s[i], t_camera_s[j], angle, *_range(track, t_camera_s), STEP_S)]
     lags, costs = tried[0]
     best = [k for k in _minima(costs) if np.isfinite(costs[k])][:CANDIDATES]
     found = []
     for k in best:
-        fine_lags, fine = _scan(stream, t_camera_s[i], t_camera_s[j], angle, lags[k] - 2 * STEP_S, lags[k] + 2 * STEP_S, STEP_S / 20)
+        fine_lags, fine = _scan(track, t_camera_s[i], t_camera_s[j], angle, lags[k] - 2 * STEP_S, lags[k] + 2 * STEP_S, STEP_S / 20)
         centre = int(np.nanargmin(fine))
         offset, width = _plateau(lags, costs, k, float(fine_lags[centre]), float(fine[centre]))
         found.append(OffsetCandidate(offset, float(fine[centre]), width))
@@ -80,21 +80,21 @@ def offset_candidates(stream: CleanStream, t_camera_s: Array, H_CB: Array) -> li
 
 
 def refine_offset(
-    stream: CleanStream, t_camera_s: Array, H_CB: Array, H_PC: Array, H_OB: Array, start_s: float, reach_s: float = 0.05
+    track: PoseTrack, t_camera_s: Array, H_CB: Array, H_PC: Array, H_OB: Array, start_s: float, reach_s: float = 0.05
 ) -> float:
     """The offset near a start that makes the median misplacement of the board least, H_PC and H_OB held."""
     lags = start_s + np.linspace(-reach_s, reach_s, 41)
     costs = []
     for lag in lags:
-        H_OB_k = poses_at(stream, t_camera_s - lag).H_OP @ H_PC @ H_CB
+        H_OB_k = poses_at(track, t_camera_s - lag).H @ H_PC @ H_CB
         costs.append(np.median(np.linalg.norm(H_OB_k[:, :3, 3] - H_OB[:3, 3], axis=1)))
     return float(lags[int(np.argmin(costs))])
 
 
-def _range(stream: CleanStream, t_camera_s: Array) -> tuple[float, float]:
+def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:
     """Offsets at which a fair part of the views falls into the recording."""
-    inset = 0.3 * min(np.ptp(t_camera_s), np.ptp(stream.t_s))
-    low, high = t_camera_s.min() - stream.t_s[-1] + inset, t_camera_s.max() - stream.t_s[0] - inset
+    inset = 0.3 * min(np.ptp(t_camera_s), np.ptp(track.t_s))
+    low, high = t_camera_s.min() - track.t_s[-1] + inset, t_camera_s.max() - track.t_s[0] - inset
     if low <= 0 <= high:  # clocks that meet as they stand are off by their start, not by a session
         low, high = max(low, -REACH_S), min(high, REACH_S)
     return float(low), float(high)
@@ -108,15 +108,15 @@ def _pairs(t_camera_s: Array) -> tuple[Array, Array]:
     return i, j
 
 
-def _scan(stream: CleanStream, t_i: Array, t_j: Array, angle: Array, low: float, high: float, step: float) -> tuple[Array, Array]:
+def _scan(track: PoseTrack, t_i: Array, t_j: Array, angle: Array, low: float, high: float, step: float) -> tuple[Array, Array]:
     """Mean robust disagreement (L,) at offsets (L,), NaN where too few pairs fall into the recording."""
     lags = np.arange(low, high + step, step)[:MOST_LAGS]
-    q = se3.quaternion(stream.H_OP[:, :3, :3])
+    q = se3.quaternion(track.H[:, :3, :3])
     q *= np.concatenate([[1.0], np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0))])[:, None]
     costs = np.full(len(lags), np.nan)
     for chunk in np.array_split(np.arange(len(lags)), max(1, len(lags) * len(angle) // 400_000)):
-        q_i, ok_i = _quaternions(stream, q, t_i[None] - lags[chunk, None])
-        q_j, ok_j = _quaternions(stream, q, t_j[None] - lags[chunk, None])
+        q_i, ok_i = _quaternions(track, q, t_i[None] - lags[chunk, None])
+        q_j, ok_j = _quaternions(track, q, t_j[None] - lags[chunk, None])
         found = 2 * np.arccos(np.clip(np.abs(np.sum(q_i * q_j, axis=-1)), 0, 1))
         both = ok_i & ok_j
         robust = np.log1p(((found - angle) / ERROR_RAD) ** 2)
@@ -126,12 +126,12 @@ def _scan(stream: CleanStream, t_i: Array, t_j: Array, angle: Array, low: float,
     return lags, costs
 
 
-def _quaternions(stream: CleanStream, q: Array, t: Array) -> tuple[Array, Mask]:
+def _quaternions(track: PoseTrack, q: Array, t: Array) -> tuple[Array, Mask]:
     """Interpolated unit quaternions (..., 4) at times (...), and whether they lie in a run."""
-    at = np.clip(np.searchsorted(stream.t_s, t), 1, len(stream.t_s) - 1)
-    share = np.clip((t - stream.t_s[at - 1]) / (stream.t_s[at] - stream.t_s[at - 1]), 0, 1)[..., None]
+    at = np.clip(np.searchsorted(track.t_s, t), 1, len(track.t_s) - 1)
+    share = np.clip((t - track.t_s[at - 1]) / (track.t_s[at] - track.t_s[at - 1]), 0, 1)[..., None]
     mixed = (1 - share) * q[at - 1] + share * q[at]
-    inside = (t >= stream.t_s[0]) & (t <= stream.t_s[-1]) & (stream.run[at] == stream.run[at - 1])
+    inside = (t >= track.t_s[0]) & (t <= track.t_s[-1]) & (track.run[at] == track.run[at - 1])
     return mixed / np.linalg.norm(mixed, axis=-1, keepdims=True), inside
 
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lpcal.chain.h_op_panel import CleanStream, PanelPoses, clean, poses_at
 from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import observability, variance
 from lpcal.chain.h_pc_handeye.likelihood import CAMERA_SIZE, CameraPrior, Estimate, Sigmas, Views, estimate, misfit
@@ -19,8 +18,9 @@ from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.least_squares import Options as LeastSquaresOptions
+from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.records.calibration import Camera, HandEye, ViewVerdict
-from lpcal.records.observations import BoardPoses, PoseStream
+from lpcal.records.observations import BoardPoses
 
 ROUNDS = 25
 SETTLED = 0.01
@@ -57,7 +57,7 @@ class HandEyeFinding:
     """The record, and the panel pose that each of the asked views got."""
 
     handeye: HandEye
-    panel: PanelPoses
+    panel: TrackPoses
     offset_s: float
     """The clock offset at which they were taken, known or not."""
 
@@ -67,7 +67,7 @@ class _State:
     """The solve in progress. Row k of arrays is one of the boards' views."""
 
     boards: BoardPoses
-    panel: PanelPoses
+    panel: TrackPoses
     inliers: Mask
     offset_s: float
     clock: bool
@@ -77,7 +77,7 @@ class _State:
     deflation: Array = field(default_factory=lambda: np.zeros(0))
     found: Estimate | None = None
     corners_px: Array | None = None
-    stream: CleanStream | None = None
+    track: PoseTrack | None = None
 
     def views(self) -> Views:
         """The inliers, as the likelihood takes them."""
@@ -85,18 +85,18 @@ class _State:
         both = min(np.sum(steady[self.inliers]), np.sum(~steady[self.inliers])) >= FEWEST_OF_A_CLASS
         noise_class = steady.astype(np.intp) if both else np.zeros(len(steady), dtype=np.intp)
         whole = Views(
-            self.boards.H_CB, self.panel.H_OP, self.panel.velocity, noise_class, self.deflation, self.corners_px, self.boards.points_B
+            self.boards.H_CB, self.panel.H, self.panel.velocity, noise_class, self.deflation, self.corners_px, self.boards.points_B
         )
         return whole.of(self.inliers)
 
 
-def solve_moving(boards: BoardPoses, stream: PoseStream, camera: Camera | None, options: Options) -> HandEyeFinding:
+def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, options: Options) -> HandEyeFinding:
     """Hand-eye from a recording with a clock.
 
     Parameters
     ----------
     boards : with times; corners, where the poses come from them
-    stream : the tracked body
+    track : the tracked body
     camera : with the covariance of its parameters; None: board poses alone
 
     Raises
@@ -105,8 +105,7 @@ def solve_moving(boards: BoardPoses, stream: PoseStream, camera: Camera | None, 
         Too few views or turns; clocks that do not meet; views that do not fit one rigid camera.
     """
     t_camera_s = np.asarray(boards.t_camera_s)
-    tidy = clean(stream)
-    state = _start(boards, tidy, t_camera_s, camera, options)
+    state = _start(boards, track, t_camera_s, camera, options)
     state = _refine(state, t_camera_s)
     warnings: list[str] = []
     if options.clock_offset_s is None and not state.clock:
@@ -117,50 +116,50 @@ def solve_moving(boards: BoardPoses, stream: PoseStream, camera: Camera | None, 
 def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
-    panel = PanelPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
+    panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
     agreed = _agreed(boards, panel, options.seed)
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
     return _finding(_refine(state, None), None, [], None)
 
 
-def _start(boards: BoardPoses, stream: CleanStream, t_camera_s: Array, camera: Camera | None, options: Options) -> _State:
+def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Camera | None, options: Options) -> _State:
     """The closed form at each likely offset; the one of least scatter."""
     if options.clock_offset_s is not None:
         offsets = [options.clock_offset_s]
     else:
-        offsets = [candidate.offset_s for candidate in clocks.offset_candidates(stream, t_camera_s, boards.H_CB)]
+        offsets = [candidate.offset_s for candidate in clocks.offset_candidates(track, t_camera_s, boards.H_CB)]
     best: tuple[float, _State] | None = None
     for offset in offsets:
-        panel = poses_at(stream, t_camera_s - offset)
+        panel = poses_at(track, t_camera_s - offset)
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
             continue
         agreed = _agreed(boards, panel, options.seed)
         score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
         if best is None or score < best[0]:
             state = _state(boards, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
-            best = score, replace(state, stream=stream)
+            best = score, replace(state, track=track)
     if best is None:
         raise DegenerateError(
-            f"{int(poses_at(stream, t_camera_s - (offsets or [0.0])[0]).trusted.sum())} views with a trusted panel pose",
+            f"{int(poses_at(track, t_camera_s - (offsets or [0.0])[0]).trusted.sum())} views with a trusted panel pose",
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
     return best[1]
 
 
-def _agreed(boards: BoardPoses, panel: PanelPoses, seed: int) -> park.Consensus:
+def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
     """The closed form on the trusted views, after the refusal of motions that cannot show H_PC; rows are all views."""
     trusted = panel.trusted
-    observability.refuse_what_cannot_show_it(panel.H_OP[trusted])
-    found = park.consensus(panel.H_OP[trusted], boards.H_CB[trusted], seed)
+    observability.refuse_what_cannot_show_it(panel.H[trusted])
+    found = park.consensus(panel.H[trusted], boards.H_CB[trusted], seed)
     inliers = np.zeros(len(trusted), dtype=bool)
     inliers[trusted] = found.inliers
-    angle, distance = park.residuals(panel.H_OP, boards.H_CB, found.H_PC, found.H_OB)
+    angle, distance = park.residuals(panel.H, boards.H_CB, found.H_PC, found.H_OB)
     return replace(found, inliers=inliers, residual_rad=angle, residual_m=distance)
 
 
 def _state(
-    boards: BoardPoses, panel: PanelPoses, agreed: park.Consensus, offset: float, camera: Camera | None, options: Options, *, clock: bool
+    boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus, offset: float, camera: Camera | None, options: Options, *, clock: bool
 ) -> _State:
     count = len(boards.H_CB)
     corners = None if boards.corners_px is None else boards.corners_px.copy()
@@ -228,9 +227,9 @@ def _settle(state: _State, t_camera_s: Array | None) -> _State:
         state = replace(state, found=found, sigmas=sigmas)
         if state.clock and _clock_unseen(found):
             state = replace(state, clock=False)
-        elif state.clock and t_camera_s is not None and state.stream is not None:
+        elif state.clock and t_camera_s is not None and state.track is not None:
             offset = state.offset_s + found.d_offset_s
-            panel = poses_at(state.stream, t_camera_s - offset)
+            panel = poses_at(state.track, t_camera_s - offset)
             state = replace(state, offset_s=offset, panel=panel, inliers=state.inliers & panel.trusted)
         if moved < SETTLED and abs(found.d_offset_s) < SETTLED_S:
             return state
@@ -267,7 +266,7 @@ def _choose(state: _State) -> tuple[Mask, Array | None]:
     sound = chi2 < OUTLIER_CHI2
     chosen = np.zeros_like(state.inliers)
     chosen[rows[sound]] = True
-    whole = Views(state.boards.H_CB, state.panel.H_OP, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
+    whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     limit_rad, limit_m = (READMIT * np.sqrt(np.mean(of[chosen] ** 2)) for of in (angle, distance))
     chosen |= state.panel.trusted & ~state.inliers & (angle < 0.7 * limit_rad) & (distance < 0.7 * limit_m)
@@ -320,7 +319,7 @@ def _finding(state: _State, t_camera_s: Array | None, warnings: list[str], known
 
 
 def _verdicts(state: _State, found: Estimate) -> tuple[ViewVerdict, ...]:
-    whole = Views(state.boards.H_CB, state.panel.H_OP, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
+    whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     px = np.full(len(state.inliers), np.nan)
     place = found.term("corners")
