@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.detect.board_charuco import find_charuco
 from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board, BoardView
@@ -36,7 +37,7 @@ def find_board(image: Array | Image, board: Board, name: str = "") -> BoardView:
     count of corners where that is what the image shows.
     """
     grey = _stretched(image)
-    rough = _search(grey, board.corners)
+    rough = find_charuco(grey, board) if board.kind == "charuco" else _search(grey, board.corners)
     return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _what_else(grey))
 
 
@@ -56,7 +57,7 @@ def count_corners(image: Array | Image) -> tuple[int, int] | None:
     return None if rough is None or any(beyond(grey, rough)) else (long, short)
 
 
-def _stretched(image: Array | Image) -> Array:
+def _stretched(image: Array | Image) -> Array | Image:
     """8 bit, the darkest and brightest half percent clipped."""
     low, high = np.percentile(image[::2, ::2], [0.5, 99.5])
     if image.dtype == np.uint8 and high - low > 60:
@@ -103,6 +104,8 @@ def _verdict(grey: Array, image: Array | Image, rough: Array, board: Board, name
             name, None, f"the board is too small in the image: its corners are {spacing:.1f} px apart, {SMALL_SPACING_PX:.0f} are needed"
         )
     refined = refine(image.astype(np.float32), rough, spacing)
+    if board.kind == "charuco":
+        return BoardView(name, refined.reshape(-1, 2))
     if any(beyond(grey, refined)):
         return BoardView(name, None, "the grid found goes on beyond its last corners: part of a larger board, or shifted by a square")
     return BoardView(name, in_board_order(grey, refined).reshape(-1, 2))

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
-from lpcal.chain.k_camera import solve_camera
+from lpcal.chain.k_camera import board_shape, solve_camera
 from lpcal.detect.radiometry import Sensor, fit_flat_field
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.camera_files import cameramodel_text, read_camera_file
@@ -58,6 +58,9 @@ def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None 
     solution = _solution(workspace, section, board, replace(views, views=views.views[: len(own)]), progress)
     solution = replace(solution, camera=_with_radiometry(workspace, section, solution))
     poses, left_out = board_poses(views, solution, progress)
+    if section.cameramodel is not None and board is not None and board.warp and poses.images:
+        solution = replace(solution, points_B=board_shape(views, board, solution.camera, dict(zip(poses.images, poses.H_CB, strict=True))))
+        poses, left_out = board_poses(views, solution, progress)
     provenance = workspace.provenance(_inputs(workspace, own, others), settings(workspace))
     _write(workspace, solution, poses, left_out, board, provenance)
     return summarise(solution, poses, left_out, workspace.rig_file.rig)

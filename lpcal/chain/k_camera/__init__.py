@@ -1,12 +1,12 @@
 """The intrinsics K of the camera from board corners: choose a lens model, solve, reject, say how sure.
 
-``q_km = project(K, H_CB[k] x_B,m)`` for corner m of view k; unknown are the lens, the poses H_CB and the board's bow.
+``q_km = project(K, H_CB[k] x_B,m)`` for corner m of view k; unknown are the lens, the poses H_CB and the board's bow. Solved by mrcal
+where it is installed and the squares are square, else from OpenCV's start by lpcal's own adjustment, which finds the same.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -15,7 +15,7 @@ from lpcal.chain.k_camera.choice import Candidate, choose
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import CameraSolution, ViewVerdict
+from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 from lpcal.records.observations import Board, BoardViews
 
 FEWEST_VIEWS = 3
@@ -50,9 +50,9 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
             needed=f"at least {FEWEST_VIEWS}, better 20, of different tilts",
             todo="take more images of the board",
         )
-    name, solve = pick_solver(solver)
+    name, solve, missing = pick_solver(solver, board)
     if model == "splined" and name != "mrcal":
-        raise InputError("a splined lens needs mrcal, which is not installed", where="camera.model", todo="install mrcal, or use opencv8")
+        raise InputError(f"a splined lens needs mrcal; {missing}", where="camera.model", todo="install mrcal, or use opencv8")
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
     problem = CornerProblem(board, views.image_size, corners_px)
     models = list(DISTORTIONS) if model == "auto" else [model]
@@ -65,17 +65,37 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         solver=name,
         corner_sigma_px=fit.sigma_px,
         evidence=_evidence(chosen, tried, fit, board),
+        warnings=(missing,) if missing else (),
         cameramodel=fit.cameramodel,
     )
 
 
-def pick_solver(solver: str) -> tuple[str, Solver]:
-    """The solver's name and function; auto is mrcal where it is installed."""
-    if solver == "mrcal" or (solver == "auto" and find_spec("mrcal") is not None):
+def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
+    """The solver's name and function, and what is missing where it is not mrcal, in words."""
+    unequal = board.square_m[0] != board.square_m[1]
+    absent = find_spec("mrcal") is None
+    if solver == "mrcal" or (solver == "auto" and not unequal and not absent):
         from lpcal.chain.k_camera import mrcal_solver
 
-        return "mrcal", mrcal_solver.solve
-    raise InputError("mrcal is not installed", needed="mrcal, which solves the camera", todo="pip install --no-deps mrcal")
+        return "mrcal", mrcal_solver.solve, None
+    from lpcal.chain.k_camera import opencv_solver
+
+    missing = None
+    if solver == "auto":
+        missing = "mrcal knows no unequal squares" if unequal else "mrcal is not installed"
+        missing += ": solved without it; camera.cameramodel holds no optimisation inputs, and mrcal's tools give no uncertainty for it"
+    return "opencv", opencv_solver.solve, missing
+
+
+def board_shape(views: BoardViews, board: Board, camera: Camera, H_CB: dict[str, Array]) -> Array:
+    """Points_B (M, 3) of a board that may be bowed, the camera given and poses H_CB by image known about."""
+    if not board.warp or camera.spline is not None or len(H_CB) < FEWEST_VIEWS:
+        return board.points_B()
+    from lpcal.chain.k_camera.opencv_solver import find_warp
+
+    corners_px = np.stack([np.asarray(view.corners_px) for view in views.views if view.image in H_CB])
+    problem = CornerProblem(board, views.image_size, corners_px)
+    return find_warp(problem, camera, np.stack([H_CB[view.image] for view in views.views if view.image in H_CB]))
 
 
 def _verdicts(views: BoardViews, found: Sequence[int], fit: CameraFit) -> tuple[ViewVerdict, ...]:
@@ -116,11 +136,3 @@ def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, boa
         "board_warp_m": None if fit.warp_m is None else list(fit.warp_m),
         "board_warp_allowed": board.warp,
     }
-
-
-def with_radiometry(solution: CameraSolution, **levels: object) -> CameraSolution:
-    """The solution with what the sensor does to light: black_level, white_level, gamma, flat_field."""
-    return replace(solution, camera=replace(solution.camera, **levels))  # type: ignore[arg-type]
-
-
-__all__ = ["Array", "pick_solver", "solve_camera", "with_radiometry"]

@@ -47,7 +47,8 @@ def choose(problem: CornerProblem, solver: Solver, models: Iterable[str], warps:
     candidates = [Candidate(model, warp, float("nan")) for model in models for warp in warps]
     if len(candidates) == 1 or len(problem.corners_px) < FEWEST_VIEWS:
         return candidates[0], candidates
-    tried = [Candidate(c.model, c.warp, cross_validate(problem, solver, c.model, c.warp)) for c in candidates]
+    pixels = covered_pixels(problem)
+    tried = [Candidate(c.model, c.warp, cross_validate(problem, solver, c.model, c.warp, pixels)) for c in candidates]
     chosen = min(tried, key=lambda c: c.parameters)
     for candidate in sorted(tried, key=lambda c: c.parameters):
         if candidate.score_px < chosen.score_px * (MARGIN if candidate.parameters > chosen.parameters else 1.0):
@@ -55,9 +56,8 @@ def choose(problem: CornerProblem, solver: Solver, models: Iterable[str], warps:
     return chosen, tried
 
 
-def cross_validate(problem: CornerProblem, solver: Solver, model: str, warp: bool) -> float:
-    """The score of one candidate in pixels; infinite where a half cannot be solved."""
-    pixels = covered_pixels(problem)
+def cross_validate(problem: CornerProblem, solver: Solver, model: str, warp: bool, pixels: Array) -> float:
+    """The score of one candidate over some pixels (N, 2); infinite where a half cannot be solved."""
     squares = []
     for half in splits(len(problem.corners_px)):
         try:

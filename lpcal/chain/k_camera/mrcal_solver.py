@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, parameter_names, rms
+from lpcal.chain.k_camera.problem import DISTORTIONS, ROUNDS, CameraFit, CornerProblem, fitting, parameter_names, rms, scatter
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -42,16 +42,29 @@ def solve(problem: CornerProblem, model: str, warp: bool) -> CameraFit:
     ConvergenceError
         mrcal finds no solution from any start.
     """
-    import mrcal
-
     with silenced():
         inputs = _start(problem)
         _append_lens(inputs, problem, model)
-        mrcal.optimize(**inputs)
+        _optimize(inputs, problem, model)
         if warp:
             inputs |= {"calobject_warp": np.zeros(2), "do_optimize_calobject_warp": True}
-            mrcal.optimize(**inputs)
+            _optimize(inputs, problem, model)
         return _fit(problem, model, inputs)
+
+
+def _optimize(inputs: dict[str, Any], problem: CornerProblem, model: str) -> None:
+    """Solve, reject, solve again, until the rejected corners stay the same."""
+    import mrcal
+
+    weights = inputs["observations_board"][..., 2]
+    for _ in range(ROUNDS):
+        mrcal.optimize(**inputs)
+        inlier = weights.reshape(len(weights), -1) > 0
+        residual_px = _residual(problem, _camera(problem, model, inputs), *_geometry(problem, inputs))
+        kept = fitting(residual_px, scatter(residual_px, inlier, _count(inputs)))
+        if np.array_equal(kept, inlier):
+            break
+        weights[:] = np.where(kept, 1.0, -1.0).reshape(weights.shape)
 
 
 def _start(problem: CornerProblem) -> dict[str, Any]:
@@ -136,7 +149,6 @@ def _append_lens(inputs: dict[str, Any], problem: CornerProblem, model: str) -> 
         "do_optimize_intrinsics_core": model in DISTORTIONS,
         "do_optimize_intrinsics_distortions": True,
         "do_apply_regularization": True,
-        "do_apply_outlier_rejection": True,
     }
 
 
@@ -154,13 +166,10 @@ def _fit(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> CameraFi
 
     H_CB, points_B = _geometry(problem, inputs)
     camera = _camera(problem, model, inputs)
-    seen = np.isfinite(problem.corners_px).all(axis=-1)
-    residual_px = np.full(problem.corners_px.shape, np.nan)
-    projected = camera.project(se3.apply(H_CB, points_B))
-    residual_px[seen] = problem.corners_px[seen] - projected[seen]
-    inlier = seen & (inputs["observations_board"][..., 2].reshape(seen.shape) > 0)
-    covariance, freedom = _covariance(inputs, int(inlier.sum()))
-    sigma_px = float(np.sqrt(np.sum(residual_px[inlier] ** 2) / max(freedom, 1)))
+    residual_px = _residual(problem, camera, H_CB, points_B)
+    inlier = inputs["observations_board"][..., 2].reshape(residual_px.shape[:2]) > 0
+    covariance = _covariance(inputs)
+    sigma_px = scatter(residual_px, inlier, _count(inputs))
     names = parameter_names(model) if model in DISTORTIONS else ()
     camera = Camera(
         **{
@@ -199,17 +208,27 @@ def _camera(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> Camer
     return Camera(problem.image_size, model, K, np.zeros(0), lensmodel=inputs["lensmodel"], spline=vector.copy())
 
 
-def _covariance(inputs: dict[str, Any], corners: int) -> tuple[Array, int]:
-    """Covariance (P, P) of the intrinsics for corners of unit sigma, and the degrees of freedom of the corners."""
+def _residual(problem: CornerProblem, camera: Camera, H_CB: Array, points_B: Array) -> Array:
+    return np.asarray(problem.corners_px - camera.project(se3.apply(H_CB, points_B)))
+
+
+def _count(inputs: dict[str, Any]) -> int:
+    """Number of unknowns."""
+    import mrcal
+
+    return int(mrcal.num_states(**inputs))
+
+
+def _covariance(inputs: dict[str, Any]) -> Array:
+    """Covariance (P, P) of the intrinsics for corners of unit sigma."""
     import mrcal
 
     _, _, J, factor = mrcal.optimizer_callback(**inputs)
     states = J.shape[1]
-    freedom = 2 * corners - states
     first = mrcal.state_index_intrinsics(0, **inputs)
     count = mrcal.num_intrinsics_optimization_params(**inputs)
     if factor is None or count > 12:
-        return np.full((count, count), np.nan), freedom
+        return np.full((count, count), np.nan)
     picks = np.zeros((count, states))
     picks[range(count), range(first, first + count)] = 1.0
     solved = factor.solve_xt_JtJ_bt(picks)
@@ -217,7 +236,7 @@ def _covariance(inputs: dict[str, Any], corners: int) -> tuple[Array, int]:
     scale = np.ones(states)
     mrcal.unpack_state(scale, **inputs)
     scale = scale[first : first + count]
-    return scale[:, None] * (observed.T @ observed) * scale, freedom
+    return scale[:, None] * (observed.T @ observed) * scale
 
 
 @contextmanager

@@ -16,6 +16,10 @@ from lpcal.records.observations import Board
 
 DISTORTIONS = {"opencv4": 4, "opencv5": 5, "opencv8": 8}
 CORE = ("fx", "fy", "cx", "cy")
+REJECT_SIGMAS = 4.0
+"""A corner further off than this is rejected."""
+ROUNDS = 10
+"""At most so many rounds of solving and rejecting."""
 COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
 
 
@@ -61,6 +65,17 @@ type Solver = Callable[[CornerProblem, str, bool], CameraFit]
 def parameter_names(model: str) -> tuple[str, ...]:
     """Names of a model's parameters, in the order of its covariance."""
     return CORE + COEFFICIENTS[: DISTORTIONS[model]]
+
+
+def scatter(residual_px: Array, inlier: Mask, unknowns: int) -> float:
+    """One standard deviation of a corner coordinate: residuals of the inliers over their degrees of freedom."""
+    freedom = 2 * int(inlier.sum()) - unknowns
+    return float(np.sqrt(np.sum(residual_px[inlier] ** 2) / max(freedom, 1)))
+
+
+def fitting(residual_px: Array, sigma_px: float) -> Mask:
+    """Corners (N, M) within four sigmas, whatever was thought of them before: one rejected under a worse fit may come back."""
+    return np.asarray(np.linalg.norm(np.nan_to_num(residual_px, nan=np.inf), axis=-1) < REJECT_SIGMAS * sigma_px)
 
 
 def rms(residual_px: Array, inlier: Mask) -> float:

@@ -1,0 +1,212 @@
+"""Bundle adjustment of one camera and a grid board, in numpy: lens, poses and the board's bow at once.
+
+Symbols: corner m of view k, residual ``r_km = q_km - project(H_CB[k] (x_B,m + z_m e_z))`` with ``z_m = sum_j w_j s_j(m)``, shapes
+s = 4 xi (1 - xi) along x and along y; shared unknowns s (lens, then w), poses by left perturbation xi_k. With A = dr/ds, B_k = dr/dxi_k::
+
+    (sum A'A - sum A'B_k (B_k'B_k)^-1 B_k'A) ds = -(...)          poses eliminated (Schur)
+    covariance of s = sigma^2 times the inverse of that matrix
+
+Coefficients of rational lenses have a weak prior about 0, without which ordinary lenses get absurd ones. Corners further off than
+four sigmas are rejected until none is. Source: Triggs et al. 2000, Bundle adjustment: a modern synthesis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.chain.k_camera.problem import ROUNDS, fitting, scatter
+from lpcal.errors import ConvergenceError
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.camera import project, projection_jacobian
+
+STEPS = 60
+PRECISION = 1e-9
+"""Relative fall of the cost that ends the search."""
+PRIOR_COEFFICIENT = 1.0
+"""One standard deviation of k3 to k6, in units in which a corner's is PRIOR_PX."""
+PRIOR_PX = 0.1
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """The state: K and distortion, poses, and the deflection of the board's middle along x and along y."""
+
+    K: Array
+    distortion: Array
+    H_CB: Array
+    warp_m: Array
+
+    def moved(self, shared: Array, poses: Array, free_lens: bool, free_warp: bool) -> Unknowns:
+        """After a step of the shared unknowns and of the poses (N, 6)."""
+        K, distortion, warp_m = self.K.copy(), self.distortion.copy(), self.warp_m.copy()
+        if free_lens:
+            K[0, 0] += shared[0]
+            K[1, 1] += shared[1]
+            K[0, 2] += shared[2]
+            K[1, 2] += shared[3]
+            distortion += shared[4 : 4 + distortion.size]
+        if free_warp:
+            warp_m += shared[-2:]
+        return Unknowns(K, distortion, se3.exp(poses) @ self.H_CB, warp_m)
+
+
+@dataclass(frozen=True)
+class Adjusted:
+    """The state found, what was rejected, and the covariance of the shared unknowns for corners of unit sigma."""
+
+    state: Unknowns
+    inlier: Mask
+    residual_px: Array
+    covariance: Array
+    sigma_px: float
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """A problem: corners (N, M, 2) NaN where not seen, a grid of nx, ny points_B (M, 3), and what is free."""
+
+    corners_px: Array
+    points_B: Array
+    shape: tuple[int, int]
+    free_lens: bool
+    free_warp: bool
+
+    def shapes(self) -> Array:
+        """Bow along x and along y (2, M), 1 in the middle of the board."""
+        columns, rows = self.shape
+        along_x, along_y = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
+        return np.stack([4 * along_x * (1 - along_x), 4 * along_y * (1 - along_y)]).reshape(2, -1)
+
+    def bowed(self, state: Unknowns) -> Array:
+        """points_B (M, 3) with the bow."""
+        return np.asarray(self.points_B + (state.warp_m @ self.shapes())[:, None] * [0.0, 0.0, 1.0])
+
+    def residual(self, state: Unknowns) -> Array:
+        """(N, M, 2), NaN where not seen."""
+        return np.asarray(self.corners_px - project(se3.apply(state.H_CB, self.bowed(state)), state.K, state.distortion))
+
+    def jacobians(self, state: Unknowns) -> tuple[Array, Array]:
+        """Derivatives of the projection by the shared unknowns (N, M, 2, S) and by the poses (N, M, 2, 6)."""
+        x_C = se3.apply(state.H_CB, self.bowed(state))
+        J_x = projection_jacobian(x_C, state.K, state.distortion)
+        poses = np.concatenate([-J_x @ se3.hat(x_C), J_x], axis=-1)
+        shared = [lens_jacobian(x_C, state.K, state.distortion)] if self.free_lens else []
+        if self.free_warp:
+            along_z = (J_x @ state.H_CB[:, None, :3, 2:])[..., 0]
+            shared.append(along_z[..., None] * self.shapes().T[None, :, None, :])
+        return np.concatenate(shared, axis=-1) if shared else np.zeros((*x_C.shape[:2], 2, 0)), poses
+
+
+def adjust(bundle: Bundle, start: Unknowns, *, reject: bool = True) -> Adjusted:
+    """Solve, reject, solve again, until no more corners are rejected.
+
+    Raises
+    ------
+    ConvergenceError
+        The state runs away.
+    """
+    seen = np.isfinite(bundle.corners_px).all(axis=-1)
+    inlier, state = seen.copy(), start
+    for _ in range(ROUNDS):
+        state, covariance = _solve(bundle, state, inlier)
+        residual_px = bundle.residual(state)
+        sigma_px = scatter(residual_px, inlier, 6 * len(inlier) + len(covariance))
+        if not np.isfinite(sigma_px):
+            raise ConvergenceError("the adjustment of the camera runs away", todo="look at the corners found")
+        kept = fitting(residual_px, sigma_px)
+        if not reject or np.array_equal(kept, inlier):
+            break
+        inlier = kept
+    return Adjusted(state, inlier, residual_px, covariance, sigma_px)
+
+
+def lens_jacobian(x_C: Array, K: Array, distortion: Array) -> Array:
+    """Derivative (..., 2, 4 + D) of the projection by fx, fy, cx, cy and the D coefficients."""
+    x, y = x_C[..., 0] / x_C[..., 2], x_C[..., 1] / x_C[..., 2]
+    k1, k2, _, _, k3, k4, k5, k6 = np.concatenate([distortion, np.zeros(8 - distortion.size)])
+    r2 = x * x + y * y
+    below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6))
+    radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / below
+    plane_d = project(x_C, np.eye(3), distortion)
+    J = np.zeros((*x.shape, 2, 12))
+    J[..., 0, 0], J[..., 1, 1] = plane_d[..., 0], plane_d[..., 1]
+    J[..., 0, 2] = J[..., 1, 3] = 1.0
+    for column, factor in ((4, r2), (5, r2**2), (8, r2**3), (9, -radial * r2), (10, -radial * r2**2), (11, -radial * r2**3)):
+        J[..., 0, column], J[..., 1, column] = K[0, 0] * x * factor / below, K[1, 1] * y * factor / below
+    J[..., 0, 6], J[..., 1, 6] = K[0, 0] * 2 * x * y, K[1, 1] * (r2 + 2 * y * y)
+    J[..., 0, 7], J[..., 1, 7] = K[0, 0] * (r2 + 2 * x * x), K[1, 1] * 2 * x * y
+    return np.asarray(J[..., : 4 + distortion.size])
+
+
+def _solve(bundle: Bundle, state: Unknowns, inlier: Mask) -> tuple[Unknowns, Array]:
+    """Levenberg-Marquardt with the poses eliminated; the state and the covariance of the shared unknowns for unit sigma."""
+    damping, cost = 1e-4, _cost(bundle, state, inlier)
+    system = _normal(bundle, state, inlier)
+    for _ in range(STEPS):
+        shared, poses = _step(system, damping)
+        trial = state.moved(shared, poses, bundle.free_lens, bundle.free_warp)
+        lower = _cost(bundle, trial, inlier)
+        if lower < cost:
+            fall, state, cost, damping = (cost - lower) / max(cost, 1e-300), trial, lower, damping * 0.1
+            system = _normal(bundle, state, inlier)
+            if fall < PRECISION:
+                break
+        else:
+            damping *= 10
+            if damping > 1e10:
+                break
+    return state, _covariance(system)
+
+
+type _System = tuple[Array, Array, Array, Array, Array]
+
+
+def _normal(bundle: Bundle, state: Unknowns, inlier: Mask) -> _System:
+    """Normal matrices of shared (S, S), coupling (N, S, 6), poses (N, 6, 6), and right sides (S,), (N, 6); the prior counts."""
+    A, B = bundle.jacobians(state)
+    r = np.nan_to_num(bundle.residual(state)) * inlier[..., None]
+    A, B = A * inlier[..., None, None], B * inlier[..., None, None]
+    count = len(r)
+    A, B, r = A.reshape(count, -1, A.shape[-1]), B.reshape(count, -1, 6), r.reshape(count, -1)
+    At, Bt = np.swapaxes(A, 1, 2), np.swapaxes(B, 1, 2)
+    shared, right = (At @ A).sum(axis=0), (At @ r[..., None]).sum(axis=0)[:, 0]
+    weight, value = _prior(bundle, state)
+    return shared + np.diag(weight), At @ B, Bt @ B, right - weight * value, (Bt @ r[..., None])[..., 0]
+
+
+def _prior(bundle: Bundle, state: Unknowns) -> tuple[Array, Array]:
+    """Weight and value (S,) of the prior on the coefficients k3 to k6."""
+    lens = np.concatenate([np.zeros(8), state.distortion[4:]]) if bundle.free_lens else np.zeros(0)
+    value = np.concatenate([lens, np.zeros(2 * bundle.free_warp)])
+    weight = np.zeros(value.size)
+    weight[8 : lens.size] = (PRIOR_PX / PRIOR_COEFFICIENT) ** 2
+    return weight, value
+
+
+def _cost(bundle: Bundle, state: Unknowns, inlier: Mask) -> float:
+    if np.any(se3.apply(state.H_CB, bundle.points_B)[..., 2] <= 0) or state.K[0, 0] <= 0 or state.K[1, 1] <= 0:
+        return np.inf
+    weight, value = _prior(bundle, state)
+    cost = float(np.sum(bundle.residual(state)[inlier] ** 2) + np.sum(weight * value**2))
+    return cost if np.isfinite(cost) else np.inf
+
+
+def _step(system: _System, damping: float) -> tuple[Array, Array]:
+    shared, coupling, poses, right_s, right_p = system
+    shared = shared + damping * np.diag(np.diag(shared))
+    poses = poses + damping * poses * np.eye(6)
+    solved = np.linalg.solve(poses, np.concatenate([np.swapaxes(coupling, 1, 2), right_p[..., None]], axis=-1))
+    reduced = shared - (coupling @ solved[..., :-1]).sum(axis=0)
+    step = np.linalg.solve(reduced, right_s - (coupling @ solved[..., -1:]).sum(axis=0)[:, 0])
+    return step, solved[..., -1] - solved[..., :-1] @ step
+
+
+def _covariance(system: _System) -> Array:
+    """Of the shared unknowns; the prior counts as knowledge."""
+    shared, coupling, poses, _, _ = system
+    reduced = shared - (coupling @ np.linalg.solve(poses, np.swapaxes(coupling, 1, 2))).sum(axis=0)
+    scale = 1 / np.sqrt(np.diag(reduced))
+    return np.asarray(np.linalg.pinv(reduced * scale[:, None] * scale, hermitian=True) * scale[:, None] * scale)
