@@ -99,7 +99,7 @@ def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, flo
         return quantisation, 0.0
     which = np.argsort(np.argsort(level)) * NOISE_BINS // level.size
     middle = np.array([level[which == k].mean() for k in range(NOISE_BINS)])
-    lower = np.array([np.quantile(variance[which == k], 0.25) for k in range(NOISE_BINS)]) / LOWER_QUARTER
+    lower = np.array([max(np.quantile(variance[which == k], 0.25), 0.25 * quantisation) for k in range(NOISE_BINS)]) / LOWER_QUARTER
     c, a = _line_through_lower(middle, lower)
     return max(a, quantisation), max(c, 0.0)
 

@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lpcal.pipeline import export, handeye, intrinsics, refine, wings
+from lpcal.errors import InputError
+from lpcal.pipeline import export, handeye, intrinsics, reconstruct, refine, report, wings
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 
@@ -31,6 +32,7 @@ def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Pr
     summary: list[str] = []
     document: dict[str, object] = {}
     warnings: list[str] = []
+    exit_code = 0
     for stage in stages:
         if not stage.wanted(workspace):
             continue
@@ -41,7 +43,8 @@ def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Pr
         summary += [f"{stage.name}: {outcome.summary[0]}", *(f"  {line}" for line in outcome.summary[1:])]
         document[stage.name] = outcome.document
         warnings += [f"{stage.name}: {warning}" for warning in outcome.warnings]
-    return Outcome(summary, document, warnings)
+        exit_code = exit_code or outcome.exit_code
+    return Outcome(summary, document, warnings, exit_code=exit_code)
 
 
 def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome:
@@ -51,4 +54,30 @@ def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome
     told = [line for line in earlier.summary if not line.endswith(": up to date")]
     return Outcome(
         [*told, *outcome.summary], outcome.document, [*earlier.warnings, *outcome.warnings], outcome.next_command, outcome.exit_code
+    )
+
+
+def run_all(workspace: Workspace, progress: Progress) -> Outcome:
+    """The whole chain, the objects' surfaces and the report.
+
+    Raises
+    ------
+    InputError
+        The rig has not the sections of a single stage.
+    """
+    stages = (*CHAIN, reconstruct.STAGE)
+    if not any(stage.wanted(workspace) for stage in stages):
+        raise InputError(
+            "no stage has what it needs",
+            where=str(workspace.rig_file.file),
+            needed="camera: and board:, or lights: and spheres:, or objects: with a calibration",
+            todo="see lpcal new, or the README's rig folder",
+        )
+    chain = bring_up_to_date(workspace, stages, progress)
+    page = report.write_report(workspace, progress)
+    return Outcome(
+        [*chain.summary, *page.summary],
+        chain.document | {"report": page.document},
+        [*chain.warnings, *page.warnings],
+        exit_code=chain.exit_code,
     )

@@ -1,0 +1,155 @@
+r"""Where an edge lies along many profiles at once, to a few hundredths of a pixel.
+
+Symbols: s pixels outwards along a normal, edge at s0, t = s0 - s inwards, blur sigma::
+
+    chrome   c0 + [c1 + c2 t + c3 t^2] step(t) blurred
+    matte    c0 + c1 step(t) + c2 sqrt(1 - (1 - t / r)^2) blurred        r the radius in pixels: a limb darkens as its normals turn away
+
+The coefficients are linear and projected out. On a grid of s0 the edge first is where the step explains most (far from the edge a smooth
+profile has less misfit than the edge itself), then, about there, where the misfit is least, refined by a parabola. The blur is one for
+all profiles, the one that fits most of them best. Source: variable projection (Golub, Pereyra 1973); limb of a Lambertian sphere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+
+REACH_PX, SEARCH_PX, STEP_PX = 6.0, 2.5, 0.1
+BLURS_PX = (0.4, 2.5)
+NEAR_PX = 1.0
+"""The least misfit is looked for this far from where the step explains most."""
+LARGE_RADIUS_PX, LARGEST_SCALE = 200.0, 3.0
+"""Larger outlines are softer: all lengths above grow with the radius from here, up to so many times."""
+COARSEST = 40
+"""Places looked at on either side of the curve, at the most."""
+LEAST_CONTRAST = 4.0
+BEST_SHARE = 0.8
+
+
+@dataclass(frozen=True)
+class Edges:
+    """An edge a profile: offset outwards, whether there is one, step over noise; and the blur of all."""
+
+    offset_px: Array
+    found: Mask
+    contrast: Array
+    blur_px: float
+
+
+def match_edges(coefficients: Array, points: Array, normals: Array, kind: str, radius: float, search_px: float = 0.0) -> Edges:
+    """Edges along the normals (K, 2) of a curve through points (K, 2) of an image.
+
+    Parameters
+    ----------
+    coefficients : cubic spline coefficients (H, W) of the image
+    kind : chrome | matte
+    radius : of the outline, in pixels
+    search_px : how far the curve may be off; 0: a few pixels
+    """
+    from scipy.optimize import minimize_scalar
+
+    scale = float(np.clip(radius / LARGE_RADIUS_PX, 1.0, LARGEST_SCALE))
+    search = max(search_px, SEARCH_PX * scale)
+    s = np.arange(-(REACH_PX * scale + search), REACH_PX * scale + search + STEP_PX / 2, STEP_PX * scale)
+    profile, inside = _profiles(coefficients, points, normals, s)
+    if not inside.any():
+        return Edges(np.zeros(len(points)), inside, np.zeros(len(points)), 0.0)
+    offsets = np.linspace(-search, search, int(2 * np.ceil(min(search / (STEP_PX * scale), COARSEST))) + 1)
+    window = _Window(profile, s, offsets, REACH_PX * scale)
+    smooth = window.misfits(_smooth_terms)
+
+    def cost(blur: float) -> Array:
+        misfit = window.misfits(lambda at: _edge_terms(at, blur, kind, radius, STEP_PX * scale))
+        explains = offsets[np.argmin(misfit - smooth, axis=1)]
+        far = np.abs(offsets - explains[:, None]) > max(NEAR_PX * scale, 1.5 * (offsets[1] - offsets[0]))
+        return np.where(far, np.inf, misfit)
+
+    def total(log_blur: float) -> float:
+        least = np.sort(np.min(cost(float(np.exp(log_blur))), axis=1)[inside])
+        return float(np.mean(least[: int(np.ceil(BEST_SHARE * least.size))]))
+
+    bounds = (np.log(BLURS_PX[0] * scale), np.log(BLURS_PX[1] * scale))
+    coarse = search_px > SEARCH_PX * scale
+    blur = scale if coarse else float(np.exp(minimize_scalar(total, bounds=bounds, method="bounded", options={"xatol": 0.02}).x))
+    offset, least = _lowest(cost(blur), offsets)
+    contrast = window.contrast(offset, least)
+    return Edges(offset, inside & (contrast > LEAST_CONTRAST) & (np.abs(offset) < 0.97 * search), contrast, blur)
+
+
+@dataclass(frozen=True)
+class _Window:
+    """Profiles (K, S) at places s (S,), looked at about each of the offsets within a reach."""
+
+    profile: Array
+    s: Array
+    offsets: Array
+    reach: float
+
+    def misfits(self, terms: Callable[[Array], Array]) -> Array:
+        """Squared misfit (K, offsets) of the profiles to terms about each offset."""
+        found = []
+        for offset in self.offsets:
+            near = np.abs(self.s - offset) <= self.reach
+            Q = np.linalg.qr(terms(self.s[near] - offset))[0]
+            part = self.profile[:, near]
+            part = part - part.mean(axis=1, keepdims=True)  # numerically kinder; the constant is one of the terms
+            found.append(np.sum(part**2, axis=1) - np.sum((part @ Q) ** 2, axis=1))
+        return np.stack(found, axis=1)
+
+    def contrast(self, offset: Array, misfit: Array) -> Array:
+        """Step (K,) across the edges over the noise that the misfit shows."""
+        away = self.s[None] - offset[:, None]
+        near, gap = np.abs(away) <= self.reach, self.reach / 3
+        outer, inner = near & (away > gap), near & (away < -gap)
+        step = np.sum(self.profile * inner, axis=1) / np.maximum(inner.sum(axis=1), 1)
+        step -= np.sum(self.profile * outer, axis=1) / np.maximum(outer.sum(axis=1), 1)
+        noise = np.sqrt(np.maximum(misfit, 0.0) / near.sum(axis=1))
+        return np.asarray(np.abs(step) / np.maximum(noise, 1e-12))
+
+
+def _profiles(coefficients: Array, points: Array, normals: Array, s: Array) -> tuple[Array, Mask]:
+    """Profiles (K, S), and whether each lies in the image."""
+    from scipy.ndimage import map_coordinates
+
+    at = points[:, None] + s[:, None] * normals[:, None]
+    height, width = coefficients.shape
+    inside = np.all((at > 0) & (at < [width - 1, height - 1]), axis=(1, 2))
+    return map_coordinates(coefficients, [at[..., 1], at[..., 0]], order=3, mode="mirror", prefilter=False), inside
+
+
+def _lowest(cost: Array, offsets: Array) -> tuple[Array, Array]:
+    """Offset (K,) of the least cost, by a parabola through it and its neighbours, and the cost there."""
+    rows = np.arange(len(cost))
+    k = np.clip(np.argmin(cost, axis=1), 1, len(offsets) - 2)
+    below, least, above = cost[rows, k - 1], cost[rows, k], cost[rows, k + 1]
+    curvature = below - 2 * least + above
+    usable = np.isfinite(curvature) & (curvature > 0)
+    with np.errstate(invalid="ignore"):
+        shift = np.where(usable, 0.5 * (below - above) / np.where(usable, curvature, 1.0), 0.0)
+    return offsets[k] + np.clip(shift, -1, 1) * (offsets[1] - offsets[0]), least
+
+
+def _smooth_terms(s: Array) -> Array:
+    """Columns of a profile without an edge."""
+    return np.stack([np.ones_like(s), s, s**2], axis=1)
+
+
+def _edge_terms(s: Array, blur: float, kind: str, radius: float, step_px: float) -> Array:
+    """Columns of the edge model at s pixels outwards of the edge, blurred."""
+    fine = np.arange(s[0] - 5 * blur, s[-1] + 5 * blur + step_px / 2, step_px)
+    step = np.clip(-fine / step_px + 0.5, 0.0, 1.0)
+    inward = np.maximum(-fine, 0.0)
+    if kind == "matte":
+        terms = [step, np.sqrt(np.maximum(1 - (1 - np.minimum(inward / radius, 1.0)) ** 2, 0.0))]
+    else:
+        terms = [step, inward, inward**2]
+    half = int(np.ceil(5 * blur / step_px))
+    kernel = np.exp(-0.5 * (np.arange(-half, half + 1) * step_px / blur) ** 2)
+    kernel /= kernel.sum()
+    blurred = [np.interp(s, fine, np.convolve(np.pad(term, half, mode="edge"), kernel, mode="valid")) for term in terms]
+    return np.stack([np.ones_like(s), *blurred], axis=1)
