@@ -15,7 +15,7 @@ import numpy as np
 
 from lpcal.detect.board_charuco import find_charuco
 from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
 
 DETECTOR_VERSION = 1
@@ -28,7 +28,7 @@ SMALL_SPACING_PX = 5.0
 """Corners closer than this cannot be refined."""
 
 
-def find_board(image: Array | Image, board: Board, name: str = "") -> BoardView:
+def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView:
     """Look for the board in a grey image (H, W) of any scale and type.
 
     Returns
@@ -41,7 +41,7 @@ def find_board(image: Array | Image, board: Board, name: str = "") -> BoardView:
     return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _what_else(grey))
 
 
-def count_corners(image: Array | Image) -> tuple[int, int] | None:
+def count_corners(image: Image | Labels) -> tuple[int, int] | None:
     """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows."""
     import cv2
 
@@ -57,15 +57,15 @@ def count_corners(image: Array | Image) -> tuple[int, int] | None:
     return None if rough is None or any(beyond(grey, rough)) else (long, short)
 
 
-def _stretched(image: Array | Image) -> Array | Image:
+def _stretched(image: Image | Labels) -> Labels:
     """8 bit, the darkest and brightest half percent clipped."""
     low, high = np.percentile(image[::2, ::2], [0.5, 99.5])
     if image.dtype == np.uint8 and high - low > 60:
-        return image
-    return np.asarray(np.clip((image.astype(np.float32) - low) * (255.0 / max(high - low, 1e-9)), 0, 255).astype(np.uint8))
+        return image.astype(np.uint8, copy=False)
+    return np.clip((image.astype(np.float32) - low) * (255.0 / max(high - low, 1e-9)), 0, 255).astype(np.uint8)
 
 
-def _search(grey: Array, corners: tuple[int, int]) -> Array | None:
+def _search(grey: Labels, corners: tuple[int, int]) -> Array | None:
     """Rough corners (ny, nx, 2) by whichever detector finds them."""
     import cv2
 
@@ -82,21 +82,21 @@ def _search(grey: Array, corners: tuple[int, int]) -> Array | None:
     return None
 
 
-def _classic(grey: Array, corners: tuple[int, int]) -> Array | None:
+def _classic(grey: Labels, corners: tuple[int, int]) -> Array | None:
     import cv2
 
     found, places = cv2.findChessboardCorners(grey, corners, None, cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE)
     return places if found else None
 
 
-def _sector_based(grey: Array, corners: tuple[int, int]) -> Array | None:
+def _sector_based(grey: Labels, corners: tuple[int, int]) -> Array | None:
     import cv2
 
     found, places = cv2.findChessboardCornersSB(grey, corners, flags=0)
     return places if found else None
 
 
-def _verdict(grey: Array, image: Array | Image, rough: Array, board: Board, name: str) -> BoardView:
+def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, name: str) -> BoardView:
     """The refined corners in order, unless the grid goes on beyond them or is too fine."""
     spacing = spacing_px(rough)
     if not spacing >= SMALL_SPACING_PX:
@@ -111,7 +111,7 @@ def _verdict(grey: Array, image: Array | Image, rough: Array, board: Board, name
     return BoardView(name, in_board_order(grey, refined).reshape(-1, 2))
 
 
-def refine(image: Array | Image, rough: Array, spacing: float) -> Array:
+def refine(image: Image | Labels, rough: Array, spacing: float) -> Array:
     """Corners (..., 2) moved to the saddle of their window; NaN where that leads away by more than a third of the spacing."""
     import cv2
 
@@ -127,7 +127,7 @@ def refine(image: Array | Image, rough: Array, spacing: float) -> Array:
     return refined
 
 
-def _what_else(grey: Array) -> str:
+def _what_else(grey: Labels) -> str:
     """Why no board was found, as far as the image tells."""
     import cv2
 

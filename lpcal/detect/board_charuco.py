@@ -8,13 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Labels
 from lpcal.records.observations import Board
 
 FEWEST_CORNERS = 8
 
 
-def find_charuco(grey: Array, board: Board) -> Array | None:
+def find_charuco(grey: Labels, board: Board) -> Array | None:
     """Rough corners (ny, nx, 2) of a charuco board in a grey image (H, W) of 8 bit, NaN where not seen; None: too few.
 
     Raises

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Labels
 
 GOES_ON = 0.5
 """A margin whose light alternates by more than this share of the board's own contrast is no margin."""
@@ -20,13 +20,13 @@ def spacing_px(grid: Array) -> float:
     return float(np.nanmin(np.concatenate(steps)))
 
 
-def contrast(grey: Array) -> float:
+def contrast(grey: Labels) -> float:
     """Difference of bright and dark in an image of 8 bit."""
     low, high = np.percentile(grey[::2, ::2], [1, 99])
     return float(high - low)
 
 
-def in_board_order(grey: Array, grid: Array) -> Array:
+def in_board_order(grey: Labels, grid: Array) -> Array:
     """The grid (ny, nx, 2) turned so that its first corner is the contract's."""
     candidates = [turned for turned in _turns(grid) if _turns_clockwise(turned)]
     black = [first_square_is_black(grey, turned) for turned in candidates]
@@ -35,14 +35,14 @@ def in_board_order(grey: Array, grid: Array) -> Array:
     return max(candidates, key=lambda turned: float(_direction(turned, 1) @ [1.0, 0.01]))
 
 
-def first_square_is_black(grey: Array, grid: Array) -> bool:
+def first_square_is_black(grey: Labels, grid: Array) -> bool:
     """Whether the outer square of the first corner is black: it is as dark as the cell inside that corner."""
     light = _lightness(grey, cell_centres(grid))
     even = _parity(light.shape) > 0
     return bool(np.nanmean(light[even]) < np.nanmean(light[~even]))
 
 
-def beyond(grey: Array, grid: Array) -> tuple[bool, bool, bool, bool]:
+def beyond(grey: Labels, grid: Array) -> tuple[bool, bool, bool, bool]:
     """Whether squares go on where the margin should be: before the first column, after the last, before the first row, after the last."""
     light = _lightness(grey, cell_centres(extended(grid, 2)))
     pattern = light * _parity(light.shape)
@@ -84,7 +84,7 @@ def _parity(shape: tuple[int, ...]) -> Array:
     return np.asarray((-1.0) ** (i + j))
 
 
-def _lightness(grey: Array, places: Array) -> Array:
+def _lightness(grey: Labels, places: Array) -> Array:
     """Light (...) at places (..., 2), averaged over a quarter of their distance; NaN outside the image."""
     import cv2
 

@@ -1,25 +1,77 @@
-"""Cameras of whatever file: the format is recognised from what stands in it, not from its name."""
+"""Cameras of whatever file: the format is recognised from what stands in it, not from its name (but for COLMAP's cameras.bin).
+
+Known: lpcal (camera.yaml, calibration.yaml), mrcal (.cameramodel), OpenCV (FileStorage as YAML, XML, JSON), ROS (camera_info), Kalibr
+(camchain.yaml, and EuRoC's sensor.yaml), COLMAP (cameras.txt, cameras.bin).
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+import yaml
 
 from lpcal.errors import InputError
-from lpcal.formats.cameramodel import cameramodel_text, read_cameramodel
+from lpcal.formats.camera_colmap import is_colmap, read_colmap_camera
+from lpcal.formats.camera_kalibr import camera_from_kalibr, is_kalibr
+from lpcal.formats.camera_opencv import read_opencv_camera
+from lpcal.formats.camera_ros import camera_from_ros, is_ros
+from lpcal.formats.camera_yaml import camera_from_document
+from lpcal.formats.cameramodel import read_cameramodel
 from lpcal.records.calibration import Camera
+
+KNOWN = "a camera file of lpcal, mrcal, OpenCV, ROS, Kalibr or COLMAP"
 
 
 def read_camera_file(path: Path) -> Camera:
-    """The camera of a file of mrcal.
+    """The camera of a file.
 
     Raises
     ------
     InputError
-        Not there, of no format known, or garbled.
+        Not there, of no format known, garbled, several cameras, or a lens that lpcal does not project with.
     """
     if not path.is_file():
-        raise InputError("no such camera file", where=str(path), needed="a camera file")
-    return read_cameramodel(path)
+        raise InputError("no such camera file", where=str(path), needed=KNOWN)
+    if path.suffix == ".bin":
+        return read_colmap_camera(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError("not a text file", where=str(path), needed=KNOWN) from error
+    if "lensmodel" in text and "imagersize" in text:
+        return read_cameramodel(path)
+    if text.startswith(("%YAML:1.0", "<?xml", "<opencv_storage")) or "opencv-matrix" in text:
+        return read_opencv_camera(path)
+    if is_colmap(text):
+        return read_colmap_camera(path)
+    return _from_document(_load(text, path), path)
 
 
-__all__ = ["cameramodel_text", "read_camera_file"]
+def _load(text: str, path: Path) -> dict[str, Any]:
+    try:
+        document = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{path}:{mark.line + 1}" if mark else str(path)
+        raise InputError("of no format known, or cut off", where=place, needed=KNOWN) from error
+    if not isinstance(document, dict):
+        raise InputError("of no format known", where=str(path), needed=KNOWN)
+    return document
+
+
+def _from_document(document: dict[str, Any], path: Path) -> Camera:
+    if "lpcal" in document:
+        try:
+            return camera_from_document(document["camera"] if document.get("kind") == "calibration" else document)
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(f"{error} is lacking or garbled", where=str(path), needed="lpcal's camera.yaml or calibration.yaml") from error
+    if isinstance(document.get("camera_info"), dict):
+        document = document["camera_info"]
+    if is_kalibr(document):
+        return camera_from_kalibr(document, path)
+    if is_ros(document):
+        return camera_from_ros(document, path)
+    if path.suffix == ".json":
+        return read_opencv_camera(path)
+    raise InputError(f"of no format known: its keys are {', '.join(map(str, list(document)[:6]))}", where=str(path), needed=KNOWN)

@@ -1,6 +1,6 @@
 """calib/.cache/corners.json: the corners already found, by the content of image, board and detector, so that a second run is instant.
 
-One entry a key: ``corners`` (M, 2) with null where not seen, or null and ``why``. A file that cannot be read counts as empty.
+One entry a key: the image's ``size``, ``corners`` (M, 2) with null where not seen, or null and ``why``. A file that cannot be read counts as empty.
 """
 
 from __future__ import annotations
@@ -8,12 +8,13 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from lpcal.formats.documents import plain, sha256, write_text
+from lpcal.geometry.arrays import Array
 from lpcal.records.observations import Board, BoardView
 
 
@@ -23,24 +24,35 @@ def cache_key(image: Path, board: Board, version: int) -> str:
     return hashlib.sha256(seeds.encode()).hexdigest()
 
 
-def read_corner_cache(path: Path) -> dict[str, BoardView]:
+@dataclass(frozen=True)
+class Sighting:
+    """What was found in an image of a size (width, height)."""
+
+    size: tuple[int, int]
+    view: BoardView
+
+    def named(self, image: str) -> BoardView:
+        """The detection, for the image that it is now asked for."""
+        return replace(self.view, image=image)
+
+
+def read_corner_cache(path: Path) -> dict[str, Sighting]:
     """Detections by key, their images unnamed."""
     try:
         entries = json.loads(path.read_text(encoding="utf-8"))
         return {
-            key: BoardView("", None if entry["corners"] is None else np.array(entry["corners"], dtype=float).reshape(-1, 2), entry["why"])
+            key: Sighting((int(entry["size"][0]), int(entry["size"][1])), BoardView("", _corners(entry["corners"]), entry["why"]))
             for key, entry in entries.items()
         }
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
 
 
-def write_corner_cache(path: Path, views: Mapping[str, BoardView]) -> None:
+def write_corner_cache(path: Path, sightings: Mapping[str, Sighting]) -> None:
     """Keep detections by key."""
-    entries = {key: {"corners": plain(view.corners_px), "why": view.why} for key, view in views.items()}
+    entries = {key: {"size": s.size, "corners": plain(s.view.corners_px), "why": s.view.why} for key, s in sightings.items()}
     write_text(path, json.dumps(entries))
 
 
-def named(view: BoardView, image: str) -> BoardView:
-    """A detection for the image that it is now asked for."""
-    return replace(view, image=image)
+def _corners(entry: list[list[float | None]] | None) -> Array | None:
+    return None if entry is None else np.array(entry, dtype=float).reshape(-1, 2)

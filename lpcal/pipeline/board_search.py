@@ -12,11 +12,12 @@ import numpy as np
 
 from lpcal.detect.board import DETECTOR_VERSION, count_corners, find_board
 from lpcal.errors import DegenerateError, DisagreementError
-from lpcal.formats.corner_cache import cache_key, named, read_corner_cache, write_corner_cache
+from lpcal.formats.corner_cache import Sighting, cache_key, read_corner_cache, write_corner_cache
+from lpcal.formats.image_checks import refuse_cut_or_turned
 from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Image
 from lpcal.pipeline.workspace import Workspace
-from lpcal.records.observations import Board, BoardView, BoardViews
+from lpcal.records.observations import Board, BoardViews
 from lpcal.records.outcome import Progress
 
 COUNTED_IMAGES = 6
@@ -40,10 +41,8 @@ def search(workspace: Workspace, images: Sequence[Path], board: Board, progress:
     store = workspace.calib(".cache/corners.json")
     kept = read_corner_cache(store)
     keys = [cache_key(image, board, DETECTOR_VERSION) for image in images]
-    sizes = [image_size(path) for path in images]
-    refuse_two_sizes([workspace.relative(path) for path in images], sizes)
     new = [row for row, key in enumerate(keys) if key not in kept]
-    found: dict[str, BoardView] = {key: kept[key] for key in keys if key in kept}
+    found: dict[str, Sighting] = {key: kept[key] for key in keys if key in kept}
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         # threads, not processes: OpenCV gives up the interpreter's lock while it searches
         tasks = {pool.submit(_look, images[row], board): keys[row] for row in new}
@@ -56,8 +55,9 @@ def search(workspace: Workspace, images: Sequence[Path], board: Board, progress:
             raise
     if new:
         write_corner_cache(store, found)
-    views = tuple(named(found[key], workspace.relative(path)) for key, path in zip(keys, images, strict=True))
-    return BoardViews(sizes[0], views)
+    sizes = [found[key].size for key in keys]
+    refuse_two_sizes([workspace.relative(path) for path in images], sizes)
+    return BoardViews(sizes[0], tuple(found[key].named(workspace.relative(path)) for key, path in zip(keys, images, strict=True)))
 
 
 def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board) -> None:
@@ -94,11 +94,6 @@ def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board
         )
 
 
-def image_size(path: Path) -> tuple[int, int]:
-    """Width and height of an image."""
-    return read_image(path).size
-
-
 def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> None:
     """All images must be of one size.
 
@@ -119,10 +114,12 @@ def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> 
         )
 
 
-def _look(path: Path, board: Board) -> BoardView:
-    return find_board(_grey(path), board, str(path))
+def _look(path: Path, board: Board) -> Sighting:
+    grey = _grey(path)
+    return Sighting((grey.shape[1], grey.shape[0]), find_board(grey, board))
 
 
 def _grey(path: Path) -> Image:
+    refuse_cut_or_turned(path)
     pixels = read_image(path).pixels
     return pixels if pixels.ndim == 2 else np.asarray(pixels @ np.array([0.299, 0.587, 0.114], np.float32))

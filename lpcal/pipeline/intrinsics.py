@@ -16,8 +16,9 @@ from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
 from lpcal.chain.k_camera import board_shape, solve_camera
 from lpcal.detect.radiometry import Sensor, fit_flat_field
 from lpcal.errors import DegenerateError, InputError
-from lpcal.formats.camera_files import cameramodel_text, read_camera_file
+from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
+from lpcal.formats.cameramodel import cameramodel_text
 from lpcal.formats.documents import Provenance, write_text
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
