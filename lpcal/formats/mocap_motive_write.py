@@ -40,7 +40,7 @@ def write_motive(path: Path, body: str, t_s: Array, H_OP: Array, error_m: Array,
     lines.append(",".join(["Frame", "Time (Seconds)", *axes]))
     seen = np.isfinite(error_m)
     quaternion = np.full((len(t_s), 4), np.nan)
-    quaternion[seen] = se3.quaternion(H_OP[seen])
+    quaternion[seen] = se3.quaternion(H_OP[seen, :3, :3])
     quality = np.clip(1 - 40 * error_m, 0.1, 0.999)
     table = np.column_stack([quaternion, H_OP[:, :3, 3], error_m, *(column for m in markers_O.values() for column in (m, quality))])
     cells = ["%.6f"] * 8 + ["%.6f", "%.6f", "%.6f", "%.3f"] * len(names)

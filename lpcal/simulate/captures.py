@@ -22,7 +22,8 @@ BRIGHTEST = 0.60
 """Of full scale: a white surface at the focus that faces the strongest light."""
 SHORT_PEAK = 0.6
 DEFAULT_SPHERE_M = 0.025
-CHROME_WALL, MATTE_WALL, OBJECT_WALL = 0.10, 0.06, 0.32
+CHROME_WALL, MATTE_WALL, OBJECT_WALL = 0.06, 0.05, 0.32
+ROD_M = 0.003
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class Studio:
         turn = se3.rotation(np.zeros(3))
         wall_m = float(truth.centre_C[2] + 4.5 * truth.radius_m)
         scene = self._scene(
-            shape, se3.transform(turn, truth.centre_C), wall_m, CHROME_WALL if chrome else MATTE_WALL, chrome=chrome, rng=rng
+            shape, se3.transform(turn, truth.centre_C), wall_m, CHROME_WALL if chrome else MATTE_WALL, rng, chrome=chrome, rod_m=ROD_M
         )
         rendered = render(self.built.lens, scene)
         if not chrome:
@@ -99,7 +100,7 @@ class Studio:
         x_C = focus_C + rng.uniform(-0.03, 0.03, 3) * half_m
         H_CS = se3.transform(se3.rotation(rng.normal(0, [0.08, 0.25, 0.05])), x_C)
         wall_m = float(x_C[2] + 1.25 * shape.bound_m + rng.uniform(0.02, 0.05))
-        scene = self._scene(shape, H_CS, wall_m, OBJECT_WALL, chrome=False, rng=rng)
+        scene = self._scene(shape, H_CS, wall_m, OBJECT_WALL, rng, chrome=False, rod_m=0.0)
         return self._develop(render(lens, scene), rng, shape.note)
 
     def flat(self, rng: np.random.Generator) -> Stored:
@@ -107,12 +108,13 @@ class Studio:
         width, height = self.built.lens.image_size
         return self.response(np.full((height, width), 0.75), rng)
 
-    def _scene(self, shape: shapes.Shape, H_CS: Array, wall_m: float, albedo: float, *, chrome: bool, rng: np.random.Generator) -> Scene:
+    def _scene(
+        self, shape: shapes.Shape, H_CS: Array, wall_m: float, albedo: float, rng: np.random.Generator, *, chrome: bool, rod_m: float
+    ) -> Scene:
         n_C = np.array([*rng.normal(0, 0.04, 2), -1.0])
         panel_m = float(max((np.linalg.norm(light.H_CL[:2, 3]) for light in self.built.lights if light.H_DL is not None), default=0.05))
-        return Scene(
-            shape, H_CS, np.array([0, 0, wall_m]), n_C / np.linalg.norm(n_C), albedo, self.built.lights, self.ambient, chrome, 0.5 * panel_m
-        )
+        n_C /= np.linalg.norm(n_C)
+        return Scene(shape, H_CS, np.array([0, 0, wall_m]), n_C, albedo, self.built.lights, self.ambient, chrome, 0.5 * panel_m, rod_m)
 
     def _spots(self, truth: SphereTruth, k: int) -> Array:
         """Light (H, W) of one light's mirror image, blurred."""

@@ -58,21 +58,18 @@ def station_poses(built: Built, corners: tuple[int, int], square_m: tuple[float,
     near_m = 1.02 * diagonal_m * built.lens.K[0, 0] / float(np.hypot(width, height)) / 0.9
     cells = [(i, j) for j in range(4) for i in range(5)]
     order = rng.permutation(len(cells))
+    far, tilts_rad = rng.permutation(np.linspace(1.05, 2.0, count)), rng.permutation(np.linspace(np.radians(9), np.radians(42), count))
     poses = []
     for index in range(count):
         i, j = cells[order[index % len(cells)]]
-        for attempt in range(400):
-            share = np.array([(i + rng.uniform()) / 5, (j + rng.uniform()) / 4])
-            target = 0.5 + (share - 0.5) * (0.98 - 0.001 * attempt)
-            distance_m = near_m * rng.uniform(1.05, 1.5 + 1.4 * min(attempt, 200) / 200)
-            tilt = rng.uniform(np.radians(8), np.radians(38))
-            about = rng.uniform(0, 2 * np.pi)
-            roll = rng.uniform(-0.8, 0.8)
-            pose = board_pose(built, target * [width, height], distance_m, tilt * np.array([np.cos(about), np.sin(about)]), roll, centre_B)
+        share = np.array([(i + rng.uniform()) / 5, (j + rng.uniform()) / 4])
+        about, roll = rng.uniform(0, 2 * np.pi), rng.uniform(-0.8, 0.8)
+        tilt = tilts_rad[index] * np.array([np.cos(about), np.sin(about)])
+        for shrink in np.linspace(1, 0, 41):
+            target = 0.5 + (share - 0.5) * shrink
+            pose = board_pose(built, target * [width, height], near_m * far[index] * (1.5 - 0.5 * shrink), tilt, roll, centre_B)
             if built.lens.inside(se3.apply(pose, outline_B), 5):
                 break
-        else:
-            pose = board_pose(built, np.array([width, height]) / 2, 2 * near_m, np.zeros(2) + 0.2, 0.0, centre_B)
         poses.append(pose)
     return np.array(poses)
 

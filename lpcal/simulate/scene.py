@@ -24,6 +24,11 @@ from lpcal.simulate.shapes import Shape
 EDGE_OVERSAMPLING = 4
 CHUNK = 1 << 15
 MIRROR = 0.6
+WALL_HALF_M = 0.22
+"""Half the side of the card behind a chrome sphere: its mirror shows the room beyond."""
+ROD_ALBEDO = 0.04
+ROOM_SHARE = 1.3
+"""Radiance of the room round the camera over that of a white surface in it."""
 PROBES = (0, 8, 12, 16)
 """LEDs of a blob that are tried first: where all of them agree, so do the others."""
 
@@ -42,6 +47,8 @@ class Scene:
     chrome: bool = False
     panel_radius_m: float = 0.0
     """Of the dark disc round the camera that chrome mirrors."""
+    rod_m: float = 0.0
+    """Radius of the dark rod on which the shape stands, seen edge on."""
 
 
 @dataclass(frozen=True)
@@ -113,6 +120,9 @@ def _meet(scene: Scene, plane: Array) -> tuple[_Points, Labels]:
     x_C = np.where(on, t, behind)[:, None] * d_C
     n_C = np.broadcast_to(scene.wall_n_C, x_C.shape).copy()
     albedo = scene.wall_albedo * (1 + 0.02 * np.sin(70 * x_C[:, 0] + 1) * np.sin(55 * x_C[:, 1] + 2))
+    on_rod = ~on & _rod(scene, d_C)
+    x_C[on_rod] = d_C[on_rod] * (scene.H_CS[2, 3] / d_C[on_rod, 2])[:, None]
+    albedo[on_rod] = ROD_ALBEDO
     component = np.zeros(len(x_C), np.uint8)
     if np.any(on):
         x_S = se3.apply(H_SC, x_C[on])
@@ -120,6 +130,12 @@ def _meet(scene: Scene, plane: Array) -> tuple[_Points, Labels]:
         albedo[on] = scene.shape.reflectance(x_S)
         component[on] = scene.shape.component(x_S)
     return _Points(x_C, n_C, albedo, on, np.zeros(len(x_C))), component
+
+
+def _rod(scene: Scene, d_C: Array) -> Mask:
+    """Rays that meet the rod: it goes down from the shape's middle, in the plane of that depth."""
+    at = d_C[:, :2] * (scene.H_CS[2, 3] / d_C[:, 2])[:, None] - scene.H_CS[:2, 3]
+    return np.asarray((np.abs(at[:, 0] + 0.03 * at[:, 1]) < scene.rod_m) & (at[:, 1] > 0))
 
 
 def _edges(met: _Points, component: Labels, size: tuple[int, int], reach: int) -> Mask:
@@ -139,7 +155,8 @@ def _mirrored(scene: Scene, points: _Points, plane: Array) -> _Points:
     r_C = d_C - 2 * np.sum(d_C * points.n_C, axis=1, keepdims=True) * points.n_C
     away = -(r_C @ scene.wall_n_C)
     s = ((scene.wall_x_C - points.x_C) @ -scene.wall_n_C) / np.maximum(away, 1e-6)
-    to_wall = points.on_shape & (away > 0.02)
+    at_wall = points.x_C[:, :2] + s[:, None] * r_C[:, :2] - scene.H_CS[:2, 3]
+    to_wall = points.on_shape & (away > 0.02) & (np.abs(at_wall).max(axis=1) < WALL_HALF_M)
     to_room = points.on_shape & ~to_wall
     x_C = np.where(to_wall[:, None], points.x_C + s[:, None] * r_C, points.x_C)
     n_C = np.where(points.on_shape[:, None], scene.wall_n_C, points.n_C)
@@ -147,7 +164,7 @@ def _mirrored(scene: Scene, points: _Points, plane: Array) -> _Points:
     back = points.x_C[:, 2] / np.maximum(-r_C[:, 2], 1e-6)
     at_panel = points.x_C[:, :2] + back[:, None] * r_C[:, :2]
     dark = (r_C[:, 2] < 0) & (np.hypot(*at_panel.T) < scene.panel_radius_m)
-    sky = 0.35 * scene.ambient * (1 - 0.5 * r_C[:, 1] + 0.25 * np.sin(5 * r_C[:, 0] + 1) * np.sin(4 * r_C[:, 1]))
+    sky = ROOM_SHARE * scene.ambient * (1 - 0.5 * r_C[:, 1] + 0.25 * np.sin(5 * r_C[:, 0] + 1) * np.sin(4 * r_C[:, 1]))
     return _Points(x_C, n_C, albedo, points.on_shape & ~to_wall, np.where(to_room, MIRROR * np.where(dark, 0.15, 1.0) * sky, 0.0))
 
 

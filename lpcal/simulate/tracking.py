@@ -3,7 +3,7 @@ r"""What a motion-capture system makes of a moving body.
 Symbols: H_OP the true pose, xi a twist of coloured and white noise, m_P the markers on the body::
 
     reported H_OP = H_OP exp(xi(t))        xi: a first-order Markov process plus white noise
-    swapped       = H_OP H_flip            H_flip fits the body's markers to themselves with two of them exchanged
+    swapped       = H_OP H_flip            H_flip fits the body's markers to themselves in another order
 
 The fit of the swapped markers leaves a residual, which is the mean marker error that such systems report. Source: the least-squares fit of
 two point sets, Kabsch (1976).
@@ -12,6 +12,7 @@ two point sets, Kabsch (1976).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice, permutations
 
 import numpy as np
 
@@ -20,6 +21,10 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.simulate.built import Built
 from lpcal.simulate.motion import Session
 from lpcal.simulate.recipe import Recipe, Tracking
+
+
+FLIP_RAD = np.radians(10)
+MOST_ORDERS = 5040
 
 
 @dataclass(frozen=True)
@@ -52,21 +57,20 @@ def record(built: Built, session: Session, recipe: Recipe) -> Recording:
 
 
 def swapped_fit(marker_P: Array) -> tuple[Array, float]:
-    """H_flip (4, 4) of the body whose two markers are exchanged, and its mean marker error: the pair with the least error of all."""
-    best: tuple[float, Array] | None = None
-    for i in range(len(marker_P)):
-        for j in range(i):
-            swapped = marker_P.copy()
-            swapped[[i, j]] = marker_P[[j, i]]
-            a, b = marker_P - marker_P.mean(axis=0), swapped - swapped.mean(axis=0)
-            R = se3.nearest_rotation(b.T @ a)
-            H = se3.transform(R, swapped.mean(axis=0) - R @ marker_P.mean(axis=0))
-            error = float(np.mean(np.linalg.norm(se3.apply(H, marker_P) - swapped, axis=1)))
-            if best is None or error < best[0]:
-                best = error, H
-    if best is None:
-        return np.eye(4), 0.0
-    return best[1], best[0]
+    """H_flip (4, 4) of a body whose markers are taken for each other, and its mean marker error.
+
+    Of all orders of the markers the one that fits best and yet turns the body by more than 10 degrees: what a tracker falls for.
+    """
+    best: tuple[float, Array] = (np.inf, np.eye(4))
+    for order in islice(permutations(range(len(marker_P))), MOST_ORDERS):
+        taken = marker_P[list(order)]
+        a, b = marker_P - marker_P.mean(axis=0), taken - taken.mean(axis=0)
+        R = se3.nearest_rotation(b.T @ a)
+        H = se3.transform(R, taken.mean(axis=0) - R @ marker_P.mean(axis=0))
+        error = float(np.mean(np.linalg.norm(se3.apply(H, marker_P) - taken, axis=1)))
+        if error < best[0] and float(se3.angle_rad(R)) > FLIP_RAD:
+            best = error, H
+    return best[1], best[0] if np.isfinite(best[0]) else 0.0
 
 
 def _failures(session: Session, tracking: Tracking, rng: np.random.Generator) -> tuple[Mask, Mask, tuple[tuple[int, str], ...]]:
