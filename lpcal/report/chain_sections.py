@@ -11,7 +11,7 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.report import charts
 from lpcal.report.rig_report import RigReport, array, board_points, items, origin_sigmas, sigmas
-from lpcal.report.wording import Document, fixed, number, plural, with_sigma
+from lpcal.report.wording import NOTHING, Document, fixed, number, plural, with_sigma
 
 type Section = dict[str, Any]
 
@@ -57,6 +57,7 @@ def handeye_section(report: RigReport) -> Section | None:
         "transforms": [_transform(name, document) for name in ("H_PC", "H_OB") if document.get(name)],
         "clock": with_sigma(1000 * offset, None if std is None else 1000 * std, "ms") if offset is not None else None,
         "used": f"{len(used)} of {plural(len(views), 'view')}",
+        "evidence": _evidence(document.get("evidence") or {}),
         "rms": [(name, number(_rms(used, key, scale), 3, unit)) for (key, unit, scale), name in zip(measures, _MEASURES, strict=True)],
         "residuals": [
             (name, _view_bars(views, key, unit, "views in order; amber: left out", scale))
@@ -69,6 +70,24 @@ def handeye_section(report: RigReport) -> Section | None:
 
 
 _MEASURES = ("corners", "panel position", "panel rotation")
+
+
+def _evidence(evidence: Document) -> list[tuple[str, str]]:
+    """What the solve rests on, as far as it is said."""
+    spread = evidence.get("rotation_spread_deg") or []
+    named = (
+        ("the panel turned by, rms about three axes", ", ".join(fixed(angle, 1, "°") for angle in spread)),
+        ("mocap noise, rotation", fixed(evidence.get("mocap_sigma_deg"), 3, "°")),
+        ("mocap noise, position", fixed(_scale(evidence.get("mocap_sigma_m"), 1000), 2, "mm")),
+        ("corner noise", number(evidence.get("corner_sigma_px"), 2, "px")),
+        ("moved from the closed form by", fixed(_scale(evidence.get("moved_from_closed_form_m"), 1000), 2, "mm")),
+        ("turned from the closed form by", fixed(evidence.get("moved_from_closed_form_deg"), 3, "°")),
+    )
+    return [(label, value) for label, value in named if value not in {"", NOTHING}]
+
+
+def _scale(value: Any, factor: float) -> float | None:
+    return factor * float(value) if isinstance(value, (int, float)) else None
 
 
 def _rms(views: list[dict[str, Any]], key: str, scale: float) -> float:

@@ -3,7 +3,7 @@ const find = (id) => document.getElementById(id);
 const data = JSON.parse(find("data").textContent), canvas = find("view");
 const START = { does: "light", mode: "lit", distance: 0.42, exposure: 0, gloss: 0, yaw: 0, pitch: 0, zoom: 1, chosen: null };
 const state = { ...START, shadows: true, pointer: null, touched: false };
-let surface, renderer, waiting = false;
+let surface, renderer, begun = 0, waiting = false;
 
 function apart() { return surface.radius * 0.12 * Math.pow(66, state.distance); }
 function millimetres(metres) { return data.perspective ? `${(1000 * metres).toFixed(1)} mm` : `${metres.toFixed(1)} px`; }
@@ -157,13 +157,14 @@ function asked() {
   }
 }
 
-// Until someone takes it, the light goes round slowly; not where reduced motion is asked for.
+// Until someone takes it, the light goes round once, slowly; not where reduced motion is asked for.
 function wander(time) {
   if (state.touched || window.matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-  const t = time / 2600 - 2.2;
+  begun = begun || time;
+  const t = (time - begun) / 2600 - 2.2;
   state.pointer = [canvas.width * (0.5 + 0.3 * Math.cos(t)), canvas.height * (0.46 + 0.3 * Math.sin(t))];
   later();
-  requestAnimationFrame(wander);
+  if (time - begun < 2600 * 2 * Math.PI) requestAnimationFrame(wander);
 }
 
 function message(text) { find("message").textContent = text; find("message").hidden = false; }
@@ -175,7 +176,7 @@ async function begin() {
   renderer = glRenderer(canvas, surface);
   if (!renderer) { renderer = plainRenderer(canvas, surface); message("Drawn without WebGL2: no gloss, no shadows, no turning."); find("does").hidden = true; }
   find("poster").hidden = true;
-  asked(); pointers(); controls(); show();
+  asked(); pointers(); controls(); show(); draw();
   new ResizeObserver(later).observe(canvas);
   requestAnimationFrame(wander);
   document.documentElement.dataset.ready = renderer.turns ? "webgl2" : "canvas";

@@ -1,0 +1,376 @@
+"""The report: what it says, that it stands alone, and the figures that it works out itself."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+from typing import Any
+
+import numpy as np
+import pytest
+from lpcal.geometry import camera as central
+from lpcal.geometry import se3
+from lpcal.report.chain_sections import camera_section, handeye_section
+from lpcal.report.light_sections import lights_section, sphere_disagreement, spheres_section
+from lpcal.report.page import render
+from lpcal.report.pictures import png, shrink
+from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas
+from lpcal.report.scene import half_angle, rig_scene, room_scene
+from lpcal.report.verdict import headline, verdicts
+from lpcal.report.wording import fixed, listed, number, with_sigma
+
+K = np.array([[700.0, 0, 320], [0, 701.0, 240], [0, 0, 1]])
+DISTORTION = np.array([-0.2, 0.05, 1e-3, -1e-3])
+VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"}
+
+
+class Reader(HTMLParser):
+    """Whether the tags nest, what is referred to, and the words that a reader sees."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.references: list[str] = []
+        self.words: list[str] = []
+        self.ids: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        for key, value in attrs:
+            if key in {"src", "href", "srcset", "data", "action", "poster"} and value is not None:
+                self.references.append(value)
+            if key == "id" and value is not None:
+                self.ids.add(value)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if not self.open or self.open[-1] not in {"script", "style"}:
+            self.words.append(data)
+
+
+def read(page: str) -> Reader:
+    reader = Reader()
+    reader.feed(page)
+    reader.close()
+    assert reader.open == []
+    return reader
+
+
+def text_of(page: str) -> str:
+    return " ".join(" ".join(read(page).words).split())
+
+
+def provenance() -> dict[str, Any]:
+    return {
+        "inputs": {"stations/a.png": "ab" * 32},
+        "options": {"model": "auto"},
+        "lpcal_version": "0.1.0",
+        "time": "2026-01-02T03:04:05+00:00",
+    }
+
+
+def documents(seed: int = 0) -> dict[str, Any]:
+    """What the stages write for a small rig, after the contract."""
+    rng = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.arange(5) * 0.03, np.arange(4) * 0.03)
+    points_B = np.column_stack([x.ravel(), y.ravel(), 1e-3 * (x.ravel() - 0.06) ** 2 / 0.06**2])
+    H_PC, H_OB = se3.exp(np.array([0.1, 0.2, -0.1, 0.01, 0.02, 0.03])), se3.exp(np.array([0, 0.3, 0, 0.4, 1.0, -0.5]))
+    H_CB = [se3.exp(np.concatenate([rng.normal(0, 0.3, 3), rng.normal([-0.06, -0.05, 0.5], 0.02)])) for _ in range(6)]
+    views, boards, stations = [], [], []
+    for k, pose in enumerate(H_CB):
+        pixels = central.project(se3.apply(pose, points_B), K, DISTORTION) + rng.normal(0, 0.1, (20, 2))
+        lost = k == 5
+        why = "no board found" if lost else None
+        views.append(
+            {"image": f"stations/{k}.png", "used": not lost, "why": why, "corners": 0 if lost else 20, "rms_px": None if lost else 0.1}
+        )
+        boards.append({"image": f"stations/{k}.png", "H_CB": None if lost else pose, "corners_px": None if lost else pixels})
+        stations.append({"image": f"stations/{k}.png", "H_OP": H_OB @ se3.inv(pose) @ se3.inv(H_PC)})
+    lights = [light(k) for k in range(3)]
+    drawn = [{"name": entry["name"], "H_CL": moved(entry["H_CL"], 0.002), "position_std_m": 2e-3, "axis_std_deg": 0.4} for entry in lights]
+    covariance = np.diag([1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4]) ** 2
+    body = {
+        "camera": {
+            "image_size": [640, 480],
+            "model": "opencv4",
+            "K": K,
+            "distortion": DISTORTION,
+            "rms_px": 0.1,
+            "parameters": ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2"],
+            "covariance": np.diag([0.3, 0.3, 0.2, 0.2, 1e-3, 1e-3, 1e-4, 1e-4]) ** 2,
+            "views": views,
+        },
+        "H_CB": {"board": {"corners": [5, 4], "points_m": points_B}, "views": boards},
+        "H_OP": {"views": stations},
+        "handeye": {
+            "H_PC": H_PC,
+            "H_PC_covariance": covariance,
+            "H_OB": H_OB,
+            "H_OB_covariance": covariance,
+            "clock_offset_s": 0.0321,
+            "clock_offset_std_s": 2e-4,
+            "views": [view | {"residual_px": view["rms_px"], "residual_m": 2e-4, "residual_deg": 0.05} for view in views],
+        },
+        "wings": {"lights": drawn, "H_CD": np.eye(4), "d_object_m": 0.35},
+        "lights": {"focus_m": [0, 0, 0.35], "d_object_m": 0.35, "H_CD": np.eye(4), "lights": lights, "spheres": [chrome(lights)]},
+        "calibration": {"name": "small", "camera": None, "lights": lights, "focus_m": [0, 0, 0.35], "d_object_m": 0.35},
+    }
+    return {kind: plain({"lpcal": 1, "kind": kind, **entry, "provenance": provenance()}) for kind, entry in body.items()}
+
+
+def plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    return [plain(entry) for entry in value] if isinstance(value, list) else value
+
+
+def light(k: int) -> dict[str, Any]:
+    azimuth = 2 * np.pi * k / 3
+    place = np.array([0.18 * np.cos(azimuth), 0.18 * np.sin(azimuth), 0.04])
+    axis = np.array([0, 0, 0.35]) - place
+    axis /= np.linalg.norm(axis)
+    side = np.cross([0, 1, 0], axis) / np.linalg.norm(np.cross([0, 1, 0], axis))
+    H_CL = np.eye(4)
+    H_CL[:3] = np.column_stack([side, np.cross(axis, side), axis, place])
+    return {
+        "name": f"L{k}",
+        "H_CL": H_CL,
+        "source_m": place - 0.02 * axis,
+        "axis": axis,
+        "direction": -axis,
+        "intensity": 1.0 + 0.1 * k,
+        "lobe": {"kind": "cosine", "exponent": 4.0},
+        "position_std_m": 8e-4,
+        "direction_std_deg": 0.08,
+        "intensity_std": 0.01,
+    }
+
+
+def moved(H: Any, by: float) -> Any:
+    found = np.array(H, dtype=float)
+    found[0, 3] += by
+    return found
+
+
+def chrome(lights: list[dict[str, Any]]) -> dict[str, Any]:
+    """A chrome sphere and the exact directions of the mirrored rays: from a point of the sphere to where the ray goes."""
+    centre, radius = np.array([0.01, -0.02, 0.34]), 0.025
+    found = {"name": "chrome_0", "kind": "chrome", "centre_m": centre, "radius_m": radius, "used": True, "why": None, "residual": 0.02}
+    directions = {}
+    for entry in lights:
+        source = np.array(entry["source_m"])
+        axis = (source - centre) / np.linalg.norm(source - centre) - centre / np.linalg.norm(centre)
+        normal = axis / np.linalg.norm(axis)
+        for _ in range(60):  # the normal at which view and light make the same angle
+            point = centre + radius * normal
+            to_light, to_eye = source - point, -point
+            half = to_light / np.linalg.norm(to_light) + to_eye / np.linalg.norm(to_eye)
+            normal = half / np.linalg.norm(half)
+        directions[entry["name"]] = to_light / np.linalg.norm(to_light)
+    return found | {"directions": directions}
+
+
+def surface(scale_std: float = 0.005) -> SurfaceReport:
+    pixels = np.full((4, 5, 4), 200, np.uint8)
+    summary = {
+        "units": "metres",
+        "components": [{"label": 1, "pixels": 1234, "mean_depth_m": 0.35, "scale_std": scale_std}],
+        "counts_and_residuals": {"pixels": 1234, "residual": 0.0123},
+        "times_s": {"solving": 4.5},
+        "notes": ["left out: ref.jpg"],
+    }
+    return SurfaceReport("bust", summary, {"shape": png(pixels)}, "../surfaces/bust/relight.html")
+
+
+def test_whole_page_stands_alone_and_says_what_was_found() -> None:
+    page = render(RigReport("lightpanel-6", documents(), (surface(),)))
+    found = read(page)
+    outside = [ref for ref in found.references if not ref.startswith(("data:", "#", "../surfaces/"))]
+    assert outside == []
+    assert {ref[1:] for ref in found.references if ref.startswith("#")} <= found.ids
+    assert "@import" not in page
+    assert "url(" not in page
+    said = text_of(page)
+    for words in (
+        "Fit for use",
+        "700.00 ± 0.30 px",
+        "5 of 6 views",
+        "32.10 ± 0.20 ms",
+        "no board found",
+        "L2",
+        "chrome_0",
+        "left out: ref.jpg",
+    ):
+        assert words in said
+    assert "ab" * 8 in said
+    assert len(page) < 400_000
+
+
+@pytest.mark.parametrize("kind", ["camera", "handeye", "wings", "lights", "calibration", "H_CB", "H_OP"])
+def test_a_stage_alone_or_absent_makes_a_page(kind: str) -> None:
+    whole = documents()
+    assert "Not there" in text_of(render(RigReport("r", {kind: whole[kind]})))
+    rest = {other: document for other, document in whole.items() if other != kind}
+    assert f"{kind}.yaml" in text_of(render(RigReport("r", rest)))
+
+
+def test_keys_beyond_the_contract_are_not_needed() -> None:
+    whole = documents()
+    bare = {
+        "camera": {key: whole["camera"][key] for key in ("image_size", "model", "K", "distortion", "rms_px", "views")},
+        "handeye": {"H_PC": whole["handeye"]["H_PC"], "clock_offset_s": None, "views": []},
+        "lights": {"lights": [{"name": "L0", "direction": [0.0, 0.0, -1.0], "intensity": [1.0, 0.9, 1.1], "source_m": None, "lobe": None}]},
+    }
+    said = text_of(render(RigReport("dome", bare)))
+    assert "distant" in said
+    assert "1.000 / 0.900 / 1.100" in said
+    assert "no clock offset" in said
+
+
+def test_names_cannot_break_the_page() -> None:
+    whole = documents()
+    whole["lights"]["lights"][0]["name"] = "</script><b>L0"
+    whole["camera"]["views"][5]["why"] = "<img src=x>"
+    page = render(RigReport("<script>alert(1)</script>", whole))
+    assert "<script>alert" not in page
+    assert "<img src=x>" not in page
+    assert "</script><b>" not in page
+    read(page)
+
+
+@pytest.mark.parametrize(("sigma_deg", "word"), [(0.05, "good"), (0.15, "fair"), (0.5, "poor")])
+def test_the_gate_follows_the_sigma(sigma_deg: float, word: str) -> None:
+    whole = documents()
+    whole["handeye"]["H_PC_covariance"] = (np.diag([np.radians(sigma_deg)] * 3 + [1e-5] * 3) ** 2).tolist()
+    report = RigReport("r", whole)
+    line = next(line for line in verdicts(report) if line.stage == "handeye")
+    assert line.tone == word
+    assert headline(verdicts(report))[0] == word
+
+
+def test_a_warning_lowers_good_to_fair_and_is_shown() -> None:
+    whole = documents()
+    whole["handeye"]["warnings"] = ["turn the panel about its axis"]
+    line = verdicts(RigReport("r", whole))[1]
+    assert (line.tone, line.notes) == ("fair", ("turn the panel about its axis",))
+
+
+def test_a_surface_without_a_camera_is_not_judged_by_its_distance() -> None:
+    orthographic = SurfaceReport("flat", surface().summary | {"units": "pixels"})
+    lines = verdicts(RigReport("r", {}, (orthographic, surface(0.05))))
+    assert [line.tone for line in lines[-2:]] == ["none", "poor"]
+
+
+def test_origin_sigmas_are_those_of_the_origin() -> None:
+    rng = np.random.default_rng(1)
+    H = se3.exp(np.array([0.3, -0.2, 0.5, 0.4, 1.1, -0.6]))
+    A = rng.normal(0, 1e-3, (6, 6))
+    covariance = A @ A.T
+    xi = rng.multivariate_normal(np.zeros(6), covariance, 4000)
+    origins = np.array([(se3.exp(step) @ H)[:3, 3] for step in xi])
+    np.testing.assert_allclose(origin_sigmas(H, covariance)[3:], origins.std(axis=0), rtol=0.06)
+    assert np.isnan(origin_sigmas(H, None)).all()
+
+
+def test_a_sphere_that_agrees_and_one_that_does_not() -> None:
+    entry = light(0)
+    sphere = chrome([entry])
+    assert sphere_disagreement(sphere, entry) == pytest.approx(0, abs=1e-6)
+    turn = se3.rotation(np.radians(0.3) * np.array([0.0, 1.0, 0.0]))
+    turned = sphere | {"directions": {"L0": turn @ sphere["directions"]["L0"]}}
+    assert sphere_disagreement(turned, entry) == pytest.approx(0.3, abs=0.03)
+    section = spheres_section(RigReport("r", documents()))
+    assert section is not None
+    assert section["largest"] == "0.00°"
+
+
+def test_what_is_left_over_by_place_finds_a_planted_shift() -> None:
+    whole = documents()
+    for view in whole["H_CB"]["views"]:
+        if view["corners_px"]:
+            view["corners_px"] = np.add(view["corners_px"], [0.7, 0.0]).tolist()
+    section = camera_section(RigReport("r", whole))
+    assert section is not None
+    assert "the longest is 0.7" in section["coverage"]["note"]
+    whole["camera"]["model"] = "splined"
+    splined = camera_section(RigReport("r", whole))
+    assert splined is not None
+    assert "arrows" not in splined["coverage"]["note"]
+
+
+def test_the_way_from_the_drawing() -> None:
+    section = lights_section(RigReport("r", documents()))
+    assert section is not None
+    assert [row["moved"] for row in section["rows"]] == ["2.0"] * 3
+    assert [row["turned"] for row in section["rows"]] == ["0.00"] * 3
+
+
+def test_views_left_out_stand_with_their_reason() -> None:
+    section = handeye_section(RigReport("r", documents()))
+    assert section is not None
+    assert section["left_out"] == [("stations/5.png", "no board found")]
+
+
+def test_scenes_hold_what_they_should() -> None:
+    report = RigReport("r", documents())
+    rig, room = rig_scene(report), room_scene(report)
+    assert rig is not None
+    assert room is not None
+    labels = [item["text"] for item in rig["items"] if item["kind"] == "label"]
+    assert {"L0", "L1", "L2", "C", "D", "P"} <= set(labels)
+    arrows = [item for item in rig["items"] if item["kind"] == "arrow"]
+    np.testing.assert_allclose([arrow["by"] for arrow in arrows], [[-0.002, 0, 0]] * 3, atol=1e-5)
+    assert np.isfinite([value for item in rig["items"] + room["items"] for point in item.get("p", []) for value in point]).all()
+    assert rig_scene(RigReport("r", {})) is None
+
+
+def test_half_angles() -> None:
+    assert np.cos(half_angle({"kind": "cosine", "exponent": 3.0})) ** 3 == pytest.approx(0.5)
+    assert half_angle({"kind": "table", "angle_deg": [0, 10, 20, 30], "value": [1, 0.9, 0.4, 0.1]}) == pytest.approx(np.radians(20))
+    assert half_angle({"kind": "isotropic"}) == pytest.approx(np.radians(60))
+
+
+@pytest.mark.parametrize(
+    ("value", "sigma", "words"),
+    [
+        (712.4137, 0.2345, "712.41 ± 0.23 px"),
+        (-0.3019, 0.00024, "−0.30190 ± 0.00024 px"),
+        (12345.6, 210.0, "12346 ± 210 px"),
+        (1.5, None, "1.5000 px"),
+        (None, 1.0, "–"),
+        (float("nan"), 1.0, "–"),
+    ],
+)
+def test_a_value_has_the_digits_that_its_sigma_deserves(value: Any, sigma: Any, words: str) -> None:
+    assert with_sigma(value, sigma, "px").replace("\N{NO-BREAK SPACE}", " ") == words
+
+
+def test_numbers_in_words() -> None:
+    assert number(0.012345, 2) == "0.012"
+    assert number(1.5e-7, 2) == "1.5e−07"
+    assert number(0) == "0"
+    assert fixed(-1.25, 1, "°") == "−1.2°"
+    assert listed(["L0", "L1", "L2"]) == "L0, L1 and L2"
+
+
+def test_a_png_is_read_back_as_it_was() -> None:
+    import cv2
+
+    pixels = np.random.default_rng(0).integers(0, 256, (17, 23, 4), dtype=np.uint8)
+    read_back = cv2.imdecode(np.frombuffer(png(pixels), np.uint8), cv2.IMREAD_UNCHANGED)
+    np.testing.assert_array_equal(read_back[..., [2, 1, 0, 3]], pixels)
+
+
+def test_shrinking_averages_inside_the_mask_only() -> None:
+    value = np.zeros((20, 20, 3), np.float32)
+    value[4:16, 4:16] = 0.5
+    value[0, 0] = 1.0
+    mask = np.zeros((20, 20), bool)
+    mask[4:16, 4:16] = True
+    small = shrink(value, mask, 8)
+    assert small.shape == (8, 8, 4)
+    assert set(np.unique(small[small[..., 3] > 0][:, :3])) == {128}
