@@ -22,7 +22,6 @@ from lpcal.simulate.built import Built
 from lpcal.simulate.motion import Session
 from lpcal.simulate.recipe import Recipe, Tracking
 
-
 FLIP_RAD = np.radians(10)
 MOST_ORDERS = 5040
 

@@ -1,0 +1,106 @@
+"""``lpcal board``: the printable target at true scale."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lpcal.errors import InputError, UsageError
+from lpcal.records.outcome import Outcome, Progress
+
+if TYPE_CHECKING:
+    from lpcal.records.rig import BoardSection
+
+PAGES = ("A4", "A3", "A2", "A1", "A0", "letter")
+DEFAULT_CORNERS, DEFAULT_SQUARE = "9x6", "25mm"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument("-o", "--output", type=Path, default=Path("board.pdf"), metavar="PDF", help="where to write it (default board.pdf)")
+    parser.add_argument(
+        "--rig", type=Path, metavar="PANEL", help="panel.yaml or its folder, whose board: is drawn (default: the one here or above)"
+    )
+    parser.add_argument("--corners", metavar="NxM", help="inner corners along x and y (default: the rig's, else 9x6)")
+    parser.add_argument("--square", metavar="LENGTH", help="side of a square with its unit (default: the rig's, else 25mm)")
+    parser.add_argument("--page", choices=PAGES, help="the sheet (default: A4 or A3 if it fits, else made to measure)")
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
+    """Draw it."""
+    from lpcal.formats.documents import whole
+    from lpcal.report.board_pdf import choose_page, draw, size_mm, yaml_line
+
+    board, origin = _board(options)
+    page = choose_page(board, options.page)
+    drawn = draw(board, page)
+    with whole(options.output) as draft:
+        draft.write_bytes(drawn)
+    width, height = size_mm(board)
+    summary = [
+        f"{options.output}: {yaml_line(board)} ({origin})",
+        f"page {page.name}, {page.width_mm:g} x {page.height_mm:g} mm; the squares together {width:g} x {height:g} mm",
+        "print it at 100 %, without fitting to the page, and measure the squares: what counts is what they measure",
+    ]
+    document = {"file": str(options.output), "board": yaml_line(board), "page": page.name, "page_mm": [page.width_mm, page.height_mm]}
+    return Outcome(summary, document | {"squares_mm": [width, height]})
+
+
+def _board(options: argparse.Namespace) -> tuple[BoardSection, str]:
+    """The board to draw and where it comes from: the words of the command over the rig's section over the default."""
+    from lpcal.formats.panel_yaml import read_rig
+    from lpcal.records.rig import BoardSection
+
+    section: BoardSection | None = None
+    origin = "the default board"
+    if options.rig or not (options.corners and options.square):
+        panel = _panel(options.rig)
+        if panel is not None:
+            section, origin = read_rig(panel).rig.board, f"from {panel}"
+    if section is not None and not (options.corners or options.square):
+        return _drawable(section, origin), origin
+    corners = _corners(options.corners) if options.corners else section.corners if section else _corners(DEFAULT_CORNERS)
+    square = _square(options.square) if options.square else section.square if section else _square(DEFAULT_SQUARE)
+    origin = "as asked for" if options.corners or options.square else "the default board"
+    return BoardSection.model_construct(kind="chessboard", corners=corners, square=square), origin
+
+
+def _panel(named: Path | None) -> Path | None:
+    """The panel.yaml named, or the one here or above if there is any."""
+    from lpcal.formats.panel_yaml import find
+
+    try:
+        return find(named or Path())
+    except InputError:
+        if named:
+            raise
+    return None
+
+
+def _drawable(section: BoardSection, origin: str) -> BoardSection:
+    if section.kind == "charuco" and not (section.marker and section.dictionary):
+        raise InputError(
+            "a charuco board without marker and dictionary", where=origin, needed="both", todo="add marker: 18 mm, dictionary: DICT_5X5_100"
+        )
+    return section
+
+
+def _corners(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d+)[x,](\d+)", text)
+    if not match or min(int(n) for n in match.groups()) < 2:
+        raise UsageError(f"--corners {text}", needed="two counts of 2 or more", todo="write for example 9x6")
+    return int(match[1]), int(match[2])
+
+
+def _square(text: str) -> tuple[float, float]:
+    from lpcal.records.quantities import parse
+
+    try:
+        side = parse(text, "length")
+    except ValueError as error:
+        raise UsageError(f"--square: {error}", needed="a length with its unit", todo="write for example 25mm") from error
+    if side <= 0:
+        raise UsageError(f"--square {text}", needed="a length above 0", todo="write for example 25mm")
+    return side, side
