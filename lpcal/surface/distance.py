@@ -18,7 +18,8 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.surface.integrate import Own
-from lpcal.surface.normals import Estimate
+from lpcal.surface.normals import Estimate, variances
+from lpcal.surface.sight import Sight
 
 DELTA = 1e-3
 FURTHEST = 0.5
@@ -29,8 +30,10 @@ WEAK = 1e-6
 """Curvature for pixels that know nothing, so that every piece is held somewhere."""
 
 
-def own_distance(B_at: Callable[[Array], Array], depth: Array, signal: Array, variance: Array, found: Estimate) -> Own:
+def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
     """Curvature and optimum of u (P,) about depths (P,); B_at gives light vectors (L, P, 3) at depths."""
+    variance = variances(seen, found.gloss)
+    signal = seen.signal if found.gloss is None else seen.signal - found.gloss
     weight = np.where(found.inliers & np.isfinite(found.b[:, 0]), 1 / np.sqrt(variance), 0.0)
     b = np.nan_to_num(found.b)
     A = weight[..., None] * B_at(depth)

@@ -27,6 +27,10 @@ from lpcal.surface.sight import Indices
 STEEPEST = 0.03
 """Of n . v: steps are not believed to be steeper."""
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
+AGAIN = (100.0, 10.0, 1.0, 1.0)
+"""Where the depth is known already."""
+ROUGHLY, FINELY = 1e-3, 1e-5
+"""Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 ROBUST = 3.0
 SPREAD = 6.0
@@ -77,15 +81,21 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[
 
 def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
     """u (P,) and the final weights w (edges,); a jump is an edge of little weight."""
-    a, b = grid.a, grid.b
-    u, weight = start, np.ones(len(a))
-    for strength in GRADUATION if graduated else GRADUATION[-2:]:
+    u = start
+    strengths = GRADUATION if graduated else AGAIN
+    weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
+    for k, strength in enumerate(strengths):
         A, right = _system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
-        u = multigrid.solve(A, right, u, grid.prolongations)
-        residual = (u[b] - u[a] - step) / sigma
-        scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
-        weight = (scale**2 / (scale**2 + residual**2)) ** 2 + 1e-6
+        u = multigrid.solve(A, right, u, grid.prolongations, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
+        weight = _weight(grid, u, step, sigma)
     return u, weight
+
+
+def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
+    """Of each edge, by how well u keeps its step."""
+    residual = (u[grid.b] - u[grid.a] - step) / sigma
+    scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
+    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + 1e-6)
 
 
 def _system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:

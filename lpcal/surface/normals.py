@@ -25,6 +25,8 @@ from lpcal.surface.sight import Sight
 MODEL = 0.015
 SHADOW = 0.15
 DARK_SIGMAS = 3.0
+DOUBT = 0.3
+"""Of the gloss."""
 OUTLIER = 3.0
 ROUNDS = 3
 LEAST = 3
@@ -49,6 +51,8 @@ class Estimate:
     """(P,) of the inliers."""
     cost: Array
     """(P,) sum of min(r^2, OUTLIER^2) over the candidates."""
+    gloss: Array | None = None
+    """(L, P) what was taken off the signals as gloss."""
 
     @property
     def used(self) -> Array:
@@ -66,9 +70,9 @@ def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
 
 
 def variances(sight: Sight, gloss: Array | None = None) -> Array:
-    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks; half of the gloss counts as doubt."""
+    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks; a share of the gloss counts as doubt."""
     variance = sight.sigma**2 + (MODEL * sight.signal) ** 2
-    return variance if gloss is None else variance + (0.5 * gloss) ** 2
+    return variance if gloss is None else variance + (DOUBT * gloss) ** 2
 
 
 def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:

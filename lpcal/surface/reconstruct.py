@@ -7,7 +7,7 @@ that is given or designed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -18,12 +18,13 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import distance, mask, normals, pieces, sight
+from lpcal.surface import distance, gloss, mask, normals, pieces, sight
 from lpcal.surface.integrate import Grid, Own, integrate, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
 
 ROUNDS = 5
+GLOSS_ROUNDS = (1, 2, 3)
 FEWEST_PIXELS = 50
 DISTANCE_M = 0.35
 """Where nothing else says how far away the object is."""
@@ -53,6 +54,33 @@ class State:
     normals: Array
     found: Estimate
     own: Own
+    gloss: gloss.Gloss | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What stays as it is through the rounds."""
+
+    name: str
+    seen: Sight
+    grid: Grid
+    lights: tuple[Light, ...]
+    focus_C: Array | None
+    """Where lights act as they do there; None: they are near."""
+
+    @property
+    def near(self) -> bool:
+        """Whether the light tells the distance."""
+        return self.focus_C is None
+
+    def light_at(self, depth: Array) -> tuple[Array, Array]:
+        """Directions (L, P, 3) and irradiance (L, P) at depths (P,)."""
+        return sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C)
+
+    def B_at(self, depth: Array) -> Array:
+        """Light vectors (L, P, 3) at depths (P,)."""
+        d, E = self.light_at(depth)
+        return d * E[..., None]
 
 
 def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
@@ -74,10 +102,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
     object_mask = _object(background, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
-    grid = Grid.of(object_mask)
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
-    state = _rounds(seen, grid, lights, focus_C, float(begin), progress, radiance.name)
-    return _surface(radiance, lights, seen, grid, state, rays_C, focus_C)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C)
+    return _surface(radiance, scene, _rounds(scene, float(begin), progress), rays_C)
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
@@ -99,51 +126,49 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
     return given
 
 
-def _rounds(
-    seen: Sight, grid: Grid, lights: tuple[Light, ...], focus_C: Array | None, begin: float, progress: Progress, name: str
-) -> State:
+def _rounds(scene: Scene, begin: float, progress: Progress) -> State:
+    seen = scene.seen
     u = np.full(seen.pixels, np.log(begin) if seen.central else 0.0)
-    rounds = ROUNDS if focus_C is None else 1
-    for k in range(rounds):
-        state = _round(seen, grid, lights, focus_C, u, name)
-        u = state.u
-        progress(f"{name}: normals and depth", k + 1, rounds)
+    state = _round(scene, u, None, 0)
+    rounds = ROUNDS if scene.near else 1
+    for k in range(1, rounds):
+        progress(f"{scene.name}: normals and depth", k, rounds)
+        state = _round(scene, state.u, state, k)
+    progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
 
 
-def _round(seen: Sight, grid: Grid, lights: tuple[Light, ...], focus_C: Array | None, u: Array, name: str) -> State:
-    def B_at(depth: Array) -> Array:
-        d, E = sight.light_vectors(lights, seen.points_C(depth), focus_C)
-        return d * E[..., None]
-
+def _round(scene: Scene, u: Array, before: State | None, k: int) -> State:
+    seen, grid = scene.seen, scene.grid
     depth = np.exp(u) if seen.central else np.ones_like(u)
-    B = B_at(depth)
-    variance = normals.variances(seen)
-    found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), variance)
+    d, E = scene.light_at(depth)
+    usable = normals.candidates(seen, E)
+    found = normals.estimate(seen, d * E[..., None], usable, normals.variances(seen))
+    shine = before.gloss if before else None
+    if k in GLOSS_ROUNDS or not scene.near:
+        shine = gloss.fit(seen, d, E, usable, found)
+    if shine is not None:
+        found = gloss.estimate(seen, d, E, usable, shine, found)
     known = np.isfinite(found.b[:, 0])
     if known.sum() < FEWEST_PIXELS:
         raise DegenerateError(
             f"{known.sum()} pixels are lit by three lights",
-            where=name,
+            where=scene.name,
             needed=f"{FEWEST_PIXELS} at least",
             todo="check the mask, the exposure and the ambient image",
         )
     n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
-    if focus_C is None:
-        own = distance.own_distance(B_at, depth, seen.signal, variance, found)
-    else:
-        own = Own(np.full(seen.pixels, distance.WEAK), u)
-    u, weight = integrate(grid, step, sigma, own, u, graduated=focus_C is None)
-    return State(u, weight, n, found, own)
+    own = distance.own_distance(scene.B_at, depth, seen, found) if scene.near else Own(np.full(seen.pixels, distance.WEAK), u)
+    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
+    return State(u, weight, n, found, own, shine)
 
 
-def _surface(
-    radiance: Radiance, lights: tuple[Light, ...], seen: Sight, grid: Grid, state: State, rays_C: Array, focus_C: Array | None
-) -> Surface:
+def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> Surface:
+    seen, grid = scene.seen, scene.grid
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)
-    albedo = _albedo(radiance, lights, seen, state, depth if seen.central else np.ones_like(depth), focus_C)
+    albedo = _albedo(radiance, scene, state, depth if seen.central else np.ones_like(depth))
     sigma_deg = np.where(np.isfinite(state.found.b[:, 0]), 2.0, 20.0)
     components = []
     for one in np.unique(label):
@@ -170,9 +195,10 @@ def _surface(
     )
 
 
-def _albedo(radiance: Radiance, lights: tuple[Light, ...], seen: Sight, state: State, depth: Array, focus_C: Array | None) -> Array:
+def _albedo(radiance: Radiance, scene: Scene, state: State, depth: Array) -> Array:
     """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
-    d, E = sight.light_vectors(lights, seen.points_C(depth), focus_C)
+    seen, lights = scene.seen, scene.lights
+    d, E = scene.light_at(depth)
     shading = E * np.maximum(np.einsum("kpi,pi->kp", d, state.normals), 0.0)
     used = np.where(state.found.used >= normals.LEAST, state.found.inliers, seen.usable)
     below = np.sum(used * shading**2, axis=0)
@@ -180,7 +206,7 @@ def _albedo(radiance: Radiance, lights: tuple[Light, ...], seen: Sight, state: S
     found = []
     for channel in range(channels.shape[2]):
         intensity = np.array([light.intensity[channel if light.intensity.size > 1 and channels.shape[2] > 1 else 0] for light in lights])
-        signal = channels[..., channel] / intensity[:, None]
+        signal = channels[..., channel] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss)
         found.append(np.sum(used * shading * signal, axis=0) / np.maximum(below, 1e-12))
     return found[0] if len(found) == 1 else np.stack(found, axis=1)
 
@@ -193,5 +219,6 @@ def _figures(state: State) -> dict[str, object]:
         "pixels": len(found.b),
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
+        "gloss": None if state.gloss is None else asdict(state.gloss),
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }
