@@ -93,3 +93,18 @@ def test_a_summary_that_is_no_json_is_named(rig: Path, lpcal: Any) -> None:
     assert code == 3
     assert "surfaces/bust/summary.json" in err
     assert not (rig / "calib" / "report.html").exists()
+
+
+def test_the_stage_knows_when_it_is_out_of_date(rig: Path, lpcal: Any) -> None:
+    from lpcal.formats.panel_yaml import read_rig
+    from lpcal.pipeline.report import STAGE
+    from lpcal.pipeline.workspace import Workspace
+
+    fill(rig)
+    workspace = Workspace(read_rig(rig / "panel.yaml"))
+    assert STAGE.wanted(workspace)
+    assert not STAGE.up_to_date(workspace)
+    assert lpcal("report", cwd=rig)[0] == 0
+    assert STAGE.up_to_date(workspace)
+    (rig / "calib" / "handeye.yaml").unlink()
+    assert not STAGE.up_to_date(workspace)

@@ -89,7 +89,8 @@ def documents(seed: int = 0) -> dict[str, Any]:
         boards.append({"image": f"stations/{k}.png", "H_CB": None if lost else pose, "corners_px": None if lost else pixels})
         stations.append({"image": f"stations/{k}.png", "H_OP": H_OB @ se3.inv(pose) @ se3.inv(H_PC)})
     lights = [light(k) for k in range(3)]
-    drawn = [{"name": entry["name"], "H_CL": moved(entry["H_CL"], 0.002), "position_std_m": 2e-3, "axis_std_deg": 0.4} for entry in lights]
+    wing = {"position_std_m": 2e-3, "axis_std_deg": 0.4}
+    drawn = [wing | {"name": entry["name"], "H_CL": moved(entry["H_CL"], 0.002), "setting": setting(k)} for k, entry in enumerate(lights)]
     covariance = np.diag([1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4]) ** 2
     body = {
         "camera": {
@@ -126,6 +127,10 @@ def plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}
     return [plain(entry) for entry in value] if isinstance(value, list) else value
+
+
+def setting(k: int) -> dict[str, float]:
+    return {"azimuth_deg": 120.0 * k, "joint_angle_deg": 30.0, "d1_m": 0.1, "d2_m": 0.09}
 
 
 def light(k: int) -> dict[str, Any]:
@@ -325,6 +330,8 @@ def test_scenes_hold_what_they_should() -> None:
     arrows = [item for item in rig["items"] if item["kind"] == "arrow"]
     np.testing.assert_allclose([arrow["by"] for arrow in arrows], [[-0.002, 0, 0]] * 3, atol=1e-5)
     assert np.isfinite([value for item in rig["items"] + room["items"] for point in item.get("p", []) for value in point]).all()
+    joints = [item["p"][0] for item in rig["items"] if item["kind"] == "point" and item["layer"] == "wings"]
+    np.testing.assert_allclose(np.linalg.norm(joints, axis=1), 0.1, atol=1e-4)
     assert rig_scene(RigReport("r", {})) is None
 
 

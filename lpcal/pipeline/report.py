@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from lpcal import __version__
 from lpcal.errors import InputError
-from lpcal.formats.documents import read_document, write_text
+from lpcal.formats.documents import read_document, sha256, write_text
 from lpcal.formats.images import read_image
-from lpcal.pipeline.workspace import Workspace
+from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.report.page import render
 from lpcal.report.pictures import png, shaded, shrink
@@ -18,6 +21,18 @@ from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.verdict import headline, verdicts
 
 THUMBNAIL = 220
+STAMP_WITHIN = 2000
+FILE = "report.html"
+
+
+@dataclass(frozen=True)
+class ReportStage(Stage):
+    """The report; up to date when it says that it was made from the documents that there are now."""
+
+    def up_to_date(self, workspace: Workspace) -> bool:
+        """Whether the page stands and carries the stamp of what there is now."""
+        path = workspace.calib(FILE)
+        return path.is_file() and f'content="{_stamp(workspace)}"' in path.read_text(encoding="utf-8")[:STAMP_WITHIN]
 
 
 def write_report(workspace: Workspace, progress: Progress) -> Outcome:
@@ -28,8 +43,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
     InputError
         No stage has written anything; or a document is cut off.
     """
-    documents = {kind: read_document(path, kind) for kind in KINDS if (path := workspace.calib(f"{kind}.yaml")).is_file()}
-    folders = sorted(path.parent for path in (workspace.folder / "surfaces").glob("*/summary.json"))
+    documents = {path.stem: read_document(path, path.stem) for path in _documents(workspace)}
+    folders = [path.parent for path in _summaries(workspace)]
     if not documents and not folders:
         raise InputError(
             "nothing to report on: no stage has written anything yet",
@@ -42,8 +57,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
         surfaces.append(_surface(folder))
         progress("pictures", done, len(folders))
     report = RigReport(workspace.rig_file.rig.name, documents, tuple(surfaces))
-    path = workspace.calib("report.html")
-    write_text(path, render(report))
+    path = workspace.calib(FILE)
+    write_text(path, render(report, _stamp(workspace)))
     lines = verdicts(report)
     tone, sentence = headline(lines)
     summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, workspace.relative(path)]
@@ -79,3 +94,29 @@ def _pictures(folder: Path) -> dict[str, bytes]:
         colour = albedo if albedo.ndim == 3 else np.repeat(albedo[..., None], 3, axis=2)
         found["albedo"] = png(shrink(np.asarray((0.85 * colour) ** (1 / 2.2), dtype=np.float32), inside, THUMBNAIL))
     return found
+
+
+def _documents(workspace: Workspace) -> list[Path]:
+    return [path for kind in KINDS if (path := workspace.calib(f"{kind}.yaml")).is_file()]
+
+
+def _summaries(workspace: Workspace) -> list[Path]:
+    return sorted((workspace.folder / "surfaces").glob("*/summary.json"))
+
+
+def _stamp(workspace: Workspace) -> str:
+    """A digest of lpcal's version, the rig's name, and every document with its path; of the relighting pages, whether they are there."""
+    pages = [path.parent / "relight.html" for path in _summaries(workspace)]
+    made_from = [__version__, workspace.rig_file.rig.name, *(str(page.is_file()) for page in pages)]
+    made_from += [f"{workspace.relative(path)} {sha256(path)}" for path in [*_documents(workspace), *_summaries(workspace)]]
+    return hashlib.sha256("\n".join(made_from).encode()).hexdigest()
+
+
+STAGE = ReportStage(
+    name="report",
+    kinds={},
+    wanted=lambda workspace: bool(_documents(workspace) or _summaries(workspace)),
+    inputs=lambda workspace: [*_documents(workspace), *_summaries(workspace)],
+    settings=lambda workspace: {"name": workspace.rig_file.rig.name},
+    run=write_report,
+)

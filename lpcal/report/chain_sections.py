@@ -35,6 +35,7 @@ def camera_section(report: RigReport) -> Section | None:
         ],
         "residuals": _view_bars(views, "rms_px", "px", "views in order; amber: left out") if views else None,
         "coverage": _coverage(report, points_B, document),
+        **_histogram(report, points_B, document),
         "choice": _choice(document),
         "warp": _warp(points_B),
         "warp_mm": None if points_B is None else fixed(1000 * float(np.ptp(points_B[:, 2])), 2, "mm"),
@@ -69,7 +70,7 @@ def handeye_section(report: RigReport) -> Section | None:
     }
 
 
-_MEASURES = ("corners", "panel position", "panel rotation")
+_MEASURES = ("corners", "the board misses its place", "the board is turned")
 
 
 def _evidence(evidence: Document) -> list[tuple[str, str]]:
@@ -153,6 +154,18 @@ def _coverage(report: RigReport, points_B: Array | None, document: Document) -> 
     note += f"; the longest is {number(longest, 2, 'px')}"
     note += f", noise alone leaves {number(noise, 2, 'px')}" if np.isfinite(noise) else ""
     return {"svg": charts.over_image(pixels, (w, h), arrows * [1, 1, factor, factor]), "note": note}
+
+
+def _histogram(report: RigReport, points_B: Array | None, document: Document) -> Section:
+    """What is left over of every corner's coordinates, against the normal curve of the same rms."""
+    seen = _corners(report, points_B, document)
+    left = np.zeros(0) if seen is None else seen[1][np.isfinite(seen[1])]
+    if left.size < FEWEST_CORNERS:
+        return {"histogram": None, "histogram_note": ""}
+    sigma = float(np.sqrt(np.mean(left**2)))
+    beyond = 100 * float(np.mean(np.abs(left) > 3 * sigma))
+    note = f"what is left over of {left.size} coordinates, and the normal curve; {fixed(beyond, 1, '%')} are beyond 3 sigma, 0.3% expected"
+    return {"histogram": charts.histogram(left, unit="px", sigma=sigma), "histogram_note": note}
 
 
 def _corners(report: RigReport, points_B: Array | None, document: Document) -> tuple[Array, Array] | None:

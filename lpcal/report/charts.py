@@ -1,4 +1,4 @@
-"""Charts as inline SVG: bars, curves, points over the image, a signed map of a grid, dots in rows.
+"""Charts as inline SVG: bars, histogram, curves, points over the image, a signed map of a grid, dots in rows.
 
 Every chart is 480 units wide and takes its colours from the page's custom properties, so that it follows light, dark and print.
 Data go to the drawing by ``u = left + (x - x0) / (x1 - x0) width``.
@@ -34,7 +34,7 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
     top = max([*measured, gate or 0.0, 1e-12]) * 1.06
     plot = _Plot(height, (0, max(len(items), 1)), (0, top))
     thick = plot.width / max(len(items), 1)
-    parts = plot.y_axis(unit)
+    parts = plot.y_axis("deg" if unit == "°" else unit)
     for k, item in enumerate(items):
         u, tip = plot.u(k) + 0.1 * thick, f"<title>{escape(item.label)}</title>"
         v = plot.v(item.value) if item.value is not None else plot.v(0) - 5
@@ -43,6 +43,24 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
     if gate is not None:
         parts.append(plot.rule(gate))
     return plot.svg([*parts, plot.x_line(), plot.x_title(across)], f"bars, {across}, {unit}")
+
+
+def histogram(values: Array, *, unit: str, sigma: float, height: int = 190) -> str:
+    """How many of the values (N,) lie where, within 5 sigma of zero, and the normal curve of that sigma over it."""
+    count, stop = 40, 5 * sigma
+    heights, edges = np.histogram(values, bins=count, range=(-stop, stop))
+    width = 2 * stop / count
+    x = np.linspace(-stop, stop, 121)
+    normal = values.size * width * np.exp(-0.5 * (x / sigma) ** 2) / (sigma * math.sqrt(2 * math.pi))
+    plot = _Plot(height, (-stop, stop), (0, 1.06 * max(float(heights.max()), float(normal.max()), 1.0)))
+    parts = plot.y_axis("count")
+    for low, tall in zip(edges[:-1], heights.tolist(), strict=True):
+        u, v = plot.u(low), plot.v(tall)
+        shape = f'x="{u + 0.4:.1f}" y="{v:.1f}" width="{plot.u(low + width) - u - 0.8:.2f}" height="{plot.v(0) - v:.1f}"'
+        parts.append(f'<rect {shape} class="fill-accent"><title>{tall} about {low + width / 2:.3g} {escape(unit)}</title></rect>')
+    path = "L".join(f"{plot.u(u):.1f} {plot.v(v):.1f}" for u, v in zip(x, normal, strict=True))
+    parts.append(f'<path d="M{path}" class="gate"/>')
+    return plot.svg([*parts, plot.x_line(), *plot.x_ticks(unit)], f"histogram, {unit}")
 
 
 def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array | None = None) -> str:

@@ -137,7 +137,9 @@ def _lobe(lights: list[dict[str, Any]]) -> str | None:
             curves.append((str(light.get("name")), angle, np.cos(np.radians(angle)) ** float(lobe.get("exponent") or 0)))
         elif lobe.get("kind") == "table":
             angle = array(lobe["angle_deg"]) if lobe.get("angle_deg") else np.degrees(array(lobe.get("angle_rad") or []))
-            curves.append((str(light.get("name")), angle, array(lobe.get("value") or [])))
+            value = array(lobe.get("value") or [])
+            seen = np.arange(value.size) <= np.max(np.flatnonzero(value > 0.01 * value.max(initial=0)), initial=0) + 1
+            curves.append((str(light.get("name")), angle[: value.size][seen], value[seen]))
     return charts.curves(curves, across="angle from the axis, degrees", unit="relative") if curves else None
 
 

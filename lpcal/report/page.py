@@ -16,15 +16,15 @@ from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.scene import rig_scene, room_scene
 from lpcal.report.templates import environment
 from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import Document, number, with_sigma
+from lpcal.report.wording import Document, with_sigma
 
 FIGURES_SHOWN = 16
 
 __all__ = ["RigReport", "SurfaceReport", "render"]
 
 
-def render(report: RigReport) -> str:
-    """The page, whole; a stage that is not there is said to be so."""
+def render(report: RigReport, stamp: str = "") -> str:
+    """The page, whole; a stage that is not there is said to be so. `stamp` stands in it and tells later what it was made from."""
     lines = verdicts(report)
     tone, sentence = headline(lines)
     return (
@@ -32,6 +32,7 @@ def render(report: RigReport) -> str:
         .get_template("report.html")
         .render(
             name=report.name,
+            stamp=stamp,
             version=__version__,
             made=_latest(report),
             tone=tone,
@@ -99,7 +100,7 @@ def _is_figure(value: Any) -> bool:
 
 
 def _figure(value: float) -> str:
-    return str(value) if isinstance(value, int) else number(value, 4)
+    return str(value) if isinstance(value, int) else f"{value:.4g}"
 
 
 def _provenance(kind: str, report: RigReport) -> dict[str, Any]:

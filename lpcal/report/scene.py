@@ -196,7 +196,7 @@ def _struts(report: RigReport) -> list[Item]:
         if end is None or setting.get("d1_m") is None or setting.get("azimuth_deg") is None:
             continue
         azimuth = np.radians(float(setting["azimuth_deg"]))
-        joint = se3.apply(H_CD, float(setting["d1_m"]) * np.array([np.cos(azimuth), np.sin(azimuth), 0]))
+        joint = se3.apply(H_CD, float(setting["d1_m"]) * np.array([[np.cos(azimuth), np.sin(azimuth), 0]]))[0]
         drawn.append({"kind": "line", "p": [H_CD[:3, 3], joint, end], "tone": "board", "layer": "wings"})
         drawn.append({"kind": "point", "p": [joint], "tone": "board", "r": 2.2, "layer": "wings"})
     return drawn
