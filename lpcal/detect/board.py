@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.detect.board_charuco import find_charuco
+from lpcal.detect.board_charuco import find_charuco, marker_free
 from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
 from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
@@ -66,19 +66,19 @@ def _stretched(image: Image | Labels) -> Labels:
 
 
 def _search(grey: Labels, corners: tuple[int, int]) -> Array | None:
-    """Rough corners (ny, nx, 2) by whichever detector finds them."""
+    """Rough corners (ny, nx, 2) by whichever detector finds them, at whichever size."""
     import cv2
 
-    shrink = 0.5 if max(grey.shape) > LARGE_PX else 1.0
-    sizes = [shrink, 1.0] if shrink < 1 else [1.0, 2.0] if max(grey.shape) < LARGE_PX / 2 else [1.0]
-    for size in sizes:
-        scaled = (
-            grey if size == 1 else cv2.resize(grey, None, fx=size, fy=size, interpolation=cv2.INTER_AREA if size < 1 else cv2.INTER_CUBIC)
-        )
-        for detector in (_classic, _sector_based):
-            found = detector(scaled, corners)
-            if found is not None:
-                return np.asarray((found.reshape(corners[1], corners[0], 2).astype(float) + 0.5) / size - 0.5)
+    passes = [(1.0, _classic), (1.0, _sector_based)]
+    if max(grey.shape) > LARGE_PX:
+        passes = [(0.5, _classic), (0.5, _sector_based), *passes]
+    elif cv2.checkChessboard(grey, corners):
+        passes.append((2.0, _sector_based))
+    for size, detector in passes:
+        smooth = cv2.INTER_AREA if size < 1 else cv2.INTER_CUBIC
+        found = detector(grey if size == 1 else cv2.resize(grey, None, fx=size, fy=size, interpolation=smooth), corners)
+        if found is not None:
+            return np.asarray((found.reshape(corners[1], corners[0], 2).astype(float) + 0.5) / size - 0.5)
     return None
 
 
@@ -103,7 +103,8 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
         return BoardView(
             name, None, f"the board is too small in the image: its corners are {spacing:.1f} px apart, {SMALL_SPACING_PX:.0f} are needed"
         )
-    refined = refine(image.astype(np.float32), rough, spacing)
+    share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
+    refined = refine(image.astype(np.float32), rough, spacing, share)
     if board.kind == "charuco":
         return BoardView(name, refined.reshape(-1, 2))
     if any(beyond(grey, refined)):
@@ -111,11 +112,11 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
     return BoardView(name, in_board_order(grey, refined).reshape(-1, 2))
 
 
-def refine(image: Image | Labels, rough: Array, spacing: float) -> Array:
+def refine(image: Image | Labels, rough: Array, spacing: float, share: float = WINDOW_SHARE) -> Array:
     """Corners (..., 2) moved to the saddle of their window; NaN where that leads away by more than a third of the spacing."""
     import cv2
 
-    half = max(2, round(WINDOW_SHARE * spacing))
+    half = max(2, round(share * spacing))
     seen = np.isfinite(rough).all(axis=-1)
     start = np.ascontiguousarray(rough[seen], dtype=np.float32).reshape(-1, 1, 2)
     criteria = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 60, 1e-4)

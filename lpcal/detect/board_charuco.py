@@ -43,3 +43,8 @@ def find_charuco(grey: Labels, board: Board) -> Array | None:
             grid[names.ravel()] = places.reshape(-1, 2)
             return grid.reshape(rows, columns, 2)
     return None
+
+
+def marker_free(board: Board) -> float:
+    """Half side of the largest window about a corner that no marker reaches into, in units of the spacing."""
+    return 0.45 * (1 - board.marker_m / board.square_m[0])

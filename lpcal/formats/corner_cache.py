@@ -1,6 +1,7 @@
 """calib/.cache/corners.json: the corners already found, by the content of image, board and detector, so that a second run is instant.
 
-One entry a key: the image's ``size``, ``corners`` (M, 2) with null where not seen, or null and ``why``. A file that cannot be read counts as empty.
+One entry a key: the image's ``size``, ``corners`` (M, 2) with null where not seen, or null and ``why``. A file that cannot be read
+counts as empty.
 """
 
 from __future__ import annotations
