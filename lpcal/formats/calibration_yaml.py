@@ -5,6 +5,8 @@ see `records.calibration.FlatField`), and for a splined camera ``camera.lensmode
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m
+- ``{kind: leds, exponent: m, position_m: [[..]], axis: [[..]], power: [..], angle_deg: [..], value: [..]}``: the sum of
+  LEDs in the frame L, each power cos(angle)^m / r^2; the table is its mean over the roll
 - ``{kind: table, angle_deg: [...], value: [...]}``: monotone cubic through the table, 1 on the axis, 0 beyond its last angle
 
 with the angle between the light's axis and the ray from its source.
@@ -12,6 +14,7 @@ with the angle between the light's axis and the ray from its source.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +24,7 @@ from lpcal.errors import InputError
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.documents import Provenance, read_document, write_document
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import Calibration, Light, Lobe
+from lpcal.records.calibration import Calibration, LedCluster, Light, Lobe
 
 KIND = "calibration"
 
@@ -87,13 +90,22 @@ def lobe_document(lobe: Lobe) -> dict[str, Any]:
         return {"kind": "cosine", "exponent": lobe.exponent}
     if lobe.kind == "table":
         return {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
+    if lobe.leds is not None:
+        leds = {"exponent": lobe.leds.exponent, "position_m": lobe.leds.position_L.round(7), "axis": lobe.leds.axis_L.round(7)}
+        table = {"angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
+        return {"kind": "leds", **leds, "power": lobe.leds.power.round(7), **table}
     return {"kind": lobe.kind}
 
 
 def lobe_from_document(entry: dict[str, Any]) -> Lobe:
     """A lobe as it was written."""
-    if entry["kind"] == "table":
-        return Lobe("table", angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"))
+    if entry["kind"] in {"table", "leds"}:
+        lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"))
+        if entry["kind"] == "table":
+            return lobe
+        power = _numbers(entry, "power")
+        places, axes = (_numbers(entry, key, power.size, 3) for key in ("position_m", "axis"))
+        return replace(lobe, leds=LedCluster(places, axes, power, float(entry["exponent"])))
     return Lobe(entry["kind"], exponent=float(entry.get("exponent", 0.0)))
 
 

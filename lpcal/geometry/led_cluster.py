@@ -46,3 +46,20 @@ def mean_lobe(angle_rad: Array, leds: int) -> Array:
     )
     emission = np.mean(np.sum(np.maximum(direction @ axes.T, 0.0) ** m, axis=-1), axis=1)
     return np.asarray((emission[:-1] / emission[-1]).reshape(np.shape(angle_rad)))
+
+
+def cluster_field(x_L: Array, position_L: Array, axis_L: Array, power: Array, m: float) -> tuple[Array, Array]:
+    """Unit vectors to the light (..., 3) and irradiance (...) of LEDs at points x_L (..., 3), all in the blob's frame.
+
+    The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length.
+    """
+    total = np.zeros(np.shape(x_L))
+    for place, axis, strength in zip(position_L, axis_L, power, strict=True):
+        to_led = place - x_L
+        r2 = np.sum(to_led * to_led, axis=-1)
+        r = np.sqrt(r2)
+        cosine = -(to_led @ axis) / r
+        lit = np.maximum(cosine, 1e-6)
+        total += to_led * (strength * np.exp(m * np.log(lit)) / (r2 * r))[..., None]
+    irradiance = np.linalg.norm(total, axis=-1)
+    return total / np.maximum(irradiance, 1e-300)[..., None], irradiance

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry import camera as central
-from lpcal.geometry import light_field, splined
+from lpcal.geometry import led_cluster, light_field, se3, splined
 from lpcal.geometry.arrays import Array, Image, Mask
 
 
@@ -169,22 +169,37 @@ class Wings:
 
 
 @dataclass(frozen=True)
+class LedCluster:
+    """The LEDs of a blob, in its mechanical frame L: power 1 in all on the axis, each with the lobe cos(angle)^exponent."""
+
+    position_L: Array
+    """(n, 3) metres."""
+    axis_L: Array
+    """(n, 3)."""
+    power: Array
+    """(n,)."""
+    exponent: float
+
+
+@dataclass(frozen=True)
 class Lobe:
     """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
 
     kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. ``table``: cubic through (angle_rad, value), 0 beyond the last.
+    ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the roll.
     """
 
     kind: str = "isotropic"
     exponent: float = 0.0
     angle_rad: Array = field(default_factory=lambda: np.zeros(0))
     value: Array = field(default_factory=lambda: np.zeros(0))
+    leds: LedCluster | None = None
 
     def __call__(self, angle_rad: Array) -> Array:
         """Relative intensity (...) at angles (...) from the axis."""
         if self.kind == "cosine":
             return light_field.cosine_lobe(angle_rad, self.exponent)
-        if self.kind == "table":
+        if self.kind in {"table", "leds"}:
             return light_field.table_lobe(angle_rad, self.angle_rad, self.value)
         return np.ones_like(angle_rad)
 
@@ -215,6 +230,10 @@ class Light:
         if self.source_C is None or self.axis_C is None:
             shape = x_C.shape[:-1]
             return np.broadcast_to(self.direction_C, x_C.shape), np.broadcast_to(self.intensity, (*shape, self.intensity.size))
+        if self.lobe.leds is not None and self.H_CL is not None:
+            leds, H_LC = self.lobe.leds, se3.inv(self.H_CL)
+            d_L, irradiance = led_cluster.cluster_field(se3.apply(H_LC, x_C), leds.position_L, leds.axis_L, leds.power, leds.exponent)
+            return se3.rotate(self.H_CL, d_L), irradiance[..., None] * self.intensity
         d, r, angle = light_field.near_light(x_C, self.source_C, self.axis_C)
         return d, (self.lobe(angle) / r**2)[..., None] * self.intensity
 
