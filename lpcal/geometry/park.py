@@ -24,6 +24,7 @@ ALL_PAIRS_UP_TO = 80
 """Views up to which all pairs are used; beyond, each with some tens of others."""
 ROUNDS = 10
 INLIER_SIGMAS = 4.0
+ROTATION_FLOOR = 0.02
 FLOOR_M = 2e-4
 """The least scatter that counts as one, so that perfect data have inliers."""
 
@@ -46,11 +47,8 @@ class Consensus:
 
 def park(H_OP: Array, H_CB: Array) -> tuple[Array, Array]:
     """H_PC (..., 4, 4) and H_OB (..., 4, 4) of views H_OP (..., N, 4, 4), H_CB (..., N, 4, 4); leading axes are independent problems."""
-    i, j = _pairs(H_OP.shape[-3])
     R_OP, R_CB = H_OP[..., :3, :3], H_CB[..., :3, :3]
-    a = se3.rotation_vector(np.swapaxes(R_OP[..., j, :, :], -1, -2) @ R_OP[..., i, :, :])
-    b = se3.rotation_vector(R_CB[..., j, :, :] @ np.swapaxes(R_CB[..., i, :, :], -1, -2))
-    R_PC = se3.nearest_rotation(np.swapaxes(a, -1, -2) @ b)
+    R_PC = _rotations(R_OP, R_CB)
     t_PC, t_OB = _translations(H_OP, H_CB, R_PC)
     R_OB = se3.nearest_rotation(np.mean(R_OP @ R_PC[..., None, :, :] @ R_CB, axis=-3))
     return se3.transform(R_PC, t_PC), se3.transform(R_OB, t_OB)
@@ -71,6 +69,46 @@ def consensus(H_OP: Array, H_CB: Array, seed: int = 0) -> Consensus:
     return min(candidates, key=lambda found: (found.scatter_m, -int(found.inliers.sum())))
 
 
+def consensus_of_rotations(H_OP: Array, H_CB: Array, seed: int = 0) -> tuple[Array, Mask] | None:
+    """R_PC (3, 3) and the views (N,) that agree with it by their rotations alone; None where fewer than half do.
+
+    Knows nothing of lengths, so that it holds whatever their units.
+    """
+    count = len(H_OP)
+    picks = np.argsort(np.random.default_rng(seed).random((SAMPLES, count)), axis=1)[:, : min(SAMPLE_VIEWS, count)]
+    R_OP, R_CB = H_OP[:, :3, :3], H_CB[:, :3, :3]
+    R_PC = _rotations(R_OP[picks], R_CB[picks])
+    R_OB = se3.nearest_rotation(np.mean(R_OP[picks] @ R_PC[:, None] @ R_CB[picks], axis=1))
+    chord = np.linalg.norm((R_OP @ R_PC[:, None] @ R_CB - R_OB[:, None]).reshape(SAMPLES, count, 9), axis=2)
+    best = int(np.argmin(np.median(chord, axis=1)))
+    inliers = chord[best] <= max(INLIER_SIGMAS * float(np.median(chord[best])), ROTATION_FLOOR)
+    if inliers.sum() < max(3, count / 2):
+        return None
+    return _rotations(R_OP[inliers], R_CB[inliers]), inliers
+
+
+def board_scale(H_OP: Array, H_CB: Array, R_PC: Array) -> tuple[float, float]:
+    """How large the board is by the mocap, over how large it was said to be, and one standard deviation of it.
+
+    The translation part with the boards' distances scaled: ``R_OP,k (s R_PC t_CB,k + t_PC) + t_OP,k = t_OB``, robust.
+    """
+    R_OP = H_OP[:, :3, :3]
+    seen = R_OP @ R_PC @ H_CB[:, :3, 3:]
+    A = np.concatenate([seen, R_OP, np.broadcast_to(-np.eye(3), R_OP.shape)], axis=2).reshape(-1, 7)
+    b = -H_OP[:, :3, 3].ravel()
+    weight, x = np.ones(len(H_OP)), np.zeros(7)
+    for _ in range(ROUNDS * 2):
+        root = np.repeat(np.sqrt(weight), 3)
+        x = np.linalg.lstsq(A * root[:, None], b * root, rcond=1e-12)[0]
+        miss = np.linalg.norm((A @ x - b).reshape(-1, 3), axis=1)
+        spread = max(1.4826 * float(np.median(miss)) / 1.5, 1e-9)
+        weight = 1 / (1 + (miss / (3 * spread)) ** 2)
+    N = (A * np.repeat(weight, 3)[:, None]).T @ A
+    scale = 1 / np.sqrt(np.maximum(np.diag(N), 1e-300))
+    covariance = spread**2 * np.linalg.pinv(N * np.outer(scale, scale), hermitian=True) * np.outer(scale, scale)
+    return float(x[0]), float(np.sqrt(covariance[0, 0]))
+
+
 def residuals(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> tuple[Array, Array]:
     """Angle (N,) and distance (N,) of each view's board from H_OB."""
     angle, distance = _residuals(H_OP, H_CB, H_PC[None], H_OB[None])
@@ -86,6 +124,13 @@ def _pairs(count: int) -> tuple[Array, Array]:
         pairs = [(k, (k + int(stride)) % count) for stride in strides for k in range(count)]
     i, j = np.array(pairs).T
     return i, j
+
+
+def _rotations(R_OP: Array, R_CB: Array) -> Array:
+    i, j = _pairs(R_OP.shape[-3])
+    a = se3.rotation_vector(np.swapaxes(R_OP[..., j, :, :], -1, -2) @ R_OP[..., i, :, :])
+    b = se3.rotation_vector(R_CB[..., j, :, :] @ np.swapaxes(R_CB[..., i, :, :], -1, -2))
+    return se3.nearest_rotation(np.swapaxes(a, -1, -2) @ b)
 
 
 def _translations(H_OP: Array, H_CB: Array, R_PC: Array) -> tuple[Array, Array]:

@@ -18,7 +18,8 @@ from lpcal.geometry.arrays import Array, Mask
 
 JUMP_RAD_S = 10.0
 """Angular speed beyond which two neighbours are not of one motion."""
-JUMP_M_S = 20.0
+JUMP_M_S, JUMP_RATIO = 20.0, 50.0
+"""A speed beyond this, and beyond so many times the fast ones of the recording (its unit may be misstated), is a jump."""
 SHORTEST_RUN_S = 0.3
 GUARD_S = 0.05
 """Kept clear at either end of a run."""
@@ -84,7 +85,8 @@ def clean(t_s: Array, H_AB: Array, error_m: Array) -> PoseTrack:
         return PoseTrack(t_s, H_AB, np.zeros(len(t_s), dtype=np.intp), t_s, t_s, dropped)
     dt = np.diff(t_s)
     R, x_A = H_AB[:, :3, :3], H_AB[:, :3, 3]
-    jump = (_neighbour_angle(R) > JUMP_RAD_S * dt) | (np.linalg.norm(np.diff(x_A, axis=0), axis=1) > JUMP_M_S * dt)
+    speed = np.linalg.norm(np.diff(x_A, axis=0), axis=1) / dt
+    jump = (_neighbour_angle(R) > JUMP_RAD_S * dt) | (speed > max(JUMP_M_S, JUMP_RATIO * float(np.quantile(speed, 0.9))))
     run = np.concatenate([[0], np.cumsum(jump | (dt > GAP_SAMPLES * interval))])
     first, last = np.flatnonzero(np.diff(run, prepend=-1)), np.flatnonzero(np.diff(run, append=run[-1] + 1))
     kept = (t_s[last] - t_s[first] >= min(SHORTEST_RUN_S, 0.5 * (t_s[-1] - t_s[0]))) & (last > first)

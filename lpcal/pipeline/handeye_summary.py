@@ -66,8 +66,8 @@ def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
     if handeye.clock_offset_s is None:
         return "clock       the offset does not show in these data"
     if not handeye.clock_offset_std_s:
-        return f"clock       t_camera = t_mocap + {1e3 * handeye.clock_offset_s:.2f} ms, as given"
-    return f"clock       t_camera = t_mocap + {1e3 * handeye.clock_offset_s:.2f} +- {1e3 * handeye.clock_offset_std_s:.2f} ms"
+        return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} ms, as given"
+    return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} +- {1e3 * handeye.clock_offset_std_s:.2f} ms"
 
 
 def _rms_words(handeye: HandEye) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import clock as clocks
-from lpcal.chain.h_pc_handeye import observability, variance
+from lpcal.chain.h_pc_handeye import congruence, observability, variance
 from lpcal.chain.h_pc_handeye.likelihood import CAMERA_SIZE, CameraPrior, Estimate, Sigmas, Views, estimate, misfit
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import park, se3
@@ -119,6 +119,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
     panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
     agreed = _agreed(boards, panel, options.seed)
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
+    _refuse(state)
     return _finding(_refine(state, None), None, [], None)
 
 
@@ -144,7 +145,14 @@ def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Came
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
+    _refuse(best[1])
     return best[1]
+
+
+def _refuse(state: _State) -> None:
+    """Stop where the data are no rigid motion, with what is wrong."""
+    trusted = state.panel.trusted
+    congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], from_images=state.boards.corners_px is not None)
 
 
 def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
@@ -302,6 +310,9 @@ def _finding(state: _State, t_camera_s: Array | None, warnings: list[str], known
         raise ConvergenceError(
             f"{100 * bad:.0f} % of the views do not fit one rigid camera", needed="a majority that does", todo="look at: lpcal check"
         )
+    size = congruence.board_size_warning(views.H_OP, views.H_CB, found.H_PC[:3, :3])
+    roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
+    warnings += [each for each in (size, roles) if each is not None]
     clocked = state.clock and t_camera_s is not None
     offset = state.offset_s if clocked else known_offset_s
     handeye = HandEye(

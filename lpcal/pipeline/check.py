@@ -1,0 +1,173 @@
+"""Before any solve: what is wrong with mocap and images, in words, with the key or the command that mends it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye import clock, congruence, observability
+from lpcal.errors import DegenerateError, DisagreementError, LpcalError
+from lpcal.geometry import park
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
+from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, section_of, with_recording
+from lpcal.pipeline.workspace import Workspace
+from lpcal.records.observations import PoseStream
+from lpcal.records.outcome import Outcome, Progress
+
+NAMED = 6
+WIDE_S = 0.2
+"""A clock offset that shows no better than this is said to be vague."""
+
+
+@dataclass
+class _Findings:
+    """Lines as they come, what is wrong, and the figures."""
+
+    lines: list[str] = field(default_factory=list)
+    wrong: list[LpcalError] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    figures: dict[str, Any] = field(default_factory=dict)
+
+    def say(self, topic: str, text: str) -> None:
+        self.lines.append(f"{topic:<12}{text}")
+
+
+def run(workspace: Workspace, progress: Progress, recording: Path | None = None) -> Outcome:
+    """Look at the data; the exit code is that of the first thing that is wrong, 0 where nothing is.
+
+    Raises
+    ------
+    LpcalError
+        The data cannot be read.
+    """
+    workspace = with_recording(workspace, recording)
+    given = gather(workspace, progress)
+    findings = _Findings()
+    findings.say("boards", f"found in {len(given.boards.images)} of {len(given.images)} views")
+    _boards(given, findings)
+    pairs = _panel(workspace, given, findings)
+    if pairs is not None:
+        _motion(given, *pairs, findings)
+    for error in findings.wrong:
+        findings.lines += [f"WRONG       {line}" if k == 0 else f"          {line}" for k, line in enumerate(error.message().splitlines())]
+    if not findings.wrong:
+        findings.say("verdict", "nothing wrong found")
+    return Outcome(
+        summary=findings.lines,
+        document=findings.figures | {"wrong": [{"message": e.message(), "exit_code": e.exit_code, "do": e.todo} for e in findings.wrong]},
+        warnings=findings.warnings,
+        next_command=None if findings.wrong else "lpcal handeye",
+        exit_code=findings.wrong[0].exit_code if findings.wrong else 0,
+    )
+
+
+def _boards(given: HandEyeInputs, findings: _Findings) -> None:
+    reasons = Counter((given.without_board | given.without_pose).values())
+    for why, count in reasons.items():
+        findings.say("", f"{count} without: {why}")
+
+
+def _panel(workspace: Workspace, given: HandEyeInputs, findings: _Findings) -> tuple[Array, Mask] | None:
+    """Panel pose of each board view, and whether it is to be trusted; None where there is none."""
+    if given.stream is None:
+        assert given.H_OP is not None
+        findings.say("poses", f"{len(given.H_OP)}, one a view, no clock")
+        return given.H_OP, np.ones(len(given.H_OP), dtype=bool)
+    track = track_of(given.stream)
+    _stream(given.stream, track, findings)
+    t_camera_s = np.asarray(given.boards.t_camera_s)
+    try:
+        offset = _clock(workspace, track, t_camera_s, given.boards.H_CB, findings)
+    except LpcalError as error:
+        findings.wrong.append(error)
+        return None
+    panel = poses_at(track, t_camera_s - offset)
+    _lost_views(given, panel, findings)
+    return panel.H, panel.trusted
+
+
+def _stream(stream: PoseStream, track: PoseTrack, findings: _Findings) -> None:
+    name = f"{stream.body}: " if stream.body else ""
+    length = float(np.ptp(stream.t_s))
+    findings.say(
+        "mocap", f"{name}{len(stream.t_s)} poses in {length:.1f} s, {stream.rate_hz:.1f} Hz; the body lost in {stream.lost} samples"
+    )
+    for why, count in track.dropped.items():
+        if count:
+            findings.say("", f"{count} samples {why}: left out")
+    for note in stream.notes:
+        findings.say("", note)
+    findings.figures |= {
+        "mocap_samples": len(stream.t_s),
+        "mocap_lost": stream.lost,
+        "mocap_rate_hz": stream.rate_hz,
+        "dropped": track.dropped,
+    }
+
+
+def _clock(workspace: Workspace, track: PoseTrack, t_camera_s: Array, H_CB: Array, findings: _Findings) -> float:
+    stated = section_of(workspace).clock_offset
+    candidates = clock.offset_candidates(track, t_camera_s, H_CB)
+    if not candidates:
+        raise DegenerateError(
+            "no clock offset at which a third of the views fall into the recording", needed="recordings of the same minutes"
+        )
+    best = candidates[0]
+    vague = best.width_s > WIDE_S
+    precision = f", no better than +- {0.5 * best.width_s:.2f} s: the panel stood still" if vague else ""
+    findings.say("clock", f"t_camera = t_mocap {1e3 * best.offset_s:+.0f} ms by relative angles{precision}")
+    findings.figures |= {"clock_offset_s": best.offset_s, "clock_offset_width_s": best.width_s}
+    if stated == "estimate":
+        return best.offset_s
+    if abs(best.offset_s - float(stated)) > max(WIDE_S, best.width_s):
+        findings.wrong.append(
+            DisagreementError(
+                f"the stated clock offset is {1e3 * float(stated):.0f} ms, the angles say {1e3 * best.offset_s:.0f} ms",
+                where=workspace.rig_file.where("mocap.clock_offset"),
+                needed="t_camera = t_mocap + offset",
+                todo="write clock_offset: estimate",
+            )
+        )
+        return best.offset_s
+    return float(stated)
+
+
+def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) -> None:
+    for why in dict.fromkeys(each for each in panel.why if each is not None):
+        images = [image for image, each in zip(given.boards.images, panel.why, strict=True) if each == why]
+        more = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""
+        findings.say("", f"{len(images)} views without a pose, {why}: {', '.join(images[:NAMED])}{more}")
+
+
+def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings) -> None:
+    H_OP, H_CB = H_OP[trusted], given.boards.H_CB[trusted]
+    names = [image for image, ok in zip(given.boards.images, trusted, strict=True) if ok]
+    try:
+        spread, more = observability.refuse_what_cannot_show_it(H_OP)
+    except DegenerateError as error:
+        findings.wrong.append(error)
+        return
+    findings.say("motion", f"the panel's turns spread by {spread.words()} about its principal axes")
+    findings.figures["rotation_spread_deg"] = np.degrees(spread.sigma_rad)
+    findings.warnings += more
+    try:
+        congruence.refuse(H_OP, H_CB, from_images=given.boards.corners_px is not None)
+    except DisagreementError as error:
+        findings.wrong.append(error)
+        return
+    agreed = park.consensus(H_OP, H_CB)
+    off = [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
+    findings.say("rigid", f"body and camera move as one; the board is misplaced by {1e3 * agreed.scatter_m:.1f} mm (median, closed form)")
+    if off:
+        more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
+        findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
+    size = congruence.board_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
+    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
+    findings.warnings += [each for each in (size, roles) if each is not None]
+    findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off}
