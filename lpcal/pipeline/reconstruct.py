@@ -20,6 +20,7 @@ from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.surface import Surface
+from lpcal.report.relight_page import render
 from lpcal.surface import mesh
 from lpcal.surface.reconstruct import Options, reconstruct
 
@@ -111,7 +112,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     surface = reconstruct(radiance, calibration, options, progress)
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, radiance.notes, {"reading": read - begun, "solving": solved - read})
-    write_surface(task.target, surface, mesh.build(surface), document)
+    write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
     return document
 
 

@@ -13,12 +13,12 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import distance, gloss, mask, normals, pieces, sight
+from lpcal.surface import bend, distance, gloss, mask, normals, pieces, sight, uncertainty
 from lpcal.surface.integrate import Grid, Own, integrate, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
@@ -26,6 +26,10 @@ from lpcal.surface.sight import Sight
 ROUNDS = 5
 GLOSS_ROUNDS = (1, 2, 3)
 FEWEST_PIXELS = 50
+AGREE_DEG = 2.0
+"""A measured normal and that of the depth are averaged where they agree this well."""
+UNKNOWN_DISTANCE = 0.5
+"""Relative standard deviation of a distance that nothing tells."""
 DISTANCE_M = 0.35
 """Where nothing else says how far away the object is."""
 
@@ -169,30 +173,50 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> S
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)
     albedo = _albedo(radiance, scene, state, depth if seen.central else np.ones_like(depth))
-    sigma_deg = np.where(np.isfinite(state.found.b[:, 0]), 2.0, 20.0)
-    components = []
-    for one in np.unique(label):
-        inside = label == one
-        components.append(Component(int(one), int(inside.sum()), float(depth[inside].mean()), 0.01))
+    whole = state.weight > pieces.BREAK_WEIGHT
+    of_depth = bend.normals_of(grid, seen.shape_C(depth), whole)
+    of_depth = np.where(np.isfinite(of_depth), of_depth, state.normals)
+    clues = uncertainty.clues(grid, seen.mask, state.found, state.normals, of_depth, whole)
+    sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
+    drawn = np.exp(-((clues.bend_deg / AGREE_DEG) ** 2))[:, None]
+    n = lambert.unit(state.normals + drawn * of_depth)[0]
+    towards = -np.einsum("pi,pi->p", n, seen.rays_C) / np.linalg.norm(seen.rays_C, axis=1)
+    plane = seen.shape_C(np.ones_like(depth))[:, :2]
+    depth_sigma = uncertainty.depth_sigma(grid, sigma_deg, towards, plane, depth if seen.central else np.ones_like(depth), label)
 
     def as_map(values: Array) -> Image:
         return np.asarray(seen.map(values.astype(np.float32)), np.float32)
 
     return Surface(
         name=radiance.name,
-        normals=as_map(state.normals),
+        normals=as_map(n),
         depth=as_map(depth),
         albedo=as_map(albedo),
         mask=seen.mask,
         normal_std_deg=as_map(sigma_deg),
-        depth_std=as_map(np.full_like(depth, 1e-3)),
+        depth_std=as_map(depth_sigma),
         lights_used=np.asarray(seen.map(state.found.used.astype(np.uint8), 0)),
         component=np.asarray(seen.map(label, 0)),
         rays_C=rays_C,
         breaks=pieces.break_map(grid, state.weight, seen.mask),
-        components=tuple(components),
+        components=_components(scene, state, depth, label),
         figures=_figures(state),
     )
+
+
+def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tuple[Component, ...]:
+    found = []
+    for one in np.unique(label):
+        inside = label == one
+        middle = float(depth[inside].mean())
+        shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
+        curvature = float(state.own.curvature[inside].sum())
+        if scene.near:
+            std = uncertainty.scale_std(scene.lights, curvature, middle, glossy=state.gloss is not None, shaded_share=shaded)
+        else:
+            std = UNKNOWN_DISTANCE
+        found.append(Component(int(one), int(inside.sum()), middle, std))
+    return tuple(found)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State, depth: Array) -> Array:

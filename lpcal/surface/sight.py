@@ -64,6 +64,13 @@ class Sight:
         """Points (P, 3) at depths (P,)."""
         return depth[:, None] * self.rays_C
 
+    def shape_C(self, depth: Array) -> Array:
+        """Points (P, 3) whose shape is that of the surface: `points_C`, or columns, rows and depth in pixels without a camera."""
+        if self.central:
+            return self.points_C(depth)
+        rows, columns = np.nonzero(self.mask)
+        return np.stack([columns, rows, depth], axis=1).astype(float)
+
 
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:
     """The calibrated lights of a capture, in its order.
