@@ -6,7 +6,7 @@ The simulator makes arrays, the formats write them; here they meet. The folder a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -124,8 +124,7 @@ def _write_boards(folder: Path, rig: Rig, built: Built, response: Response, reci
     board = rig.board
     if board is None:
         return {}
-    moving = rig.mocap is not None and rig.mocap.file is not None and len(rig.mocap.images) > 1
-    recipe_here = recipe if moving else _still(recipe)
+    recipe_here = _session_recipe(rig, recipe)
     session = plan(built, board.corners, board.square, recipe_here)
     recording = record(built, session, recipe_here)
     groups = _board_images(rig, built, session)
@@ -149,10 +148,12 @@ def _write_boards(folder: Path, rig: Rig, built: Built, response: Response, reci
     return counts | ({"mocap samples": len(recording.t_s)} if rig.mocap.file else {})
 
 
-def _still(recipe: Recipe) -> Recipe:
-    from dataclasses import replace
-
-    return replace(recipe, sweep_frames=0)
+def _session_recipe(rig: Rig, recipe: Recipe) -> Recipe:
+    """Without a second list of images there is no sweep; poses that come one an image (a robot's) are neither swapped nor lost."""
+    if rig.mocap is None or rig.mocap.poses:
+        tracking = replace(recipe.tracking, flipped_stations=0, lost_stations=0)
+        return replace(recipe, sweep_frames=0, tracking=tracking)
+    return recipe if len(rig.mocap.images) > 1 else replace(recipe, sweep_frames=0)
 
 
 def _board_images(rig: Rig, built: Built, session: Session) -> list[_BoardImages]:

@@ -48,7 +48,7 @@ def build(rig: Rig, recipe: Recipe) -> Built:
     H_PD, H_DC = _frames(rig, rng)
     H_CD = se3.inv(H_DC)
     distance_m = working_distance(rig)
-    focus_C = se3.apply(H_CD, np.array([[0, 0, distance_m]]))[0]
+    focus_C = se3.apply(np.eye(4) if rig.panel is None else H_CD, np.array([[0, 0, distance_m]]))[0]
     points_C = _working_points(lens, focus_C, recipe.working_points, rng)
     gains = 1 + (rig.panel.tolerance if rig.panel else Tolerance()).intensity * np.clip(rng.standard_normal(max(len(rig.lights), 1)), -2, 2)
     gains /= gains.mean()

@@ -1,0 +1,68 @@
+"""lpcal new: a folder to start from, and never a file overwritten."""
+
+from __future__ import annotations
+
+import pytest
+from lpcal.formats.bundled import rig_names
+from lpcal.formats.panel_yaml import read_rig
+
+
+@pytest.mark.parametrize("name", ["dome", "lightpanel-12", "lightpanel-6", "robot-camera"])
+def test_a_rig_is_copied_with_its_folders(lpcal, tmp_path, name):
+    assert name in rig_names()
+    code, out, _ = lpcal("new", tmp_path / "mine", "--from", name)
+    assert code == 0
+    rig = read_rig(tmp_path / "mine" / "panel.yaml").rig
+    assert rig.name == name
+    for sphere in rig.spheres.values():
+        assert (tmp_path / "mine" / sphere.images).is_dir()
+    for capture in rig.objects.values():
+        assert (tmp_path / "mine" / capture).is_dir()
+    assert (tmp_path / "mine" / rig.camera.images[0]).parent.is_dir()
+    assert "next: cd" in out
+
+
+def test_the_default_is_the_papers_panel(lpcal, tmp_path):
+    assert lpcal("new", tmp_path / "mine")[0] == 0
+    assert read_rig(tmp_path / "mine" / "panel.yaml").rig.name == "lightpanel-6"
+
+
+def test_a_panel_that_is_there_is_kept(lpcal, tmp_path):
+    (tmp_path / "panel.yaml").write_text("lpcal: 1\n")
+    code, _, err = lpcal("new", tmp_path)
+    assert code == 3
+    assert "panel.yaml: is there already" in err
+    assert (tmp_path / "panel.yaml").read_text() == "lpcal: 1\n"
+
+
+def test_an_empty_or_unrelated_folder_is_welcome(lpcal, tmp_path):
+    (tmp_path / "notes.txt").write_text("x")
+    assert lpcal("new", tmp_path, "--from", "dome")[0] == 0
+    assert (tmp_path / "notes.txt").read_text() == "x"
+
+
+def test_a_file_in_the_folders_place_is_an_error(lpcal, tmp_path):
+    (tmp_path / "mine").write_text("x")
+    code, _, err = lpcal("new", tmp_path / "mine")
+    assert (code, "is a file" in err) == (3, True)
+
+
+def test_from_another_rig_of_ones_own(lpcal, tmp_path):
+    (tmp_path / "old").mkdir()
+    (tmp_path / "old" / "panel.yaml").write_text("lpcal: 1\nname: own\nobjects: {a: objects/a, far: ../elsewhere, b: /somewhere}\n")
+    code, _, _ = lpcal("new", tmp_path / "mine", "--from", tmp_path / "old")
+    assert code == 0
+    assert read_rig(tmp_path / "mine" / "panel.yaml").rig.name == "own"
+    assert [path.name for path in (tmp_path / "mine" / "objects").iterdir()] == ["a"]
+    assert not (tmp_path / "elsewhere").exists()
+
+
+def test_an_unknown_rig_and_a_broken_one(lpcal, tmp_path):
+    code, _, err = lpcal("new", tmp_path / "mine", "--from", "lightpanel-7")
+    assert code == 3
+    assert "lightpanel-12" in err
+    (tmp_path / "panel.yaml").write_text("lpcal: 1\nboard: {corners: [9, 6], square: 25}\n")
+    code, _, err = lpcal("new", tmp_path / "mine", "--from", tmp_path)
+    assert code == 3
+    assert "panel.yaml:2" in err
+    assert not (tmp_path / "mine").exists()
