@@ -1,0 +1,49 @@
+"""A DiLiGenT folder: directions, intensities and names of distant lights.
+
+``light_directions.txt`` (N x 3, x right, y up, z to the camera), ``light_intensities.txt`` (N x 3 RGB, what the lights send),
+``filenames.txt``. Lights are named after the images. The camera is far away: rays are parallel.
+Source: Shi et al. 2016, A benchmark dataset and evaluation for non-Lambertian photometric stereo, its readme.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.errors import DisagreementError
+from lpcal.formats.light_tables import C_FROM_UP, distant, table, text_of, unit_rows
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Calibration
+
+DIRECTIONS, INTENSITIES, NAMES = "light_directions.txt", "light_intensities.txt", "filenames.txt"
+
+
+def is_one(path: Path) -> bool:
+    """Whether a path is such a folder."""
+    return path.is_dir() and (path / DIRECTIONS).is_file() and (path / NAMES).is_file()
+
+
+def read(path: Path) -> Calibration:
+    """Read the lights of such a folder.
+
+    Raises
+    ------
+    InputError
+        A file cannot be read or holds no numbers.
+    DisagreementError
+        The three files speak of unlike numbers of lights.
+    """
+    directions = table(path / DIRECTIONS, 3)
+    names = [Path(line.strip()).stem for line in text_of(path / NAMES).splitlines() if line.strip()]
+    intensities: Array = table(path / INTENSITIES, 3) if (path / INTENSITIES).is_file() else np.ones((len(directions), 3))
+    if not len(names) == len(directions) == len(intensities):
+        raise DisagreementError(
+            f"{len(names)} images, {len(directions)} directions, {len(intensities)} intensities",
+            where=str(path),
+            needed=f"{NAMES}, {DIRECTIONS} and {INTENSITIES} of the same length",
+        )
+    return distant(path.name, names, unit_rows(directions, str(path / DIRECTIONS)) * C_FROM_UP, intensities)
+
+
+FORMAT = (is_one, read)
