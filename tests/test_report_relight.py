@@ -31,6 +31,7 @@ WATCH = """<script>
 window.said = [];
 window.addEventListener("error", (event) => window.said.push(String(event.message)));
 window.addEventListener("unhandledrejection", (event) => window.said.push(String(event.reason)));
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
 console.error = (...words) => window.said.push(words.join(" "));
 for (const name of ["fetch", "XMLHttpRequest", "WebSocket"]) window[name] = function () { window.said.push(name + " was used"); };
 </script>"""
@@ -57,12 +58,15 @@ function tell() {
   });
   const told = document.createElement("pre");
   told.id = "told";
-  told.textContent = JSON.stringify({ said: window.said, ready: document.documentElement.dataset.ready || null, canvases });
+  told.textContent = JSON.stringify({ said: window.said, ready: document.documentElement.dataset.ready || null, canvases,
+    readout: (document.getElementById("readout") || {}).textContent, apart: (document.getElementById("distance-out") || {}).textContent });
   document.body.append(told);
 }
 (function wait() {
-  if (!document.getElementById("view") || document.documentElement.dataset.ready || window.said.length) tell();
-  else setTimeout(wait, 50);
+  const ready = !document.getElementById("view") || document.documentElement.dataset.ready || window.said.length;
+  if (!ready) { setTimeout(wait, 50); return; }
+  if (window.act) window.act();
+  setTimeout(tell, 400);
 })();
 </script>"""
 
@@ -284,3 +288,26 @@ def test_the_browser_draws_the_report(browse: Any) -> None:
     assert len(found["canvases"]) == 2
     for canvas in found["canvases"]:
         assert 0.005 < (shown(canvas)[1] > 0).mean() < 0.9
+
+
+@pytest.mark.parametrize("side", [0.35, 0.65])
+def test_the_light_follows_the_pointer_and_the_wheel(browse: Any, side: float) -> None:
+    act = f"""<script>
+    window.act = () => {{
+      const view = document.getElementById("view"), box = view.getBoundingClientRect();
+      const at = {{ clientX: box.left + {side} * box.width, clientY: box.top + 0.5 * box.height, pointerType: "mouse", bubbles: true }};
+      view.dispatchEvent(new PointerEvent("pointermove", at));
+      view.dispatchEvent(new WheelEvent("wheel", {{ deltaY: -400, cancelable: true }}));
+    }};
+    </script>"""
+    found = browse(render(ball(perspective=True), lights(near=True)), before=act)
+    assert found["said"] == []
+    green, alpha = shown(found["canvases"][0])
+    columns = np.broadcast_to(np.linspace(0, 1, green.shape[1]), green.shape)
+    bright = np.where(alpha == 255, green.astype(float) ** 2.2, 0)
+    brightest = (columns * bright).sum() / bright.sum()
+    assert (brightest < 0.47) == (side < 0.5)
+    assert (brightest > 0.53) == (side > 0.5)
+    assert re.search(r"depth 3\d\d\.\d mm .* 6 lights", found["readout"])
+    apart_mm = float(found["apart"].split()[0])
+    assert 0 < apart_mm < 1000 * RADIUS * 0.6
