@@ -1,8 +1,8 @@
 """near_ps: near lights in millimetres from MATLAB files.
 
-``light.mat`` holds S (N, 3) positions in mm, Dir (N, 3) emission axes, Phi (N, 1 or 3) powers, mu (N, 1) exponents, all in C; ``camera.mat``
-beside it K, sometimes transposed. Lights are named 1, 2, ... The image size is that of an image beside them, else twice the principal point.
-Source: the readme of near_ps (Quéau et al. 2018, LED-based photometric stereo: modeling, calibration and numerical solution).
+``light.mat`` holds S (N, 3) positions in mm, Dir (N, 3) emission axes, Phi (N, 1 or 3) powers, mu (N, 1) exponents, all in C;
+``camera.mat`` beside it K, sometimes transposed. Lights are named 1, 2, ... The image size is that of an image beside them, else twice the
+principal point. Source: the readme of near_ps (Quéau et al. 2018, LED-based photometric stereo: modeling, calibration and solution).
 """
 
 from __future__ import annotations

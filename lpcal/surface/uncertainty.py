@@ -66,7 +66,7 @@ def clues(grid: Grid, mask: Mask, found: Estimate, normals: Array, of_depth: Arr
     bend = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(normals - of_depth, axis=1) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
-    bend_round = np.sqrt(ndimage.uniform_filter(square, 5)[mask] / np.maximum(ndimage.uniform_filter(inside, 5)[mask], 1e-3))
+    bend_round = np.sqrt(np.maximum(ndimage.uniform_filter(square, 5)[mask], 0) / np.maximum(ndimage.uniform_filter(inside, 5)[mask], 1e-3))
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(b)) + np.bincount(grid.b[whole], minlength=len(b)) < 4
     edge = ndimage.distance_transform_edt(~rim)[mask] <= EDGE_PX
