@@ -190,6 +190,17 @@ def prior(name: str, block: Block, mean: Array, covariance: Array, item: int = 0
     return Term(model, (name,), (item,), data)
 
 
+def independent_prior(name: str, mean: Array, sd: Array) -> Term:
+    """Gaussian priors of every item of a block of vectors: mean and standard deviation (count, n), or sd (n,) for all items."""
+    count, size = mean.shape
+
+    def residual(x: Any, data: Any) -> Any:
+        return (x - data[:size]) / data[size:]
+
+    data = np.hstack([mean, np.broadcast_to(sd, mean.shape)])
+    return Term(compile_residual(residual, (size,), 2 * size), (name,), (np.arange(count),), data)
+
+
 @dataclass(frozen=True)
 class Options:
     """Knobs of the descent."""
