@@ -21,7 +21,7 @@ from lpcal.geometry.arrays import Array, Mask
 SAMPLES = 400
 SAMPLE_VIEWS = 4
 ALL_PAIRS_UP_TO = 80
-"""Views up to which all pairs are used; beyond, each with some tens of others."""
+"""Views up to which all pairs are used; beyond, about as many of them."""
 ROUNDS = 10
 INLIER_SIGMAS = 4.0
 ROTATION_FLOOR = 0.02
@@ -65,7 +65,7 @@ def consensus(H_OP: Array, H_CB: Array, seed: int = 0) -> Consensus:
     picks = np.argsort(rng.random((SAMPLES, count)), axis=1)[:, :size]
     H_PC, H_OB = park(H_OP[picks], H_CB[picks])
     scores = np.median(_combined(*_residuals(H_OP, H_CB, H_PC, H_OB), H_CB), axis=1)
-    candidates = [_refined(H_OP, H_CB, H_PC[best], H_OB[best]) for best in np.argsort(scores)[:5]]
+    candidates = [_refined(H_OP, H_CB, H_PC[best], H_OB[best]) for best in np.argsort(scores)[:3]]
     return min(candidates, key=lambda found: (found.scatter_m, -int(found.inliers.sum())))
 
 
@@ -120,7 +120,7 @@ def _pairs(count: int) -> tuple[Array, Array]:
         pairs = list(itertools.combinations(range(count), 2))
     else:
         rng = np.random.default_rng(0)
-        strides = rng.permutation(np.arange(1, count // 2))[:40]
+        strides = rng.permutation(np.arange(1, count // 2))[: max(4, ALL_PAIRS_UP_TO**2 // 2 // count)]
         pairs = [(k, (k + int(stride)) % count) for stride in strides for k in range(count)]
     i, j = np.array(pairs).T
     return i, j

@@ -9,6 +9,7 @@ solve, not in the speed. Source: measured on real and rendered streams (30 ms of
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -50,6 +51,22 @@ class PoseTrack:
     ends_s: Array
     dropped: dict[str, int]
     """Samples left out, by why."""
+
+    @cached_property
+    def rows(self) -> Array:
+        """(N, 12) origin and rotation of each sample, less their mean over the track."""
+        return np.concatenate([self.H[:, :3, 3], self.H[:, :3, :3].reshape(-1, 9)], axis=1) - self.centre
+
+    @cached_property
+    def centre(self) -> Array:
+        """(12,) the mean of origin and rotation."""
+        return np.concatenate([self.H[:, :3, 3].mean(axis=0), self.H[:, :3, :3].mean(axis=0).ravel()])
+
+    @cached_property
+    def running_sums(self) -> tuple[Array, Array]:
+        """(N + 1, 12) sums of `rows` and of their squares over the samples before each."""
+        rows = np.concatenate([np.zeros((1, 12)), self.rows])
+        return np.cumsum(rows, axis=0), np.cumsum(rows**2, axis=0)
 
 
 @dataclass(frozen=True)
@@ -114,12 +131,9 @@ def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
     why = tuple(None if ok else _why_not(track, time) for ok, time in zip(inside, t, strict=True))
     held = np.where(inside, t, np.clip(t, track.t_s[0], track.t_s[-1]))
     H_AB = se3.interpolate(track.H, track.t_s, held)
-    velocity, steady = _velocity(track, held), np.zeros(len(t), dtype=bool)
-    for k in np.flatnonzero(inside):
-        mean = _dwell(track, t[k], int(of[k]))
-        if mean is not None:
-            H_AB[k], velocity[k], steady[k] = mean, 0.0, True
-    return TrackPoses(t, H_AB, velocity, why, steady)
+    H_dwell, steady = _dwells(track, t, np.where(inside, of, -1))
+    velocity = np.where(steady[:, None], 0.0, _velocity(track, held))
+    return TrackPoses(t, np.where(steady[:, None, None], H_dwell, H_AB), velocity, why, steady)
 
 
 def _swapped(error_m: Array) -> Mask:
@@ -151,22 +165,27 @@ def _velocity(track: PoseTrack, t: Array) -> Array:
     return np.concatenate([turn, track.H[high, :3, 3] - track.H[low, :3, 3]], axis=1) / dt
 
 
-def _dwell(track: PoseTrack, t: float, run: int) -> Array | None:
-    """The mean pose (4, 4) over the dwell around a time; None where the body moves."""
-    low, high = max(t - DWELL_S, track.starts_s[run]), min(t + DWELL_S, track.ends_s[run])
-    half = min(t - low, high - t)
-    first, middle, last = np.searchsorted(track.t_s, [t - half, t, t + half])
-    if min(middle - first, last - middle) < DWELL_SAMPLES:
-        return None
-    H = track.H[first:last]
-    split = middle - first
-    rows = np.concatenate([H[:, :3, 3], H[:, :3, :3].reshape(-1, 9)], axis=1)
-    means = np.stack([rows[:split].mean(axis=0), rows[split:].mean(axis=0)])
-    spread = np.sqrt((rows[:split].var(axis=0) + rows[split:].var(axis=0)) / 2)
+def _dwells(track: PoseTrack, t: Array, run: npt.NDArray[np.intp]) -> tuple[Array, Mask]:
+    """Mean poses (M, 4, 4) over the dwells around times (M,) in runs (M,), and (M,) whether the body stood still there.
+
+    It did where the means of the halves before and after the time differ by no more than one sample scatters.
+    """
+    inside = run >= 0
+    low, high = np.maximum(t - DWELL_S, track.starts_s[run]), np.minimum(t + DWELL_S, track.ends_s[run])
+    half = np.minimum(t - low, high - t)
+    edges = np.searchsorted(track.t_s, np.stack([t - half, t, t + half]))
+    counts = np.diff(edges, axis=0)
+    enough = inside & (counts.min(axis=0) >= DWELL_SAMPLES)
+    sums, squares = track.running_sums
+    counts = np.maximum(counts, 1)[..., None]
+    means = np.diff(sums[edges], axis=0) / counts
+    variance = np.mean(np.maximum(np.diff(squares[edges], axis=0) / counts - means**2, 0), axis=0)
+    drift = (means[1] - means[0]) ** 2
+    steady = enough.copy()
     for part in (slice(0, 3), slice(3, 12)):
-        if np.linalg.norm(means[1, part] - means[0, part]) > DRIFT_SIGMAS * np.linalg.norm(spread[part]):
-            return None
-    return se3.transform(se3.nearest_rotation(H[:, :3, :3].mean(axis=0)), H[:, :3, 3].mean(axis=0))
+        steady &= drift[:, part].sum(axis=1) <= DRIFT_SIGMAS**2 * variance[:, part].sum(axis=1)
+    mean = track.centre + (means * counts).sum(axis=0) / counts.sum(axis=0)
+    return se3.transform(se3.nearest_rotation(mean[:, 3:].reshape(-1, 3, 3)), mean[:, :3]), steady
 
 
 def _why_not(track: PoseTrack, t: float) -> str:

@@ -156,12 +156,12 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     findings.say("motion", f"the panel's turns spread by {spread.words()} about its principal axes")
     findings.figures["rotation_spread_deg"] = np.degrees(spread.sigma_rad)
     findings.warnings += more
+    agreed = park.consensus(H_OP, H_CB)
     try:
-        congruence.refuse(H_OP, H_CB, from_images=given.boards.corners_px is not None)
+        congruence.refuse(H_OP, H_CB, agreed, from_images=given.boards.corners_px is not None)
     except DisagreementError as error:
         findings.wrong.append(error)
         return
-    agreed = park.consensus(H_OP, H_CB)
     off = [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
     findings.say("rigid", f"body and camera move as one; the board is misplaced by {1e3 * agreed.scatter_m:.1f} mm (median, closed form)")
     if off:

@@ -119,7 +119,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
     panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
     agreed = _agreed(boards, panel, options.seed)
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
-    _refuse(state)
+    _refuse(state, agreed)
     return _finding(_refine(state, None), None, [], None)
 
 
@@ -129,7 +129,7 @@ def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Came
         offsets = [options.clock_offset_s]
     else:
         offsets = [candidate.offset_s for candidate in clocks.offset_candidates(track, t_camera_s, boards.H_CB)]
-    best: tuple[float, _State] | None = None
+    best: tuple[float, _State, park.Consensus] | None = None
     for offset in offsets:
         panel = poses_at(track, t_camera_s - offset)
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
@@ -138,21 +138,22 @@ def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Came
         score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
         if best is None or score < best[0]:
             state = _state(boards, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
-            best = score, replace(state, track=track)
+            best = score, replace(state, track=track), agreed
     if best is None:
         raise DegenerateError(
             f"{int(poses_at(track, t_camera_s - (offsets or [0.0])[0]).trusted.sum())} views with a trusted panel pose",
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
-    _refuse(best[1])
+    _refuse(best[1], best[2])
     return best[1]
 
 
-def _refuse(state: _State) -> None:
+def _refuse(state: _State, agreed: park.Consensus) -> None:
     """Stop where the data are no rigid motion, with what is wrong."""
     trusted = state.panel.trusted
-    congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], from_images=state.boards.corners_px is not None)
+    of_trusted = replace(agreed, inliers=agreed.inliers[trusted])
+    congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], of_trusted, from_images=state.boards.corners_px is not None)
 
 
 def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
