@@ -16,8 +16,9 @@ from lpcal.formats.camera_colmap import is_colmap, read_colmap_camera
 from lpcal.formats.camera_kalibr import camera_from_kalibr, is_kalibr
 from lpcal.formats.camera_opencv import read_opencv_camera
 from lpcal.formats.camera_ros import camera_from_ros, is_ros
-from lpcal.formats.camera_yaml import camera_from_document
+from lpcal.formats.camera_yaml import camera_from_document, read_camera
 from lpcal.formats.cameramodel import read_cameramodel
+from lpcal.formats.documents import read_document
 from lpcal.records.calibration import Camera
 
 KNOWN = "a camera file of lpcal, mrcal, OpenCV, ROS, Kalibr or COLMAP"
@@ -62,10 +63,7 @@ def _load(text: str, path: Path) -> dict[str, Any]:
 
 def _from_document(document: dict[str, Any], path: Path) -> Camera:
     if "lpcal" in document:
-        try:
-            return camera_from_document(document["camera"] if document.get("kind") == "calibration" else document)
-        except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"{error} is lacking or garbled", where=str(path), needed="lpcal's camera.yaml or calibration.yaml") from error
+        return _of_lpcal(document, path)
     if isinstance(document.get("camera_info"), dict):
         document = document["camera_info"]
     if is_kalibr(document):
@@ -75,3 +73,15 @@ def _from_document(document: dict[str, Any], path: Path) -> Camera:
     if path.suffix == ".json":
         return read_opencv_camera(path)
     raise InputError(f"of no format known: its keys are {', '.join(map(str, list(document)[:6]))}", where=str(path), needed=KNOWN)
+
+
+def _of_lpcal(document: dict[str, Any], path: Path) -> Camera:
+    if document.get("kind") != "calibration":
+        return read_camera(path)
+    section = read_document(path, "calibration").get("camera")
+    if section is None:
+        raise InputError("a calibration without a camera", where=str(path), needed="its camera: section")
+    try:
+        return camera_from_document(section)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{error} is lacking or garbled", where=str(path), needed="a whole calibration file") from error

@@ -106,9 +106,10 @@ def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> 
     if len(counts) > 1:
         (usual, many), (other, few) = counts.most_common(2)
         first, second = names[sizes.index(usual)], names[sizes.index(other)]
+        first, second = (name + (f" and {count - 1} more" if count > 1 else "") for name, count in ((first, many), (second, few)))
         raise DisagreementError(
-            f"two sizes: {first} and {many - 1} more are {usual[0]}x{usual[1]}, {second} and {few - 1} more {other[0]}x{other[1]}",
-            where=second,
+            f"two sizes: {usual[0]}x{usual[1]} ({first}) and {other[0]}x{other[1]} ({second})",
+            where=names[sizes.index(other)],
             needed="images of one camera, not cropped, scaled or turned",
             todo="leave out those of the other size",
         )

@@ -15,7 +15,7 @@ import numpy as np
 from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
 from lpcal.chain.k_camera import board_shape, solve_camera
 from lpcal.detect.radiometry import Sensor, fit_flat_field
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
 from lpcal.formats.cameramodel import cameramodel_text
@@ -24,7 +24,7 @@ from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Array
-from lpcal.pipeline.board_search import refuse_another_board, search
+from lpcal.pipeline.board_search import refuse_another_board, refuse_two_sizes, search
 from lpcal.pipeline.intrinsics_summary import summarise
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import CameraSolution
@@ -158,6 +158,13 @@ def _solution(workspace: Workspace, section: CameraSection, board: Board | None,
         return solution
     path = workspace.path(section.cameramodel, "camera.cameramodel")
     camera = read_camera_file(path)
+    if views.views and camera.image_size != views.image_size:
+        raise DisagreementError(
+            f"a camera of {camera.image_size[0]}x{camera.image_size[1]} pixels; the images have {views.image_size[0]}x{views.image_size[1]}",
+            where=str(path),
+            needed="the camera that took the images, at their size",
+            todo="name the right file, or leave camera.cameramodel out to solve the camera anew",
+        )
     points_B = board.points_B() if board is not None else np.zeros((0, 3))
     return CameraSolution(camera, points_B, (), f"given: {section.cameramodel}", ASSUMED_SIGMA_PX, cameramodel=cameramodel_text(camera))
 
@@ -167,7 +174,9 @@ def _with_radiometry(workspace: Workspace, section: CameraSection, solution: Cam
     sensor = Sensor(section.black_level, section.white_level, section.gamma)
     flat_field = None
     if section.flat_field is not None:
-        flat_field = fit_flat_field(read_image(workspace.path(section.flat_field, "camera.flat_field")).pixels, sensor)
+        stored = read_image(workspace.path(section.flat_field, "camera.flat_field"))
+        refuse_two_sizes(["the camera", section.flat_field], [solution.camera.image_size, stored.size])
+        flat_field = fit_flat_field(stored.pixels, sensor)
     return replace(
         solution.camera,
         black_level=section.black_level,

@@ -19,6 +19,8 @@ from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 from lpcal.records.observations import Board, BoardViews
 
 FEWEST_VIEWS = 3
+DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
+"""Of a focal length, or of the image's width for the principal point: a sigma above is refused, warned of."""
 WORST_SHARE = 0.5
 """A view of which more corners than this are rejected is not used."""
 
@@ -36,7 +38,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     Raises
     ------
     DegenerateError
-        Fewer than three views with a board.
+        Fewer than three views with a board, or views that cannot tell the focal length or the principal point.
     InputError
         A splined lens without mrcal.
     ConvergenceError
@@ -58,6 +60,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     models = list(DISTORTIONS) if model == "auto" else [model]
     chosen, tried = choose(problem, solve, models, [False, True] if board.warp else [False])
     fit = solve(problem, chosen.model, chosen.warp)
+    doubts = refuse_degenerate(fit)
     return CameraSolution(
         camera=fit.camera,
         points_B=fit.points_B,
@@ -65,7 +68,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         solver=name,
         corner_sigma_px=fit.sigma_px,
         evidence=_evidence(chosen, tried, fit, board),
-        warnings=(missing,) if missing else (),
+        warnings=(*((missing,) if missing else ()), *doubts),
         cameramodel=fit.cameramodel,
     )
 
@@ -85,6 +88,33 @@ def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
         missing = "mrcal knows no unequal squares" if unequal else "mrcal is not installed"
         missing += ": solved without it; camera.cameramodel holds no optimisation inputs, and mrcal's tools give no uncertainty for it"
     return "opencv", opencv_solver.solve, missing
+
+
+def refuse_degenerate(fit: CameraFit) -> list[str]:
+    """Warnings about what the views hardly determine.
+
+    Raises
+    ------
+    DegenerateError
+        They do not determine it at all: boards that all face the camera leave focal length and distance undecided.
+    """
+    camera = fit.camera
+    if camera.covariance is None:
+        return []
+    sigma = np.sqrt(np.diag(camera.covariance))[:4]
+    shares = sigma / [camera.K[0, 0], camera.K[1, 1], camera.image_size[0], camera.image_size[0]]
+    worst = {"focal length": float(shares[:2].max()), "principal point": float(shares[2:].max())}
+    said = {name: f"{name} to {100 * share:.1g} %" for name, share in worst.items() if not share < WEAK_SHARE}
+    lost = [name for name, share in worst.items() if not share < DEGENERATE_SHARE]
+    todo = "add views with the board tilted by 20 to 45 degrees, about both of its axes, over the whole image"
+    if lost:
+        raise DegenerateError(
+            f"these {len(fit.H_CB)} views cannot tell the {' and the '.join(lost)}: {', '.join(said.values())}",
+            where="camera.images",
+            needed=f"one sigma under {100 * DEGENERATE_SHARE:.0f} %; the board seems to face the camera, or to fill little of the image",
+            todo=todo,
+        )
+    return [f"the views tell the {', the '.join(said.values())} only: {todo}"] if said else []
 
 
 def board_shape(views: BoardViews, board: Board, camera: Camera, H_CB: dict[str, Array]) -> Array:
