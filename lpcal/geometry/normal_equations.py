@@ -162,7 +162,7 @@ def _groups(items: Sequence[Index], count: int) -> list[Index]:
 
 def _rows(J: Array) -> Array:
     """Transposed Jacobians (N, n, rows) as one (n, N rows)."""
-    return J.transpose(1, 0, 2).reshape(J.shape[1], -1)
+    return J.transpose(1, 0, 2).reshape(J.shape[1], len(J) * J.shape[2])
 
 
 def reduced(system: System, damping: float) -> tuple[Array, Array, Array, Array]:
