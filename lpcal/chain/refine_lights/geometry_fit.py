@@ -110,7 +110,7 @@ class _Problem:
         }
         if self.wings is not None:
             blocks["H_CD"] = Block(self.wings.H_CD[None])
-            blocks["setting"] = Block(_settings(self.wings))
+            blocks["setting"] = Block(settings_of(self.wings))
             blocks["offset"] = Block(np.full((len(self.modes), 1), SOURCE_OFFSET_M))
         if self.free:
             blocks["source"] = Block(np.array([start_of_free_light(light, self.views, self.measured, self.camera) for light in self.free]))
@@ -129,7 +129,7 @@ class _Problem:
             terms.append(prior("H_CD", blocks["H_CD"], self.wings.H_CD, self.wings.H_CD_covariance))
             terms += [
                 prior("setting", blocks["setting"], row, np.diag(self.wings.setting_sigma**2), k)
-                for k, row in enumerate(_settings(self.wings))
+                for k, row in enumerate(settings_of(self.wings))
             ]
             terms += [
                 prior("offset", blocks["offset"], np.array([SOURCE_OFFSET_M]), np.array([[SOURCE_OFFSET_SIGMA_M**2]]), k)
@@ -152,14 +152,6 @@ class _Problem:
     def _seen(self, among: Sequence[str]) -> list[tuple[int, str]]:
         return [(s, light) for s, view in enumerate(self.views) for light in view.highlights_px if light in among]
 
-    def _highlight_data(self, seen: list[tuple[int, str]]) -> Array:
-        pixels = np.array([self.views[s].highlights_px[light] for s, light in seen])
-        sigma = np.array([self.views[s].highlight_sigma_px[light] for s, light in seen])
-        radius = np.array([self.views[s].radius_m for s, _ in seen])
-        u_C = self.camera.unproject(pixels)
-        A = local_projection(self.camera, u_C) / sigma[:, None, None]
-        return np.column_stack([u_C, A.reshape(-1, 6), radius])
-
     def _wing_highlights(self) -> Term | None:
         seen = self._seen(list(self.rows))
         if not seen or self.wings is None:
@@ -171,7 +163,7 @@ class _Problem:
             model,
             ("H_CD", "setting", "offset", "centre"),
             (0, row, mode, np.array([s for s, _ in seen])),
-            self._highlight_data(seen),
+            highlight_data(self.views, seen, self.camera),
             robust=ROBUST,
             group=2,
         )
@@ -182,7 +174,14 @@ class _Problem:
             return None
         row = np.array([self.free.index(light) for _, light in seen])
         model = compile_residual(residuals.free_highlight, (3, 3), 10)
-        return Term(model, ("source", "centre"), (row, np.array([s for s, _ in seen])), self._highlight_data(seen), robust=ROBUST, group=2)
+        return Term(
+            model,
+            ("source", "centre"),
+            (row, np.array([s for s, _ in seen])),
+            highlight_data(self.views, seen, self.camera),
+            robust=ROBUST,
+            group=2,
+        )
 
     def result(self, solution: Solution) -> GeometryFit:
         names = [name for name in ("H_CD", "setting", "offset", "source", "centre") if name in solution.blocks]
@@ -273,7 +272,17 @@ def start_of_free_light(light: str, views: Sequence[SphereView], measured: Seque
     return np.asarray(found if in_front else guess)
 
 
-def _settings(wings: Wings) -> Array:
+def highlight_data(views: Sequence[SphereView], seen: Sequence[tuple[int, str]], camera: Camera) -> Array:
+    """Data (N, 10) of highlights, each the row of its sphere and its light, as `residuals` has them."""
+    pixels = np.array([views[s].highlights_px[light] for s, light in seen])
+    sigma = np.array([views[s].highlight_sigma_px[light] for s, light in seen])
+    u_C = camera.unproject(pixels)
+    A = local_projection(camera, u_C) / sigma[:, None, None]
+    return np.column_stack([u_C, A.reshape(-1, 6), np.array([views[s].radius_m for s, _ in seen])])
+
+
+def settings_of(wings: Wings) -> Array:
+    """Settings (W, 4) as drawn: azimuth, g (rad), d1, d2 (m)."""
     return np.array([[w.azimuth_rad, w.joint_angle_rad, w.d1_m, w.d2_m] for w in wings.wings])
 
 

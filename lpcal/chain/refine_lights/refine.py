@@ -9,8 +9,10 @@ import numpy as np
 
 from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
+from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
-from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, nominal_lobe, sample_blocks
+from lpcal.chain.refine_lights.samples import sample_blocks
+from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, nominal_lobe
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
@@ -20,8 +22,8 @@ from lpcal.records.observations import SphereView
 DIRECTION_FLOOR_RAD = float(np.radians(0.02))
 """LEDs that stand a little askew move the source seen from different places: what a point source cannot follow."""
 WORST_HIGHLIGHT_PX = 1.0
-FAR = 0.3
-"""A free light whose distance is less sure than this share of itself is given as distant."""
+UNSURE = 0.3
+"""A free light whose distance is less sure than this share of itself is told."""
 
 
 def refine(
@@ -49,23 +51,20 @@ def refine(
     fit, used, more = _fit_without_outliers(lights, used, camera, wings)
     refused |= more
     focus_C = _focus(fit, wings)
-    shading = _shading(fit, [view for view, _ in used], lights, camera, wings, focus_C, intensity_sd)
-    found, warnings = _lights(fit, shading, lights, wings, focus_C)
-    return LightsSolution(
-        lights=found,
-        focus_C=focus_C,
-        d_object_m=_d_object(fit.H_CD, focus_C),
-        H_CD=fit.H_CD,
-        spheres=tuple(_finding(view, fit, used, refused, shading, camera) for view in views),
-        warnings=tuple([f"{name}: {why}" for name, why in refused.items()] + warnings),
-        evidence={
-            "source_offset_m": {str(mode): value for mode, value in fit.source_offset_m.items()},
-            "outline_bias_px": fit.bias_px,
-            "settings": _setting_report(fit, wings),
-            "lobe_seen_deg": float(np.degrees(shading.seen_rad)) if shading else None,
-            "highlight_rms_px": _rms(list(fit.highlight_px.values())),
-        },
-    )
+    kept = [view for view, _ in used]
+    found, warnings = _near_lights(fit, lights, wings, focus_C)
+    samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
+    if samples is None:
+        return _solution(found, focus_C, fit, None, views, kept, refused, warnings, camera, wings)
+    leds = [None if row is None or wings is None else wings.wings[row].leds for row in fit.wing_of]
+    shading = fit_shading(samples, len(lights), leds, [view.name for view in kept], intensity_sd)
+    if wings is None or not can_fit(kept, wings, lights):
+        found = _with_shading(found, shading)
+        return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings)
+    joint = fit_jointly(fit, shading, samples, kept, [m for _, m in used], camera, wings, focus_C, intensity_sd)
+    found = _with_leds(joint, shading)
+    focus_C = _nearest_to_axes(np.array([light.H_CL for light in found]))
+    return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings, joint)
 
 
 def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> LightsSolution:
@@ -127,75 +126,114 @@ def _fit_without_outliers(
         used = [(view, m) for view, m in used if view.name != worst]
 
 
-def _shading(
-    fit: GeometryFit,
-    views: Sequence[SphereView],
-    lights: Sequence[str],
-    camera: Camera,
-    wings: Wings | None,
-    focus_C: Array,
-    intensity_sd: float,
-) -> ShadingFit | None:
-    if not any(view.shading is not None for view in views):
-        return None
-    samples = sample_blocks(views, fit.centres_C, camera, lights, fit.source_C, _axes(fit, focus_C))
-    leds = [None if row is None or wings is None else wings.wings[row].leds for row in fit.wing_of]
-    return fit_shading(samples, len(lights), leds, [view.name for view in views], intensity_sd)
-
-
-def _lights(
-    fit: GeometryFit, shading: ShadingFit | None, lights: Sequence[str], wings: Wings | None, focus_C: Array
-) -> tuple[tuple[Light, ...], list[str]]:
+def _near_lights(fit: GeometryFit, lights: Sequence[str], wings: Wings | None, focus_C: Array) -> tuple[list[Light], list[str]]:
+    """The lights as the geometry alone has them, each with its nominal lobe; and warnings."""
     found, warnings = [], []
     axes = _axes(fit, focus_C)
-    misfit = _rms(list(shading.residual.values())) if shading else float("nan")
     for k, name in enumerate(lights):
-        covariance = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3]
-        row = fit.wing_of[k]
+        covariance, row, away = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], fit.wing_of[k], fit.source_C[k] - focus_C
         leds = wings.wings[row].leds if row is not None and wings is not None else None
-        H_CL = fit.H_CL[k] if row is not None else _frame_at(fit.source_C[k], axes[k])
         light = Light(
             name=name,
-            direction_C=_unit(fit.source_C[k] - focus_C),
-            intensity=shading.intensity[k] if shading else np.ones(1),
-            H_CL=H_CL,
+            direction_C=_unit(away),
+            intensity=np.ones(1),
+            H_CL=fit.H_CL[k] if row is not None else _frame_at(fit.source_C[k], axes[k]),
             source_C=fit.source_C[k],
             axis_C=axes[k],
-            lobe=shading.lobes[k] if shading else nominal_lobe(leds),
+            lobe=nominal_lobe(leds),
             position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
-            direction_std_rad=float(np.hypot(_direction_std(fit.source_C[k] - focus_C, covariance), DIRECTION_FLOOR_RAD)),
-            intensity_std=float(np.hypot(shading.intensity_std[k], misfit)) if shading else float("nan"),
+            direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
         )
-        away = _unit(fit.source_C[k] - focus_C)
-        distance_std = float(np.sqrt(away @ covariance @ away)) / float(np.linalg.norm(fit.source_C[k] - focus_C))
-        if row is None and distance_std > FAR:
-            warnings.append(
-                f"{name}: its distance is known to {100 * distance_std:.0f} % only, so it is given as distant: spread the spheres"
-            )
-            light = replace(light, source_C=None, axis_C=None, H_CL=None, lobe=nominal_lobe(None))
+        distance_std = float(np.sqrt(_unit(away) @ covariance @ _unit(away))) / float(np.linalg.norm(away))
+        if row is None and distance_std > UNSURE:
+            warnings.append(f"{name}: its distance is known to {100 * distance_std:.0f} % only: spread the spheres")
         found.append(light)
-    return tuple(found), warnings
+    return found, warnings
+
+
+def _with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
+    """The lights with the intensities and round lobes of the shading."""
+    misfit = _rms(list(shading.residual.values()))
+    return [
+        replace(
+            light, intensity=shading.intensity[k], lobe=shading.lobes[k], intensity_std=float(np.hypot(shading.intensity_std[k], misfit))
+        )
+        for k, light in enumerate(lights)
+    ]
+
+
+def _with_leds(joint: JointFit, shading: ShadingFit) -> list[Light]:
+    """The lights of the joint fit with the colour of the shading, mean intensity 1."""
+    colour = shading.intensity / shading.intensity.mean(axis=1, keepdims=True)
+    intensity = np.array([light.intensity[0] for light in joint.lights])[:, None] * colour
+    intensity /= intensity.mean()
+    misfit = _rms(list(joint.shading.values()))
+    return [
+        replace(
+            light,
+            intensity=intensity[k],
+            position_std_m=float(joint.position_std_m[k]),
+            direction_std_rad=float(np.hypot(joint.direction_std_rad[k], DIRECTION_FLOOR_RAD)),
+            intensity_std=float(np.hypot(joint.intensity_std[k], misfit)),
+        )
+        for k, light in enumerate(joint.lights)
+    ]
+
+
+def _solution(
+    lights: Sequence[Light],
+    focus_C: Array,
+    fit: GeometryFit,
+    shading: ShadingFit | None,
+    views: Sequence[SphereView],
+    kept: Sequence[SphereView],
+    refused: dict[str, str],
+    warnings: Sequence[str],
+    camera: Camera,
+    wings: Wings | None,
+    joint: JointFit | None = None,
+) -> LightsSolution:
+    H_CD = joint.H_CD if joint else fit.H_CD
+    highlights = joint.highlight_px if joint else fit.highlight_px
+    misfit = joint.shading if joint else shading.residual if shading else {}
+    centres_C = joint.centres_C if joint else fit.centres_C
+    names = [view.name for view in kept]
+    spheres = []
+    for view in views:
+        centre_C = centres_C[names.index(view.name)] if view.name in names else None
+        spheres.append(_finding(view, centre_C, highlights, misfit, refused, camera))
+    settings = joint.settings if joint else fit.settings
+    evidence: dict[str, object] = {
+        "model": "sum of LEDs" if joint else "round lobe" if shading else "geometry only",
+        "source_offset_m": {str(mode): dome[0] for mode, dome in joint.dome_m.items()}
+        if joint
+        else {str(m): e for m, e in fit.source_offset_m.items()},
+        "outline_bias_px": joint.bias_px if joint else fit.bias_px,
+        "settings": _setting_report(settings, wings),
+        "lobe_seen_deg": float(np.degrees(shading.seen_rad)) if shading else None,
+        "highlight_rms_px": _rms(list(highlights.values())),
+        "shading_rms": _rms(list(misfit.values())),
+    }
+    told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings)
+    return LightsSolution(tuple(lights), focus_C, _d_object(H_CD, focus_C), H_CD, tuple(spheres), told, evidence)
 
 
 def _finding(
     view: SphereView,
-    fit: GeometryFit,
-    used: Sequence[tuple[SphereView, CentreMeasurement]],
+    centre_C: Array | None,
+    highlights: dict[tuple[str, str], float],
+    misfit: dict[str, float],
     refused: dict[str, str],
-    shading: ShadingFit | None,
     camera: Camera,
 ) -> SphereFinding:
-    names = [one.name for one, _ in used]
-    if view.name not in names:
+    if centre_C is None:
         return SphereFinding(view.name, view.kind, None, view.radius_m, used=False, why=refused.get(view.name))
-    centre_C = fit.centres_C[names.index(view.name)]
     directions = {}
     for light, pixel in view.highlights_px.items():
         P, n = sphere.meet(camera.unproject(pixel), centre_C, view.radius_m)
         directions[light] = sphere.reflect(_unit(P), n)
-    residual = _rms([px for (name, _), px in fit.highlight_px.items() if name == view.name])
-    if view.kind == "matte" and shading:
-        residual = shading.residual.get(view.name, float("nan"))
+    residual = _rms([px for (name, _), px in highlights.items() if name == view.name])
+    residual = misfit.get(view.name, float("nan")) if view.kind == "matte" else residual
     return SphereFinding(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
 
 
@@ -233,12 +271,12 @@ def _direction_std(away: Array, covariance: Array) -> float:
     return float(np.sqrt(np.trace(across @ covariance @ across) / 2) / np.linalg.norm(away))
 
 
-def _setting_report(fit: GeometryFit, wings: Wings | None) -> dict[str, object]:
+def _setting_report(settings: Array, wings: Wings | None) -> dict[str, object]:
     if wings is None:
         return {}
     names = ("azimuth_deg", "joint_angle_deg", "d1_m", "d2_m")
     scale = np.array([180 / np.pi, 180 / np.pi, 1, 1])
-    return {wing.name: dict(zip(names, (fit.settings[k] * scale).tolist(), strict=True)) for k, wing in enumerate(wings.wings)}
+    return {wing.name: dict(zip(names, (settings[k] * scale).tolist(), strict=True)) for k, wing in enumerate(wings.wings)}
 
 
 def _d_object(H_CD: Array | None, focus_C: Array) -> float | None:

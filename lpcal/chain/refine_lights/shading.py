@@ -16,37 +16,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.errors import DegenerateError
-from lpcal.geometry import led_cluster, light_field, sphere
-from lpcal.geometry.arrays import Array, Index, Mask
-from lpcal.records.calibration import Camera, Lobe
-from lpcal.records.observations import Radiance, SphereView
+from lpcal.chain.refine_lights.samples import Samples
+from lpcal.geometry import led_cluster
+from lpcal.geometry.arrays import Array, Index
+from lpcal.records.calibration import Lobe
 
-BLOCK_PX = 6
-FACING_CAMERA, FACING_LIGHT = 0.35, 0.12
-BLOCK_SHARE = 0.6
 TEXTURE_SD, MODEL_SD = 0.02, 0.003
 KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
 LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
 UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
 ROBUST = 3.0
 ROUNDS = 8
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Block means of matte spheres: row k is one block under one light."""
-
-    light: Index
-    sphere: Index
-    block: Index
-    angle_rad: Array
-    log_ratio: Array
-    """log(mean data / mean(n . d / r^2))."""
-    relative_sigma: Array
-    """Of the mean, from image noise."""
-    colour: Array
-    """(N, C) mean data a channel over the grey mean."""
 
 
 @dataclass(frozen=True)
@@ -61,46 +41,14 @@ class ShadingFit:
     """A light each."""
     residual: dict[str, float]
     """Rms of data over model, as a fraction, by sphere."""
+    log_lobe: Array
+    """(N,) of each sample: what is left of its data for the lobe, albedo and intensity taken away."""
+    log_intensity: Array
+    """(L,) as fitted."""
+    log_albedo: dict[int, float]
+    """By sphere."""
     seen_rad: float
     """Largest angle from a light's axis that the spheres saw: beyond it the lobe is extrapolated."""
-
-
-def sample_blocks(
-    views: Sequence[SphereView], centres_C: Array, camera: Camera, lights: Sequence[str], source_C: Array, axis_C: Array
-) -> Samples:
-    """Block means of all matte spheres under all lights.
-
-    Raises
-    ------
-    DegenerateError
-        No block of a sphere is lit and unsaturated.
-    """
-    parts: list[Samples] = []
-    blocks = 0
-    for s, (view, centre_C) in enumerate(zip(views, centres_C, strict=True)):
-        if view.shading is None:
-            continue
-        part = _blocks_of(view.shading, view, centre_C, camera, lights, source_C, axis_C)
-        if part.light.size == 0:
-            raise DegenerateError(
-                "no part of it is lit and unsaturated",
-                where=f"sphere {view.name}",
-                needed="a matte sphere neither dark nor saturated",
-                todo="change the exposure",
-            )
-        parts.append(
-            Samples(
-                part.light,
-                np.full_like(part.sphere, s),
-                part.block + blocks,
-                part.angle_rad,
-                part.log_ratio,
-                part.relative_sigma,
-                part.colour,
-            )
-        )
-        blocks += int(part.block.max()) + 1
-    return Samples(*(np.concatenate([getattr(part, name) for part in parts]) for name in Samples.__dataclass_fields__))
 
 
 def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names: Sequence[str], intensity_sd: float) -> ShadingFit:
@@ -129,7 +77,7 @@ def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names:
     for m, mode in enumerate(modes):
         if mode in led_cluster.RINGS:
             known += np.where(mode_of_light[light] == m, np.log(led_cluster.mean_lobe(samples.angle_rad, mode)), 0.0)
-    target = samples.log_ratio - known
+    target = samples.log_data - samples.log_geometry - known
     prior = np.zeros((design.shape[1],) * 2)
     prior[:count, :count] += np.eye(count) / intensity_sd**2
     start = count + len(spheres)
@@ -158,6 +106,9 @@ def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names:
         intensity_std=std,
         lobes=tuple(lobes[m] for m in mode_of_light),
         residual={names[s]: float(np.sqrt(np.mean(residual[which == s] ** 2))) for s in spheres},
+        log_lobe=known + design[:, start:] @ found[start:] + residual,
+        log_intensity=logs,
+        log_albedo={int(s): float(found[count + k]) for k, s in enumerate(spheres)},
         seen_rad=seen_rad,
     )
 
@@ -167,64 +118,6 @@ def nominal_lobe(leds: int | None) -> Lobe:
     if leds in led_cluster.RINGS:
         return Lobe("table", angle_rad=KNOTS_RAD, value=led_cluster.mean_lobe(KNOTS_RAD, int(leds or 1)))
     return Lobe("isotropic")
-
-
-def _blocks_of(
-    shading: Radiance, view: SphereView, centre_C: Array, camera: Camera, lights: Sequence[str], source_C: Array, axis_C: Array
-) -> Samples:
-    rows, columns = _box(view.outline_px, shading.saturated.shape[1:])
-    u_C = camera.unproject(np.stack([columns, rows], axis=-1).astype(float))
-    P_C, n_C = sphere.meet(u_C, centre_C, view.radius_m)
-    facing = np.nan_to_num(-np.sum(n_C * u_C, axis=-1), nan=-1.0) > FACING_CAMERA
-    block = (rows - rows.min()) // BLOCK_PX * (1 + (columns.max() - columns.min()) // BLOCK_PX) + (columns - columns.min()) // BLOCK_PX
-    members = np.bincount(block.ravel())
-    found: list[list[Array]] = []
-    for k, name in enumerate(shading.lights):
-        if name not in lights:
-            continue
-        row = list(lights).index(name)
-        d_C, r, angle = light_field.near_light(P_C, source_C[row], axis_C[row])
-        cosine = np.sum(n_C * d_C, axis=-1)
-        with np.errstate(invalid="ignore"):
-            good: Mask = facing & (cosine > FACING_LIGHT) & ~shading.saturated[k, rows, columns]
-        data, sigma = shading.signal[k, rows, columns].astype(float), shading.sigma[k, rows, columns].astype(float)
-        channels = data[..., None] if data.ndim == 2 else data
-        grey = channels.mean(axis=-1)
-        noise = sigma if sigma.ndim == 2 else np.sqrt(np.mean(sigma**2, axis=-1) / sigma.shape[-1])
-        number = np.bincount(block[good], minlength=len(members))
-        full = (number >= BLOCK_SHARE * members) & (number > 0)
-
-        def mean(value: Array, good: Mask = good, number: Index = number) -> Array:
-            return np.bincount(block[good], weights=value[good], minlength=len(members)) / np.maximum(number, 1)
-
-        level = mean(grey)
-        keep = np.flatnonzero(full & (level > 3 * np.sqrt(mean(noise**2) / np.maximum(number, 1))))
-        model = mean(cosine / r**2)[keep]
-        colour = np.stack([mean(channels[..., c])[keep] / level[keep] for c in range(channels.shape[-1])], axis=1)
-        relative = np.sqrt(mean(noise**2)[keep] / number[keep]) / level[keep]
-        found.append(
-            [
-                np.full(keep.size, float(row)),
-                np.zeros(keep.size),
-                keep.astype(float),
-                mean(angle)[keep],
-                np.log(level[keep] / model),
-                relative,
-                colour,
-            ]
-        )
-    if not found:
-        none, nothing = np.zeros(0, np.intp), np.zeros(0)
-        return Samples(none, none, none, nothing, nothing, nothing, np.zeros((0, 1)))
-    light, which, block, angle, log_ratio, relative, colour = (np.concatenate(column) for column in zip(*found, strict=True))
-    return Samples(light.astype(np.intp), which.astype(np.intp), block.astype(np.intp), angle, log_ratio, relative, colour)
-
-
-def _box(outline_px: Array, shape: tuple[int, ...]) -> tuple[Index, Index]:
-    low = np.maximum(np.floor(outline_px.min(axis=0)).astype(int), 0)
-    high = np.minimum(np.ceil(outline_px.max(axis=0)).astype(int), [shape[1] - 1, shape[0] - 1])
-    columns, rows = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
-    return rows, columns
 
 
 def _interpolation(angle_rad: Array) -> Array:

@@ -1,0 +1,292 @@
+"""The last fit: wings, sphere centres, highlights and shading together, every LED of every blob free within its scatter.
+
+Starts from the chrome's geometry and the shading's intensities (`geometry_fit`, `shading`); `led_fit` holds the residuals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.chain.refine_lights import led_fit, residuals
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, KINDS, ROBUST, GeometryFit, highlight_data, settings_of
+from lpcal.chain.refine_lights.led_fit import Cluster
+from lpcal.chain.refine_lights.measure import CentreMeasurement
+from lpcal.chain.refine_lights.samples import Samples, sample_blocks
+from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, ShadingFit
+from lpcal.geometry import led_cluster, se3, sphere
+from lpcal.geometry.arrays import Array, Index
+from lpcal.geometry.least_squares import Block, Options, Solution, Term, compile_residual, independent_prior, prior, solve
+from lpcal.geometry.wing import wing_transform
+from lpcal.records.calibration import Camera, LedCluster, Light, Lobe, Wings
+from lpcal.records.observations import SphereView
+
+ROUNDS = 2
+ALBEDO_SD = 3.0
+STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class JointFit:
+    """Lights whose lobe is the sum of their LEDs, and how sure each is."""
+
+    lights: tuple[Light, ...]
+    """Without standard deviations and colour."""
+    H_CD: Array
+    settings: Array
+    centres_C: Array
+    bias_px: dict[str, float]
+    dome_m: dict[int, list[float]]
+    """Height and radius by mode."""
+    highlight_px: dict[tuple[str, str], float]
+    shading: dict[str, float]
+    """Rms of data over model, as a fraction, by sphere."""
+    position_std_m: Array
+    direction_std_rad: Array
+    intensity_std: Array
+    """(L,) of the relative irradiance at the focus."""
+
+
+def can_fit(views: Sequence[SphereView], wings: Wings | None, lights: Sequence[str]) -> bool:
+    """Whether every light is a wing of a known LED mode and a matte sphere shows them."""
+    drawn = {wing.name: wing.leds for wing in wings.wings} if wings else {}
+    return any(view.shading for view in views) and all(drawn.get(light) in led_cluster.RINGS for light in lights)
+
+
+def fit_jointly(
+    start: GeometryFit,
+    first: ShadingFit,
+    samples: Samples,
+    views: Sequence[SphereView],
+    measured: Sequence[CentreMeasurement],
+    camera: Camera,
+    wings: Wings,
+    focus_C: Array,
+    intensity_sd: float,
+) -> JointFit:
+    """Solve, twice: the second time with the blocks' curvature under the lights that the first found."""
+    problem = _Problem(tuple(start.lights), tuple(views), tuple(measured), camera, wings, intensity_sd)
+    blocks = problem.start(start, first, samples)
+    for round_ in range(ROUNDS):
+        solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=Options(iterations=100, tolerance=1e-6))
+        blocks = dict(solution.blocks)
+        if round_ + 1 < ROUNDS:
+            samples = sample_blocks(views, solution["centre"], camera, problem.lights_of(blocks))
+            blocks["delta"] = Block(np.zeros((int(np.unique(samples.block).size), 1)))
+    return problem.result(solution, focus_C)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    names: tuple[str, ...]
+    views: tuple[SphereView, ...]
+    measured: tuple[CentreMeasurement, ...]
+    camera: Camera
+    wings: Wings
+    intensity_sd: float
+
+    @property
+    def wing(self) -> Index:
+        """Row in the wings of each light."""
+        order = [wing.name for wing in self.wings.wings]
+        return np.array([order.index(name) for name in self.names])
+
+    @property
+    def leds(self) -> list[int]:
+        return [int(self.wings.wings[row].leds or 1) for row in self.wing]
+
+    @property
+    def modes(self) -> list[int]:
+        return sorted(set(self.leds))
+
+    @property
+    def mode(self) -> Index:
+        return np.array([self.modes.index(leds) for leds in self.leds])
+
+    def start(self, fit: GeometryFit, first: ShadingFit, samples: Samples) -> dict[str, Block]:
+        """Where the descent starts from; each blob's roll by trying."""
+        assert fit.H_CD is not None
+        rolls = []
+        for k, leds in enumerate(self.leds):
+            own = samples.light == k
+            log_lobe = first.log_lobe[own]
+            rolls.append(
+                [led_fit.scan_roll(Cluster(leds), samples.angle_rad[own], samples.around_rad[own], log_lobe) if own.any() else 0.0]
+            )
+        domes = [[fit.source_offset_m.get(mode, led_fit.DOME_M[0]), led_fit.DOME_M[1]] for mode in self.modes]
+        # with the LEDs' sum normalised on the axis the lobe's own level is 1, but for the LEDs' distance
+        blocks = {
+            "H_CD": Block(fit.H_CD[None]),
+            "setting": Block(fit.settings),
+            "dome": Block(np.array(domes)),
+            "roll": Block(np.array(rolls)),
+            "intensity": Block(np.log(first.intensity.mean(axis=1))[:, None]),
+            "albedo": Block(np.array([[first.log_albedo.get(s, 0.0)] for s in range(len(self.views))])),
+            "centre": Block(fit.centres_C),
+            "bias": Block(np.array([[fit.bias_px[kind]] for kind in KINDS])),
+            "delta": Block(np.zeros((int(np.unique(samples.block).size), 1))),
+        }
+        return blocks | {f"led{mode}": Block(np.zeros((len(self.names), 3 * mode))) for mode in self.modes}
+
+    def terms(self, blocks: dict[str, Block], samples: Samples) -> list[Term]:
+        """Observations and priors."""
+        count, wings = len(self.names), self.wings
+        outlines = np.array(
+            [np.concatenate([m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel()]) for m in self.measured]
+        )
+        kinds = np.array([KINDS.index(view.kind) for view in self.views])
+        terms = [
+            prior("H_CD", blocks["H_CD"], wings.H_CD, wings.H_CD_covariance),
+            independent_prior("setting", settings_of(wings), wings.setting_sigma),
+            independent_prior("dome", np.tile(led_fit.DOME_M, (len(self.modes), 1)), led_fit.DOME_SIGMA_M),
+            independent_prior("roll", blocks["roll"].value, np.array([1.0])),
+            independent_prior("intensity", np.zeros((count, 1)), np.array([self.intensity_sd])),
+            independent_prior("albedo", blocks["albedo"].value, np.array([ALBEDO_SD])),
+            independent_prior("delta", np.zeros_like(blocks["delta"].value), np.array([TEXTURE_SD])),
+            independent_prior("bias", np.array([[BIAS_PX[kind][0]] for kind in KINDS]), np.array([[BIAS_PX[kind][1]] for kind in KINDS])),
+            Term(
+                compile_residual(residuals.outline, (3, 1), outlines.shape[1]),
+                ("centre", "bias"),
+                (np.arange(len(outlines)), kinds),
+                outlines,
+            ),
+        ]
+        for mode in self.modes:
+            cluster, rows = Cluster(mode), [k for k, leds in enumerate(self.leds) if leds == mode]
+            mean, covariance = led_fit.led_prior(count, mode)
+            terms.append(independent_prior(f"led{mode}", mean, np.sqrt(np.diag(covariance))))
+            terms += [term for term in (self._highlights(cluster, rows), self._shading(cluster, rows, samples)) if term is not None]
+        return terms
+
+    def _highlights(self, cluster: Cluster, rows: list[int]) -> Term | None:
+        seen = [
+            (s, light)
+            for s, view in enumerate(self.views)
+            for light in view.highlights_px
+            if light in self.names and self.names.index(light) in rows
+        ]
+        if not seen:
+            return None
+        light = np.array([self.names.index(name) for _, name in seen])
+        where = (light, self.wing[light], self.mode[light], np.array([s for s, _ in seen]))
+        return led_fit.highlights(cluster, where, highlight_data(self.views, seen, self.camera), ROBUST)
+
+    def _shading(self, cluster: Cluster, rows: list[int], samples: Samples) -> Term | None:
+        own = np.isin(samples.light, rows)
+        if not own.any():
+            return None
+        light, which = samples.light[own], samples.sphere[own]
+        block = np.unique(samples.block, return_inverse=True)[1][own]
+        radius = np.array([view.radius_m for view in self.views])[which]
+        scale = np.log(_axis_level(cluster))
+        target = samples.log_data[own] - samples.log_curve[own] + scale
+        data = np.column_stack([samples.ray_C[own], radius, target, 1 / np.hypot(samples.relative_sigma[own], MODEL_SD)])
+        return led_fit.shading(cluster, (light, self.wing[light], self.mode[light], which, which, block), data, ROBUST)
+
+    def lights_of(self, blocks: dict[str, Block]) -> list[Light]:
+        """The lights as they stand."""
+        return [self._light(k, blocks) for k in range(len(self.names))]
+
+    def _light(self, k: int, blocks: dict[str, Block]) -> Light:
+        mode = self.leds[k]
+        leds = _cluster_of(
+            Cluster(mode), blocks["dome"].value[self.mode[k]], float(blocks["roll"].value[k, 0]), blocks[f"led{mode}"].value[k]
+        )
+        H_CL = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])
+        source_L = np.array([0.0, 0.0, blocks["dome"].value[self.mode[k], 0]])
+        return Light(
+            name=self.names[k],
+            direction_C=-H_CL[:3, 2],
+            intensity=np.exp(blocks["intensity"].value[k]),
+            H_CL=H_CL,
+            source_C=se3.apply(H_CL, source_L[None])[0],
+            axis_C=H_CL[:3, 2],
+            lobe=Lobe("leds", exponent=leds.exponent, angle_rad=KNOTS_RAD, value=_mean_lobe(leds), leds=leds),
+        )
+
+    def result(self, solution: Solution, focus_C: Array) -> JointFit:
+        """The solution as lights, with the standard deviations that it gives."""
+        blocks = dict(solution.blocks)
+        lights = [self._with_direction(k, blocks, focus_C) for k in range(len(self.names))]
+        parts = ["H_CD", "setting", "dome", "roll", "intensity", *(f"led{mode}" for mode in self.modes)]
+        covariance = solution.covariance(*parts)
+        J = self._derivatives(blocks, parts, focus_C)
+        place, turn, level = J[:, :3], J[:, 3:6], J[:, 6]
+        level = level - level.mean(axis=0)
+        shading_terms = [place_ for place_, term in enumerate(solution.terms) if "delta" in term.blocks and len(term.blocks) > 1]
+        left = np.concatenate([solution.residuals[t][:, 0] / solution.terms[t].data[:, 5] for t in shading_terms])
+        which = np.concatenate([solution.terms[t].items(7) for t in shading_terms])
+        return JointFit(
+            lights=tuple(lights),
+            H_CD=solution["H_CD"][0],
+            settings=solution["setting"],
+            centres_C=solution["centre"],
+            bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
+            dome_m={mode: solution["dome"][k].tolist() for k, mode in enumerate(self.modes)},
+            highlight_px=self._misses(lights, solution["centre"]),
+            shading={self.views[s].name: float(np.sqrt(np.mean(left[which == s] ** 2))) for s in np.unique(which)},
+            position_std_m=np.sqrt(np.einsum("kij,jl,kil->k", place, covariance, place) / 3),
+            direction_std_rad=np.sqrt(np.einsum("kij,jl,kil->k", turn, covariance, turn) / 2),
+            intensity_std=np.sqrt(np.einsum("kj,jl,kl->k", level, covariance, level)),
+        )
+
+    def _with_direction(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Light:
+        light = self._light(k, blocks)
+        around = focus_C + 0.05 * np.array(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1])).reshape(3, -1).T
+        d_C, _ = light.field(around)
+        across = np.eye(3) - d_C[:, :, None] * d_C[:, None]
+        source_C = np.linalg.solve(across.sum(axis=0), np.sum(across @ around[:, :, None], axis=0)[:, 0])
+        return replace(light, direction_C=light.field(focus_C[None])[0][0], source_C=source_C)
+
+    def _derivatives(self, blocks: dict[str, Block], parts: list[str], focus_C: Array) -> Array:
+        """(L, 7, P): origin of H_CL, direction and log irradiance at the focus, by the parameters."""
+
+        def figures(trial: dict[str, Block]) -> Array:
+            rows = []
+            for light in self.lights_of(trial):
+                d_C, irradiance = light.field(focus_C[None])
+                assert light.H_CL is not None
+                rows.append([*light.H_CL[:3, 3], *d_C[0], float(np.log(irradiance[0, 0]))])
+            return np.array(rows)
+
+        now, columns = figures(blocks), []
+        for name in parts:
+            block = blocks[name]
+            for item in range(block.count):
+                for axis in range(block.size):
+                    step = np.zeros((block.count, block.size))
+                    step[item, axis] = STEP
+                    columns.append((figures(blocks | {name: block.moved(step)}) - now) / STEP)
+        return np.stack(columns, axis=-1)
+
+    def _misses(self, lights: Sequence[Light], centres_C: Array) -> dict[tuple[str, str], float]:
+        misses = {}
+        for s, view in enumerate(self.views):
+            for name, seen in view.highlights_px.items():
+                if name in self.names:
+                    light = lights[self.names.index(name)]
+                    assert light.source_C is not None
+                    P = sphere.mirror_point(centres_C[s], view.radius_m, light.source_C)
+                    misses[view.name, name] = float(np.linalg.norm(self.camera.project(P) - seen))
+        return misses
+
+
+def _axis_level(cluster: Cluster) -> float:
+    """Sum of the nominal LEDs' lobes on the axis: what makes the whole 1 there."""
+    return float(np.sum(np.maximum(cluster.axes[:, 2], 0.0) ** cluster.exponent))
+
+
+def _cluster_of(cluster: Cluster, dome: Array, roll: float, led: Array) -> LedCluster:
+    axes = cluster.axes_of(roll, led)
+    return LedCluster(np.array([0.0, 0.0, dome[0]]) + dome[1] * axes, axes, np.exp(led[::3]) / _axis_level(cluster), cluster.exponent)
+
+
+def _mean_lobe(leds: LedCluster) -> Array:
+    """Emission over the knots of the table, averaged over the roll, 1 on the axis."""
+    roll = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    sine, cosine = np.sin(KNOTS_RAD)[:, None], np.cos(KNOTS_RAD)[:, None]
+    direction = np.stack([sine * np.cos(roll), sine * np.sin(roll), np.broadcast_to(cosine, (len(KNOTS_RAD), len(roll)))], axis=-1)
+    emission = np.mean(np.maximum(direction @ leds.axis_L.T, 0.0) ** leds.exponent @ leds.power, axis=1)
+    return np.asarray(emission / emission[0])
