@@ -160,7 +160,7 @@ def _solution(workspace: Workspace, section: CameraSection, board: Board | None,
     camera = read_camera_file(path)
     if views.views and camera.image_size != views.image_size:
         raise DisagreementError(
-            f"a camera of {camera.image_size[0]}x{camera.image_size[1]} pixels; the images have {views.image_size[0]}x{views.image_size[1]}",
+            "a camera of {}x{} pixels; the images have {}x{}".format(*camera.image_size, *views.image_size),
             where=str(path),
             needed="the camera that took the images, at their size",
             todo="name the right file, or leave camera.cameramodel out to solve the camera anew",

@@ -58,13 +58,14 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
     problem = CornerProblem(board, views.image_size, corners_px)
     models = list(DISTORTIONS) if model == "auto" else [model]
-    chosen, tried = choose(problem, solve, models, [False, True] if board.warp else [False])
-    fit = solve(problem, chosen.model, chosen.warp)
+    chosen, tried = choose(problem, solve, models, board.warp)
+    fit, left_out = _solve_without_misfits(problem, solve, chosen)
+    found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     doubts = refuse_degenerate(fit)
     return CameraSolution(
         camera=fit.camera,
         points_B=fit.points_B,
-        views=_verdicts(views, found, fit),
+        views=_verdicts(views, found, misfits, fit),
         solver=name,
         corner_sigma_px=fit.sigma_px,
         evidence=_evidence(chosen, tried, fit, board),
@@ -128,21 +129,30 @@ def board_shape(views: BoardViews, board: Board, camera: Camera, H_CB: dict[str,
     return find_warp(problem, camera, np.stack([H_CB[view.image] for view in views.views if view.image in H_CB]))
 
 
-def _verdicts(views: BoardViews, found: Sequence[int], fit: CameraFit) -> tuple[ViewVerdict, ...]:
+def _solve_without_misfits(problem: CornerProblem, solve: Solver, chosen: Candidate) -> tuple[CameraFit, dict[int, str]]:
+    """The fit, and the rows of views that were left out of it because most of their corners do not fit."""
+    fit = solve(problem, chosen.model, chosen.warp)
+    seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
+    rejected = seen - fit.inlier.sum(axis=1)
+    bad = rejected > WORST_SHARE * seen
+    if bad.any() and (~bad).sum() >= FEWEST_VIEWS:
+        fit = solve(problem.part(~bad), chosen.model, chosen.warp)
+    else:
+        bad[:] = False
+    return fit, {int(row): f"{rejected[row]} of {seen[row]} corners do not fit" for row in np.flatnonzero(bad)}
+
+
+def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], fit: CameraFit) -> tuple[ViewVerdict, ...]:
     rows = {index: row for row, index in enumerate(found)}
     verdicts = []
     for index, view in enumerate(views.views):
         if index not in rows:
-            verdicts.append(ViewVerdict(view.image, used=False, why=view.why))
+            verdicts.append(ViewVerdict(view.image, used=False, why=misfits.get(index, view.why)))
             continue
         inlier, residual_px = fit.inlier[rows[index]], fit.residual_px[rows[index]]
-        seen = int(np.isfinite(residual_px).all(axis=-1).sum())
-        rejected = seen - int(inlier.sum())
-        used = rejected <= WORST_SHARE * seen
-        why = None if used else f"{rejected} of {seen} corners do not fit"
-        verdicts.append(
-            ViewVerdict(view.image, used, why, residual_px=rms(residual_px, inlier), corners=int(inlier.sum()), rejected=rejected)
-        )
+        used = int(inlier.sum())
+        rejected = int(np.isfinite(residual_px).all(axis=-1).sum()) - used
+        verdicts.append(ViewVerdict(view.image, used=True, why=None, residual_px=rms(residual_px, inlier), corners=used, rejected=rejected))
     return tuple(verdicts)
 
 

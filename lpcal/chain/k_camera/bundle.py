@@ -28,6 +28,8 @@ PRECISION = 1e-9
 PRIOR_COEFFICIENT = 1.0
 """One standard deviation of k3 to k6, in units in which a corner's is PRIOR_PX."""
 PRIOR_PX = 0.1
+EMPTY = 1e-9
+"""Holds the pose of a view all of whose corners were rejected."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +176,8 @@ def _normal(bundle: Bundle, state: Unknowns, inlier: Mask) -> _System:
     At, Bt = np.swapaxes(A, 1, 2), np.swapaxes(B, 1, 2)
     shared, right = (At @ A).sum(axis=0), (At @ r[..., None]).sum(axis=0)[:, 0]
     weight, value = _prior(bundle, state)
-    return shared + np.diag(weight), At @ B, Bt @ B, right - weight * value, (Bt @ r[..., None])[..., 0]
+    poses = Bt @ B + EMPTY * np.eye(6)
+    return shared + np.diag(weight), At @ B, poses, right - weight * value, (Bt @ r[..., None])[..., 0]
 
 
 def _prior(bundle: Bundle, state: Unknowns) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ Source: cross-validation as in mrcal's documentation.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,18 +42,34 @@ class Candidate:
         return DISTORTIONS.get(self.model, 99) + 2 * self.warp
 
 
-def choose(problem: CornerProblem, solver: Solver, models: Iterable[str], warps: Iterable[bool]) -> tuple[Candidate, list[Candidate]]:
-    """The candidate to take, and all of them with their scores."""
-    candidates = [Candidate(model, warp, float("nan")) for model in models for warp in warps]
-    if len(candidates) == 1 or len(problem.corners_px) < FEWEST_VIEWS:
-        return candidates[0], candidates
+def choose(problem: CornerProblem, solver: Solver, models: Sequence[str], may_warp: bool) -> tuple[Candidate, list[Candidate]]:
+    """The candidate to take, and all that were tried with their scores.
+
+    The lens is chosen first, on a board as free as it may be; then whether the board is bowed, with that lens.
+    """
+    simplest = Candidate(models[0], False, float("nan"))
+    if len(problem.corners_px) < FEWEST_VIEWS or (len(models) == 1 and not may_warp):
+        return simplest, [simplest]
     pixels = covered_pixels(problem)
-    tried = [Candidate(c.model, c.warp, cross_validate(problem, solver, c.model, c.warp, pixels)) for c in candidates]
-    chosen = min(tried, key=lambda c: c.parameters)
-    for candidate in sorted(tried, key=lambda c: c.parameters):
-        if candidate.score_px < chosen.score_px * (MARGIN if candidate.parameters > chosen.parameters else 1.0):
+
+    def tried(model: str, warp: bool) -> Candidate:
+        return Candidate(model, warp, cross_validate(problem, solver, model, warp, pixels))
+
+    lenses = [tried(model, may_warp) for model in models]
+    lens = _better(lenses)
+    if not may_warp:
+        return lens, lenses
+    boards = [tried(lens.model, False), lens]
+    return _better(boards), [boards[0], *lenses]
+
+
+def _better(candidates: Sequence[Candidate]) -> Candidate:
+    """The least score, but more parameters must earn themselves."""
+    chosen, *others = sorted(candidates, key=lambda c: c.parameters)
+    for candidate in others:
+        if candidate.score_px < MARGIN * chosen.score_px:
             chosen = candidate
-    return chosen, tried
+    return chosen
 
 
 def cross_validate(problem: CornerProblem, solver: Solver, model: str, warp: bool, pixels: Array) -> float:
