@@ -33,6 +33,7 @@ ROUGHLY, FINELY = 1e-3, 1e-5
 """Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 ROBUST = 3.0
+LEAST_WEIGHT = 1e-6
 SPREAD = 6.0
 """C is no less than this many medians of the residuals."""
 
@@ -44,6 +45,8 @@ class Grid:
     a: Indices
     b: Indices
     horizontal: Mask
+    rows: Indices
+    columns: Indices
     prolongations: list[Any]
 
     @staticmethod
@@ -54,8 +57,8 @@ class Grid:
         across, down = mask[:, :-1] & mask[:, 1:], mask[:-1] & mask[1:]
         a = np.concatenate([number[:, :-1][across], number[:-1][down]])
         b = np.concatenate([number[:, 1:][across], number[1:][down]])
-        rows, columns = np.nonzero(mask)
-        return Grid(a, b, np.arange(len(a)) < across.sum(), multigrid.aggregates(rows.astype(np.int64), columns.astype(np.int64)))
+        rows, columns = (index.astype(np.int64) for index in np.nonzero(mask))
+        return Grid(a, b, np.arange(len(a)) < across.sum(), rows, columns, multigrid.aggregates(rows, columns))
 
 
 @dataclass(frozen=True)
@@ -91,14 +94,21 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
     return u, weight
 
 
+def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
+    """u (P,) with the weights (edges,) as they are."""
+    A, right = _system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    return multigrid.solve(A, right, start, grid.prolongations, precision=FINELY)
+
+
 def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     """Of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
     scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
-    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + 1e-6)
+    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)
 
 
 def _system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:
+    """Matrix and right side of the normal equations."""
     from scipy import sparse
 
     a, b, count = grid.a, grid.b, len(curvature)

@@ -6,31 +6,39 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface import multigrid
-from lpcal.surface.integrate import Grid
+from lpcal.surface.integrate import LEAST_WEIGHT, Grid
+from lpcal.surface.sight import Indices
 
 BREAK_WEIGHT = 0.02
 SMALLEST_SHARE = 0.02
+SLIVER_PX = 4
 SMALLEST_PIXELS = 60
-KNOWN = 1e3
+FAINT = 1e-6
 
 
 def fill(grid: Grid, values: Array, known: Mask) -> Array:
-    """Values (P, C), those not known (P,) taken from their neighbours in the mask as a soap film would."""
+    """Values (P, C), those not known (P,) taken from their neighbours in the mask as a soap film would; 0 where none is near."""
     from scipy import sparse
 
     if known.all() or not known.any():
         return np.nan_to_num(values)
-    a, b, count = grid.a, grid.b, len(values)
-    ones = np.ones(len(a))
-    hold = np.where(known, KNOWN, 1e-6)
-    diagonal = hold + np.bincount(a, ones, count) + np.bincount(b, ones, count)
-    every = np.arange(count)
-    A = sparse.csr_array(
-        (np.concatenate([diagonal, -ones, -ones]), (np.concatenate([every, a, b]), np.concatenate([every, b, a]))), shape=(count, count)
-    )
-    clean = np.where(known[:, None], values, values[known].mean(axis=0))
-    found = [multigrid.solve(A, hold * column, column, grid.prolongations, precision=1e-3) for column in clean.T]
-    return np.where(known[:, None], values, np.stack(found, axis=1))
+    unknown = np.flatnonzero(~known)
+    number = np.full(len(values), -1, np.int64)
+    number[unknown] = np.arange(len(unknown))
+    both = np.concatenate([np.stack([grid.a, grid.b]), np.stack([grid.b, grid.a])], axis=1)
+    here, there = number[both[0]], both[1]
+    here, there = here[here >= 0], there[here >= 0]
+    inner = number[there] >= 0
+    neighbours = np.bincount(here, minlength=len(unknown))
+    links = sparse.coo_array((np.ones(inner.sum()), (here[inner], number[there[inner]])), shape=(len(unknown), len(unknown)))
+    A = (sparse.diags_array(neighbours + FAINT) - links).tocsr()
+    prolongations = multigrid.aggregates(grid.rows[unknown], grid.columns[unknown])
+    found = np.where(known[:, None], values, 0.0)
+    for channel in range(values.shape[1]):
+        right = np.bincount(here[~inner], values[there[~inner], channel], len(unknown))
+        start = np.full(len(unknown), values[known, channel].mean())
+        found[unknown, channel] = multigrid.solve(A, right, start, prolongations, precision=1e-4)
+    return found
 
 
 def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
@@ -45,18 +53,55 @@ def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
     """Labels (P,) from 1, the largest first, of what hangs together over edges that are no breaks; crumbs join the nearest piece."""
-    from scipy import ndimage, sparse
+    label = _connected(grid, weight, mask)
+    size = np.bincount(label)
+    smallest = max(SMALLEST_PIXELS, SMALLEST_SHARE * len(label))
+    return _joined(label, np.flatnonzero(size >= smallest), mask)
+
+
+def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
+    """The weights (edges,) with slivers joined to the piece that is nearest to each of their pixels.
+
+    A jump between two pieces may have been taken in two: a strip of a few pixels is left in between, that belongs half to either.
+    """
+    from scipy import ndimage
+
+    label = _connected(grid, weight, mask)
+    kept = []
+    for one in np.flatnonzero(np.bincount(label) > SLIVER_PX**2):
+        place = np.zeros(mask.shape, bool)
+        place[mask] = label == one
+        rows, columns = np.nonzero(place)
+        close = place[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+        if ndimage.binary_erosion(close, iterations=SLIVER_PX // 2).any():
+            kept.append(one)
+    if not kept:
+        return weight
+    joined = _joined(label, np.array(kept), mask)
+    sliver = ~np.isin(label, kept)
+    touched = sliver[grid.a] | sliver[grid.b]
+    same = joined[grid.a] == joined[grid.b]
+    return np.where(touched, np.where(same, 1.0, LEAST_WEIGHT), weight)
+
+
+def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
+    """A label (P,) for each set of pixels that hang together over edges that are no breaks."""
+    from scipy import sparse
     from scipy.sparse.csgraph import connected_components
 
-    count = int(mask.sum())
     whole = weight > BREAK_WEIGHT
-    links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(count, count))
-    _, label = connected_components(links, directed=False)
+    links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(int(mask.sum()), int(mask.sum())))
+    return np.asarray(connected_components(links, directed=False)[1], np.int64)
+
+
+def _joined(label: Indices, kept: Indices, mask: Mask) -> Labels:
+    """Labels (P,) from 1, the largest of `kept` first; pixels of the others take that of the nearest kept pixel."""
+    from scipy import ndimage
+
     size = np.bincount(label)
-    order = np.argsort(-size)
-    kept = [one for one in order[:255] if size[one] >= max(SMALLEST_PIXELS, SMALLEST_SHARE * count)] or [order[0]]
+    order = sorted(kept, key=lambda one: -size[one])[:255] or [int(np.argmax(size))]
     rank = np.zeros(len(size), np.uint8)
-    rank[kept] = np.arange(1, len(kept) + 1)
+    rank[order] = np.arange(1, len(order) + 1)
     labels = np.zeros(mask.shape, np.uint8)
     labels[mask] = rank[label]
     nearest = ndimage.distance_transform_edt(labels == 0, return_distances=False, return_indices=True)

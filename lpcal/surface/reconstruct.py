@@ -19,7 +19,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
 from lpcal.surface import bend, distance, gloss, mask, normals, pieces, sight, uncertainty
-from lpcal.surface.integrate import Grid, Own, integrate, steps
+from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
 
@@ -165,6 +165,8 @@ def _round(scene: Scene, u: Array, before: State | None, k: int) -> State:
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     own = distance.own_distance(scene.B_at, depth, seen, found) if scene.near else Own(np.full(seen.pixels, distance.WEAK), u)
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
+    weight = pieces.without_slivers(grid, weight, seen.mask)
+    u = settle(grid, step, sigma, own, u, weight)
     return State(u, weight, n, found, own, shine)
 
 
