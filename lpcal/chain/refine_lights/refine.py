@@ -64,6 +64,7 @@ def refine(
     joint = fit_jointly(fit, shading, samples, kept, [m for _, m in used], camera, wings, focus_C, intensity_sd)
     found = _with_leds(joint, shading)
     focus_C = _nearest_to_axes(np.array([light.H_CL for light in found]))
+    found = [replace(light, direction_C=light.field(focus_C[None])[0][0]) for light in found]
     return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings, joint)
 
 
