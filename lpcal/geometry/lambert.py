@@ -28,24 +28,49 @@ def weighted(B: Array, signal: Array, weight: Array) -> tuple[Array, Array]:
 
 def inverse_3x3(M: Array) -> Array:
     """Inverse (P, 3, 3) of symmetric matrices M (P, 3, 3), by cofactors; NaN where singular."""
-    cofactors = np.stack([np.cross(M[:, 1], M[:, 2]), np.cross(M[:, 2], M[:, 0]), np.cross(M[:, 0], M[:, 1])], axis=1)
-    determinant = np.einsum("pi,pi->p", M[:, 0], cofactors[:, 0])
+    cofactors = np.stack([cross(M[:, 1], M[:, 2]), cross(M[:, 2], M[:, 0]), cross(M[:, 0], M[:, 1])], axis=1)
+    determinant = dot(M[:, 0], cofactors[:, 0])
     scale = np.trace(M, axis1=1, axis2=2) ** 3
     determinant = np.where(determinant > SINGULAR * scale, determinant, np.nan)
     return np.asarray(cofactors / determinant[:, None, None])
 
 
-def three_lights(B: Array, signal: Array) -> Array:
-    """b (P, 3) of exactly three lights B (3, P, 3) with their signals (3, P); huge where the lights are nearly in a plane."""
-    crossed = np.stack([np.cross(B[1], B[2]), np.cross(B[2], B[0]), np.cross(B[0], B[1])])
-    determinant = np.einsum("pi,pi->p", B[0], crossed[0])
-    determinant = np.where(np.abs(determinant) > SINGULAR * np.linalg.norm(B, axis=2).prod(axis=0), determinant, np.nan)
-    return np.asarray(np.einsum("kpi,kp->pi", crossed, signal) / determinant[:, None])
+def three_lights(B: Array, signal: Array, crossed: dict[tuple[int, int], Array], three: tuple[int, int, int]) -> Array:
+    """b (P, 3) of exactly three of the lights B (L, P, 3), i < j < k, with their signals (L, P); NaN where they lie in a plane.
+
+    `crossed` holds the products ``B_i x B_j`` of all pairs i < j (see `crosses`).
+    """
+    i, j, k = three
+    determinant = dot(B[k], crossed[i, j])
+    size = np.sqrt(dot(B[i], B[i]) * dot(B[j], B[j]) * dot(B[k], B[k]))
+    factor = 1 / np.where(np.abs(determinant) > SINGULAR * size, determinant, np.nan)
+    return np.asarray(
+        (signal[i] * factor)[:, None] * crossed[j, k]
+        - (signal[j] * factor)[:, None] * crossed[i, k]
+        + (signal[k] * factor)[:, None] * crossed[i, j]
+    )
+
+
+def crosses(B: Array) -> dict[tuple[int, int], Array]:
+    """``B_i x B_j`` (P, 3) of all pairs i < j of lights B (L, P, 3)."""
+    return {(i, j): cross(B[i], B[j]) for j in range(len(B)) for i in range(j)}
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Cross product (P, 3), faster than numpy's own."""
+    return np.stack(
+        [a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1], a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2], a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]], axis=1
+    )
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Dot product (...) over the last axis of three."""
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
 
 
 def predicted(B: Array, b: Array) -> Array:
     """Signals (L, P) of b (P, 3); 0 where a surface turns away from the light."""
-    return np.asarray(np.maximum(np.einsum("kpi,pi->kp", B, b), 0.0))
+    return np.maximum(dot(B, b), 0.0)
 
 
 def unit(b: Array) -> tuple[Array, Array]:

@@ -21,14 +21,16 @@ from lpcal.surface import normals
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
 
-SAMPLE = 1500
-ROUGHNESSES = (0.08, 0.13, 0.2, 0.32, 0.5)
+SAMPLE = 900
+ROUGHNESSES = (0.08, 0.15, 0.3)
 STRENGTHS = (0.003, 0.01, 0.03, 0.1)
 """Of ks, by the object's median albedo."""
 KEPT_BELOW = 0.75
 """Of the cost without gloss."""
 ROUNDS = 3
-TRIAL_STEPS = 40
+TRIAL_STEPS = 30
+CLEAN = 0.25
+"""A cost this low without gloss leaves nothing for it to explain."""
 
 
 @dataclass(frozen=True)
@@ -66,8 +68,8 @@ def estimate(seen: Sight, d: Array, E: Array, usable: Mask, gloss: Gloss, start:
     return found
 
 
-def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate) -> Gloss | None:
-    """The lobe of the object, None where it has none to speak of."""
+def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate, before: Gloss | None = None) -> Gloss | None:
+    """The lobe of the object, None where it has none to speak of; the search begins from the one `before`."""
     from scipy import optimize
 
     known = np.flatnonzero(np.isfinite(start.b[:, 0]))
@@ -80,12 +82,15 @@ def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate) -> Gloss
     albedo = float(np.median(np.linalg.norm(begin.b, axis=1)))
     plain = _cost(sample, d, E, usable, normals.estimate(sample, d * E[..., None], usable, normals.variances(sample)))
 
+    if plain < CLEAN:
+        return None
+
     def cost(x: Array) -> float:
         trial = Gloss(albedo * float(np.exp(x[0])), float(np.clip(np.exp(x[1]), 0.03, 1.0)), 1.0)
         return _cost(sample, d, E, usable, estimate(sample, d, E, usable, trial, begin))
 
     trials = [np.log([strength, roughness]) for strength in STRENGTHS for roughness in ROUGHNESSES]
-    best = min(trials, key=cost)
+    best = min(trials, key=cost) if before is None else np.log([before.ks / albedo, before.roughness])
     if cost(best) > plain:
         return None
     simplex = best + np.array([[0, 0], [0.5, 0], [0, 0.25]])

@@ -111,14 +111,13 @@ def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Arra
 def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
     """b (P, 3) of the three lights whose proposal the other candidates contradict least."""
     best, least = np.full(B.shape[1:], np.nan), np.full(B.shape[1], np.inf)
+    crossed, weight = lambert.crosses(B), usable / variance
     for three in combinations(range(len(B)), 3):
-        index = list(three)
-        at = np.flatnonzero(usable[index].all(axis=0))
-        b = lambert.three_lights(B[index][:, at], signal[index][:, at])
-        square = _square_residual(signal[:, at], B[:, at], b, variance[:, at])
-        cost = np.sum(np.minimum(square, OUTLIER**2) * usable[:, at], axis=0)
-        better = cost < least[at]
-        best[at[better]], least[at[better]] = b[better], cost[better]
+        b = lambert.three_lights(B, signal, crossed, three)
+        square = weight * (signal - lambert.predicted(B, b)) ** 2
+        cost = np.where(usable[list(three)].all(axis=0), np.minimum(square, OUTLIER**2).sum(axis=0), np.inf)
+        better = cost < least  # False where b is NaN
+        best[better], least[better] = b[better], cost[better]
     return best
 
 

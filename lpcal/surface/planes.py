@@ -22,7 +22,7 @@ SHADE = 0.5
 """A signal under this share of what the second highest foretells is in shadow."""
 WEAK = 0.1
 """A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
-FIT_PIXELS = 1200
+FIT_PIXELS = 700
 SPAN = (0.55, 3.5)
 """Of the working distance: where planes are looked for."""
 TILTS = ((0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0))
@@ -95,8 +95,8 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
         for share in np.geomspace(nearest, furthest, 14)
         for sx, sy in (TILTS if tilted else TILTS[:1])
     ]
-    best = sorted(starts, key=robust)[:3]
-    found = [optimize.least_squares(cost, q, loss="cauchy", method="trf", x_scale=np.array([1.0, 1.0, 1.0]), max_nfev=40) for q in best]
+    best = sorted(starts, key=robust)[:2]
+    found = [optimize.least_squares(cost, q, loss="cauchy", max_nfev=25) for q in best]
     q = np.asarray(min(found, key=lambda one: one.cost).x)
     return Plane(q, float(np.sqrt(np.median(misfit(some, foretold(q, some.rays_C, lights), shaded=False)[0]))))
 

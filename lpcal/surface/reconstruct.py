@@ -7,7 +7,7 @@ that is given or designed.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -24,10 +24,12 @@ from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
 
 ROUNDS = 5
-GLOSS_ROUNDS = (1, 2, 3)
+GLOSS_ROUNDS = (1, 3)
 FEWEST_PIXELS = 50
 AGREE_DEG = 2.0
 """A measured normal and that of the depth are averaged where they agree this well."""
+STATED_DISTANCE = 0.003
+"""Relative standard deviation of a distance that the user states."""
 UNKNOWN_DISTANCE = 0.5
 """Relative standard deviation of a distance that nothing tells."""
 DISTANCE_M = 0.35
@@ -71,6 +73,8 @@ class Scene:
     lights: tuple[Light, ...]
     focus_C: Array | None
     """Where lights act as they do there; None: they are near."""
+    distance_m: float | None = None
+    """Median depth of the largest piece, where it is known."""
 
     @property
     def near(self) -> bool:
@@ -107,8 +111,10 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     object_mask = _object(background, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C)
-    return _surface(radiance, scene, _rounds(scene, float(begin), progress), rays_C)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m)
+    how = background.how if background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
+    surface = _surface(radiance, scene, _rounds(scene, float(begin), progress), rays_C)
+    return replace(surface, figures={"mask": how, **surface.figures})
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
@@ -150,7 +156,7 @@ def _round(scene: Scene, u: Array, before: State | None, k: int) -> State:
     found = normals.estimate(seen, d * E[..., None], usable, normals.variances(seen))
     shine = before.gloss if before else None
     if k in GLOSS_ROUNDS or not scene.near:
-        shine = gloss.fit(seen, d, E, usable, found)
+        shine = gloss.fit(seen, d, E, usable, found, shine)
     if shine is not None:
         found = gloss.estimate(seen, d, E, usable, shine, found)
     known = np.isfinite(found.b[:, 0])
@@ -167,6 +173,9 @@ def _round(scene: Scene, u: Array, before: State | None, k: int) -> State:
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
     weight = pieces.without_slivers(grid, weight, seen.mask)
     u = settle(grid, step, sigma, own, u, weight)
+    if scene.distance_m is not None and seen.central:
+        largest = pieces.pieces(grid, weight, seen.mask) == 1
+        u = u + np.log(scene.distance_m) - np.median(u[largest])
     return State(u, weight, n, found, own, shine)
 
 
@@ -213,7 +222,9 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
         middle = float(depth[inside].mean())
         shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
         curvature = float(state.own.curvature[inside].sum())
-        if scene.near:
+        if scene.distance_m is not None and one == 1:
+            std = STATED_DISTANCE
+        elif scene.near:
             std = uncertainty.scale_std(scene.lights, curvature, middle, glossy=state.gloss is not None, shaded_share=shaded)
         else:
             std = UNKNOWN_DISTANCE
