@@ -232,7 +232,7 @@ def _settle(state: _State, t_camera_s: Array | None) -> _State:
             state = replace(state, clock=False)
         found = estimate(views, state.camera, state.sigmas, state.found or state.start, clock=state.clock, options=HASTE)
         sigmas = variance.components(views, found, state.sigmas)
-        moved = variance.change(state.sigmas, sigmas)
+        moved, inliers = variance.change(state.sigmas, sigmas), state.inliers
         state = replace(state, found=found, sigmas=sigmas)
         if state.clock and _clock_unseen(found):
             state = replace(state, clock=False)
@@ -240,9 +240,9 @@ def _settle(state: _State, t_camera_s: Array | None) -> _State:
             offset = state.offset_s + found.d_offset_s
             panel = poses_at(state.track, t_camera_s - offset)
             state = replace(state, offset_s=offset, panel=panel, inliers=state.inliers & panel.trusted)
-        if moved < SETTLED and abs(found.d_offset_s) < SETTLED_S:
+        if moved < SETTLED and abs(found.d_offset_s) < SETTLED_S and np.array_equal(inliers, state.inliers):
             return state
-    if moved > 10 * SETTLED or abs(found.d_offset_s) > 1e-4:
+    if moved > 10 * SETTLED or abs(found.d_offset_s) > 1e-4 or not np.array_equal(inliers, state.inliers):
         raise ConvergenceError(
             f"the hand-eye solve does not settle after {ROUNDS} rounds", needed="data of one rigid camera", todo="look at: lpcal check"
         )

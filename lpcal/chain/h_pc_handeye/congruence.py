@@ -1,0 +1,213 @@
+r"""What is wrong with the data, told before any solve from whether the motions of body and camera can be one rigid motion.
+
+Symbols: relative motions A_ij of the body and B_ij of the camera are one screw, seen in P and in C: equal angle and equal pitch. Data
+that were inverted, reordered or mirrored on the way break this in ways of their own; each is undone in turn, and the one after which the
+boards of all views coincide is named::
+
+    inverted H_PO for H_OP       H_OP <- inv(H_OP)             quaternion order     components of R turned round by one
+    mirrored                     M H_OP M, or the origin alone units, board's size  the ratio of the pitches
+    pairing shifted              view k with pose k + s
+
+Both streams inverted fit as well as the right ones: then H_PC and H_OB have changed roles, which only their size betrays.
+Source: screw congruence, Chen, A screw motion approach to uniqueness analysis of head-eye geometry (1991); the table was measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DisagreementError
+from lpcal.geometry import park, se3
+from lpcal.geometry.arrays import Array
+
+FITS = 0.03
+"""Misplacement of the board, as a share of its distance, up to which data count as one rigid motion; real ones leave 0.002 to 0.012."""
+MENDS = 0.35
+"""A cure counts where it lessens the misplacement to this share."""
+MAJORITY = 0.6
+SCALE_TOLERANCE = 0.2
+BOARD_OFF, BOARD_SIGMAS = 0.004, 4.0
+FAR_M = 1.0
+ALIKE = 3.0
+NEARER = 0.7
+MOST_VIEWS = 60
+SHIFTS = (1, -1, 2, -2, 3, -3)
+UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm", 1 / 25.4: "1/inches"}
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """One thing that is wrong, and the key or command that mends it."""
+
+    found: str
+    todo: str
+    misplaced: float
+    """Misplacement of the board over its distance, as the data stand."""
+    cured: float
+    """The same after the cure."""
+    reach_m: float
+    """Distance of the camera from the body's origin after the cure."""
+
+    def better_than(self, other: Diagnosis | None) -> bool:
+        """Whether the cure is to be preferred: it fits better, or as well and with the camera nearer to the body.
+
+        Inverting the mocap's or the board's poses mends the same mistake; only one leaves the camera near the body.
+        """
+        if other is None or self.cured < other.cured / ALIKE:
+            return True
+        return self.cured < other.cured * ALIKE and self.reach_m < NEARER * other.reach_m
+
+
+def misplacement(H_OP: Array, H_CB: Array) -> tuple[float, park.Consensus]:
+    """Median misplacement of the board over its distance, and the closed form that leaves it."""
+    agreed = park.consensus(H_OP, H_CB)
+    return agreed.scatter_m / float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1))), agreed
+
+
+def fits(H_OP: Array, H_CB: Array, agreed: park.Consensus) -> bool:
+    """Whether a closed form explains most views."""
+    distance = float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1)))
+    scale, _ = park.board_scale(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
+    right_size = len(H_OP) < 8 or abs(np.log(max(abs(scale), 1e-9))) < SCALE_TOLERANCE
+    return agreed.scatter_m < FITS * distance and right_size
+
+
+def diagnose(H_OP: Array, H_CB: Array, *, from_images: bool = True) -> Diagnosis | None:
+    """The likeliest thing wrong with panel poses H_OP (N, 4, 4) and board poses H_CB (N, 4, 4).
+
+    None where they are one rigid motion, or where nothing that is known mends them. `from_images`: lpcal found the boards itself, so that
+    they are not inverted.
+    """
+    before, agreed = misplacement(H_OP, H_CB)
+    if fits(H_OP, H_CB, agreed):
+        return None
+    some = np.linspace(0, len(H_OP) - 1, min(len(H_OP), MOST_VIEWS)).astype(int)
+    best: Diagnosis | None = None
+    for found, todo, poses, boards in _cures(H_OP[some], H_CB[some], in_order=len(some) == len(H_OP), from_images=from_images):
+        scaled = poses.copy()
+        scale = _scale(poses, boards)
+        if not np.isfinite(scale):
+            continue
+        scaled[:, :3, 3] /= scale
+        cured, agreed = misplacement(scaled, boards)
+        plain = abs(np.log(scale)) < SCALE_TOLERANCE
+        if found is None and plain:
+            continue
+        words = found if plain else _with_scale(found, scale)
+        if cured < min(MENDS * before, FITS):
+            reach = float(np.linalg.norm(agreed.H_PC[:3, 3]))
+            named = Diagnosis(words or "", todo if plain and todo else _scale_todo(scale, todo), before, cured, reach)
+            best = named if named.better_than(best) else best
+    return best
+
+
+def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: bool = True) -> None:
+    """Stop where the data are no rigid motion; `agreed` is their closed form.
+
+    Raises
+    ------
+    DisagreementError
+        With what is wrong and the key that mends it, where that is known.
+    """
+    if fits(H_OP, H_CB, agreed):
+        return
+    before = agreed.scatter_m / float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1)))
+    named = diagnose(H_OP, H_CB, from_images=from_images)
+    distance = 1e3 * float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1)))
+    if named is None:
+        raise DisagreementError(
+            f"body and camera do not move as one rigid thing: the board is misplaced by {before * distance:.0f} mm",
+            needed="a camera fixed to the tracked body, a board that stays put, poses that belong to the images",
+            todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
+        )
+    raise DisagreementError(
+        f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once mended)",
+        needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
+        todo=named.todo,
+    )
+
+
+def board_size_warning(H_OP: Array, H_CB: Array, R_PC: Array) -> str | None:
+    """In words, where the mocap finds the board another size than it was said to have."""
+    scale, sigma = park.board_scale(H_OP, H_CB, R_PC)
+    off = abs(scale - 1)
+    if sigma > BOARD_OFF or off < BOARD_OFF or off < BOARD_SIGMAS * sigma:
+        return None
+    return (
+        f"the mocap measures the board as {100 * scale:.2f} +- {100 * sigma:.2f} % of its stated size: measure board.square again with a "
+        "ruler over many squares (or the mocap's own scale is off)"
+    )
+
+
+def swapped_roles_warning(H_PC: Array, H_OB: Array) -> str | None:
+    """In words, where H_PC is as large as a room."""
+    far = float(np.linalg.norm(H_PC[:3, 3]))
+    if far < FAR_M:
+        return None
+    return (
+        f"the camera is {far:.2f} m from the body's origin: if it is not, both streams are inverted and H_PC and H_OB have changed roles "
+        f"(the other one is {np.linalg.norm(H_OB[:3, 3]):.2f} m long); then turn round both mocap.direction and the board poses' direction"
+    )
+
+
+def _scale(H_OP: Array, H_CB: Array) -> float:
+    """Size of the board by the mocap over its stated size; NaN where there is no sense in it."""
+    agreed = park.consensus_of_rotations(H_OP, H_CB)
+    if agreed is None:
+        return float("nan")
+    R_PC, inliers = agreed
+    scale, _ = park.board_scale(H_OP[inliers], H_CB[inliers], R_PC)
+    return scale if scale > 1e-5 else float("nan")
+
+
+def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> Iterator[tuple[str | None, str, Array, Array]]:
+    """What might have gone wrong, what to do, and the data with it undone."""
+    yield None, "", H_OP, H_CB
+    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO)"
+    yield "the mocap poses are inverted: they take room to body", todo, se3.inv(H_OP), H_CB
+    if not from_images:
+        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC)"
+        yield "the board poses are inverted", todo, H_OP, se3.inv(H_CB)
+    q = se3.quaternion(H_OP[:, :3, :3])
+    for order, place, other in (("w, x, y, z", [1, 2, 3, 0], "wxyz"), ("x, y, z, w", [3, 0, 1, 2], "xyzw")):
+        H = H_OP.copy()
+        H[:, :3, :3] = se3.rotation_from_quaternion(q[:, place])
+        words = f"the quaternions are in another order: they are {order}"
+        yield words, f"write mocap.quaternion: {other}", H, H_CB
+        yield f"{words}, and the poses are inverted", f"write mocap.quaternion: {other} and mocap.direction: H_PO", se3.inv(H), H_CB
+    todo = "export the recording anew in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
+    for axis in range(3):
+        mirror = np.eye(4)
+        mirror[axis, axis] = -1
+        H = H_OP.copy()
+        H[:, axis, 3] *= -1
+        yield f"the positions are mirrored along {'xyz'[axis]}: the recording is left-handed", todo, H, H_CB
+    mirror = np.diag([1.0, -1.0, 1.0, 1.0])
+    yield "the poses are mirrored: the recording is left-handed", todo, mirror @ H_OP @ mirror, H_CB
+    for shift in SHIFTS if in_order else ():
+        poses, boards = (H_OP[shift:], H_CB[:-shift]) if shift > 0 else (H_OP[:shift], H_CB[-shift:])
+        if len(poses) >= 6:
+            words = f"the pairing is shifted by {abs(shift)}: view k belongs to the pose of view k{shift:+d}"
+            yield words, "correct the images' names or times: mocap.poses or mocap.images", poses, boards
+
+
+def _with_scale(found: str | None, scale: float) -> str:
+    unit = next((name for size, name in UNITS.items() if abs(scale / size - 1) < 0.1), None)
+    if unit and not unit.startswith("1/"):
+        words = f"the mocap's lengths are in {unit}, not in metres, or the board's square is stated {scale:.0f} times too small"
+    else:
+        words = (
+            f"the board's size is stated {1 / scale:.3g} times what the mocap measures"
+            if scale < 1
+            else (f"the mocap's lengths are {scale:.3g} times what the board says")
+        )
+    return words if found is None else f"{found}; and {words}"
+
+
+def _scale_todo(scale: float, todo: str) -> str:
+    unit = next((name for size, name in UNITS.items() if abs(scale / size - 1) < 0.1), None)
+    key = f"write mocap.units: {unit}" if unit in {"mm", "cm"} else "correct board.square, or mocap.units"
+    return f"{todo}; {key}" if todo else key
