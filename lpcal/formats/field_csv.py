@@ -53,3 +53,30 @@ def write_field(path: Path, x_C: Array, fields: Mapping[str, tuple[Array, Array]
         for light, (d_C, irradiance) in fields.items():
             for point, d, level in zip(x_C, d_C, irradiance.mean(axis=1), strict=True):
                 writer.writerow([light, *(f"{value:.9g}" for value in (*point, *d, level))])
+
+
+def read_field(path: Path) -> tuple[Array, dict[str, tuple[Array, Array]]]:
+    """The points (N, 3) of a FIELD.csv, and by light the unit vectors (N, 3) and irradiances (N,) there; every light at the same points.
+
+    Raises
+    ------
+    InputError
+        Not there, or lines that do not fit.
+    """
+    if not path.is_file():
+        raise InputError("no such file", where=str(path), needed="a csv that lpcal field wrote")
+    rows: dict[str, list[list[float]]] = {}
+    with path.open(encoding="utf-8-sig", newline="") as stream:
+        reader = csv.DictReader(stream)
+        try:
+            for row in reader:
+                rows.setdefault(row["light"], []).append([float(row[name]) for name in (*COLUMNS, "dx", "dy", "dz", "irradiance")])
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(
+                "a cell is lacking or no number", where=f"{path}:{reader.line_num}", needed="the columns of lpcal field"
+            ) from error
+    tables = {light: np.array(table) for light, table in rows.items()}
+    if not tables or len({len(table) for table in tables.values()}) > 1:
+        raise InputError("holds no lights, or not all at the same points", where=str(path), needed="a csv that lpcal field wrote")
+    points_C = next(iter(tables.values()))[:, :3]
+    return points_C, {light: (table[:, 3:6], table[:, 6]) for light, table in tables.items()}
