@@ -15,7 +15,7 @@ from lpcal.simulate.recipe import Recipe
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RIG = REPOSITORY / "rigs" / "lightpanel-6" / "panel.yaml"
-RECIPE = Recipe(seed=20260105, image_size=(480, 320), stations=20, sweep_frames=26, dwell_s=0.65)
+RECIPE = Recipe(seed=20260105, image_size=(480, 320), stations=24, sweep_frames=26, dwell_s=0.65)
 
 
 def main() -> None:

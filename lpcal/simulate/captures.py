@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -22,7 +22,10 @@ BRIGHTEST = 0.60
 """Of full scale: a white surface at the focus that faces the strongest light."""
 SHORT_PEAK = 0.6
 DEFAULT_SPHERE_M = 0.025
-CHROME_WALL, MATTE_WALL, OBJECT_WALL = 0.06, 0.05, 0.32
+SPHERE_WALL, OBJECT_WALL = 0.3, 0.32
+WALL_BEHIND_SPHERE_M = 0.3
+CARD_HALF_RADII = 4.4
+"""Half the side of the dark card behind a sphere, in its radii."""
 ROD_M = 0.003
 
 
@@ -76,11 +79,8 @@ class Studio:
         chrome = truth.kind == "chrome"
         waves = shapes.grain(0.25 * truth.radius_m, rng)
         shape = shapes.sphere(truth.radius_m, None if chrome else waves)
-        turn = se3.rotation(np.zeros(3))
-        wall_m = float(truth.centre_C[2] + 4.5 * truth.radius_m)
-        scene = self._scene(
-            shape, se3.transform(turn, truth.centre_C), wall_m, CHROME_WALL if chrome else MATTE_WALL, rng, chrome=chrome, rod_m=ROD_M
-        )
+        wall_m = float(truth.centre_C[2] + WALL_BEHIND_SPHERE_M)
+        scene = self._scene(shape, se3.transform(np.eye(3), truth.centre_C), wall_m, rng, truth)
         rendered = render(self.built.lens, scene)
         if not chrome:
             return self._develop(rendered, rng, shape.note)
@@ -100,7 +100,7 @@ class Studio:
         x_C = focus_C + rng.uniform(-0.03, 0.03, 3) * half_m
         H_CS = se3.transform(se3.rotation(rng.normal(0, [0.08, 0.25, 0.05])), x_C)
         wall_m = float(x_C[2] + 1.25 * shape.bound_m + rng.uniform(0.02, 0.05))
-        scene = self._scene(shape, H_CS, wall_m, OBJECT_WALL, rng, chrome=False, rod_m=0.0)
+        scene = self._scene(shape, H_CS, wall_m, rng)
         return self._develop(render(lens, scene), rng, shape.note)
 
     def flat(self, rng: np.random.Generator) -> Stored:
@@ -108,13 +108,23 @@ class Studio:
         width, height = self.built.lens.image_size
         return self.response(np.full((height, width), 0.75), rng)
 
-    def _scene(
-        self, shape: shapes.Shape, H_CS: Array, wall_m: float, albedo: float, rng: np.random.Generator, *, chrome: bool, rod_m: float
-    ) -> Scene:
+    def _scene(self, shape: shapes.Shape, H_CS: Array, wall_m: float, rng: np.random.Generator, sphere: SphereTruth | None = None) -> Scene:
+        """An object before a light wall; a sphere on a rod, before a dark card on a darker wall."""
         n_C = np.array([*rng.normal(0, 0.04, 2), -1.0])
         panel_m = float(max((np.linalg.norm(light.H_CL[:2, 3]) for light in self.built.lights if light.H_DL is not None), default=0.05))
-        n_C /= np.linalg.norm(n_C)
-        return Scene(shape, H_CS, np.array([0, 0, wall_m]), n_C, albedo, self.built.lights, self.ambient, chrome, 0.5 * panel_m, rod_m)
+        bare = Scene(
+            shape,
+            H_CS,
+            np.array([0, 0, wall_m]),
+            n_C / np.linalg.norm(n_C),
+            SPHERE_WALL if sphere else OBJECT_WALL,
+            self.built.lights,
+            self.ambient,
+        )
+        if sphere is None:
+            return bare
+        card_m = CARD_HALF_RADII * sphere.radius_m
+        return replace(bare, chrome=sphere.kind == "chrome", panel_radius_m=0.5 * panel_m, rod_m=ROD_M, card_half_m=card_m)
 
     def _spots(self, truth: SphereTruth, k: int) -> Array:
         """Light (H, W) of one light's mirror image, blurred."""

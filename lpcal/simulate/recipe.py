@@ -44,7 +44,7 @@ class Recipe:
     camera_rate_hz: float = 12.0
     dwell_s: float = 0.75
     bow_m: float = 0.0003
-    twist: float = 0.4
+    twist: float = 0.15
     dome_radius_m: float = 0.026
     led_exponent: float = 80.7
     """cos^80.7: 15 degrees full half-power angle."""

@@ -24,11 +24,12 @@ from lpcal.simulate.shapes import Shape
 EDGE_OVERSAMPLING = 4
 CHUNK = 1 << 15
 MIRROR = 0.6
-WALL_HALF_M = 0.22
-"""Half the side of the card behind a chrome sphere: its mirror shows the room beyond."""
+WALL_HALF_M = 0.45
+"""Half the wall's side: beyond it a mirror shows the room."""
+CARD_ALBEDO = 0.04
 ROD_ALBEDO = 0.04
-ROOM_SHARE = 1.3
-"""Radiance of the room round the camera over that of a white surface in it."""
+ROOM_SHARE = (0.6, 0.8)
+"""Radiance of the room over that of a white surface in it: beside the object, and how much more of it behind the camera."""
 PROBES = (0, 8, 12, 16)
 """LEDs of a blob that are tried first: where all of them agree, so do the others."""
 
@@ -49,6 +50,8 @@ class Scene:
     """Of the dark disc round the camera that chrome mirrors."""
     rod_m: float = 0.0
     """Radius of the dark rod on which the shape stands, seen edge on."""
+    card_half_m: float = 0.0
+    """Half the side of a dark card on the wall, behind the shape as the camera sees it."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +122,7 @@ def _meet(scene: Scene, plane: Array) -> tuple[_Points, Labels]:
     behind = (scene.wall_x_C @ scene.wall_n_C) / (d_C @ scene.wall_n_C)
     x_C = np.where(on, t, behind)[:, None] * d_C
     n_C = np.broadcast_to(scene.wall_n_C, x_C.shape).copy()
-    albedo = scene.wall_albedo * (1 + 0.02 * np.sin(70 * x_C[:, 0] + 1) * np.sin(55 * x_C[:, 1] + 2))
+    albedo = _wall_reflectance(scene, x_C)
     on_rod = ~on & _rod(scene, d_C)
     x_C[on_rod] = d_C[on_rod] * (scene.H_CS[2, 3] / d_C[on_rod, 2])[:, None]
     albedo[on_rod] = ROD_ALBEDO
@@ -130,6 +133,14 @@ def _meet(scene: Scene, plane: Array) -> tuple[_Points, Labels]:
         albedo[on] = scene.shape.reflectance(x_S)
         component[on] = scene.shape.component(x_S)
     return _Points(x_C, n_C, albedo, on, np.zeros(len(x_C))), component
+
+
+def _wall_reflectance(scene: Scene, x_C: Array) -> Array:
+    """Albedo (N,) of the wall with its card at points (N, 3) of it."""
+    behind = scene.wall_x_C[2] / scene.H_CS[2, 3] * scene.H_CS[:2, 3]
+    on_card = np.abs(x_C[:, :2] - behind).max(axis=1) < scene.card_half_m
+    grain = 1 + 0.02 * np.sin(70 * x_C[:, 0] + 1) * np.sin(55 * x_C[:, 1] + 2)
+    return np.where(on_card, CARD_ALBEDO, scene.wall_albedo) * grain
 
 
 def _rod(scene: Scene, d_C: Array) -> Mask:
@@ -160,11 +171,13 @@ def _mirrored(scene: Scene, points: _Points, plane: Array) -> _Points:
     to_room = points.on_shape & ~to_wall
     x_C = np.where(to_wall[:, None], points.x_C + s[:, None] * r_C, points.x_C)
     n_C = np.where(points.on_shape[:, None], scene.wall_n_C, points.n_C)
-    albedo = np.where(to_wall, MIRROR * scene.wall_albedo, np.where(to_room, 0.0, points.albedo))
+    albedo = np.where(to_wall, MIRROR * _wall_reflectance(scene, x_C), np.where(to_room, 0.0, points.albedo))
     back = points.x_C[:, 2] / np.maximum(-r_C[:, 2], 1e-6)
     at_panel = points.x_C[:, :2] + back[:, None] * r_C[:, :2]
     dark = (r_C[:, 2] < 0) & (np.hypot(*at_panel.T) < scene.panel_radius_m)
-    sky = ROOM_SHARE * scene.ambient * (1 - 0.5 * r_C[:, 1] + 0.25 * np.sin(5 * r_C[:, 0] + 1) * np.sin(4 * r_C[:, 1]))
+    front = np.clip(-r_C[:, 2], 0, 1) ** 2
+    cloud = 1 - 0.3 * r_C[:, 1] + 0.2 * np.sin(5 * r_C[:, 0] + 1) * np.sin(4 * r_C[:, 1])
+    sky = scene.ambient * (ROOM_SHARE[0] + ROOM_SHARE[1] * front) * cloud
     return _Points(x_C, n_C, albedo, points.on_shape & ~to_wall, np.where(to_room, MIRROR * np.where(dark, 0.15, 1.0) * sky, 0.0))
 
 
