@@ -32,7 +32,7 @@ import numpy.typing as npt
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.geometry.normal_equations import Index, Layout, System, inverse, linearise, reduced, step_of, values_of
+from lpcal.geometry.normal_equations import Index, Layout, System, inverse, linearise, reduced, step_of
 
 POSE = 0
 """Stands for a pose among the sizes of a residual's blocks."""
@@ -346,5 +346,4 @@ def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str 
         else:
             small = small + 1 if abs(expected) <= options.tolerance * system.cost + 1e-12 else 0
             damping *= 10
-    plain = tuple(term.model.evaluate(values_of(term, now), term.data)[0] for term in terms)
-    return Solution(now, tuple(terms), system.cost, iteration, eliminate, plain, system, layout)
+    return Solution(now, tuple(terms), system.cost, iteration, eliminate, tuple(system.plain), system, layout)

@@ -44,6 +44,8 @@ class System:
     gradient_e: Array
     residuals: list[Array]
     jacobians: list[Array]
+    plain: list[Array]
+    """Residuals as the model gives them, not weighted."""
 
 
 class Layout:
@@ -102,10 +104,12 @@ def linearise(layout: Layout, blocks: Mapping[str, Block], terms: Sequence[Term]
         np.zeros((items, size)),
         [],
         [],
+        [],
     )
     for term in terms:
         r, J = term.model.evaluate(values_of(term, blocks), term.data)
         cost, root = _loss(r, term)
+        system.plain.append(r)
         r, J = r * root, J * root[:, None, :]
         system.cost += cost
         system.residuals.append(r)

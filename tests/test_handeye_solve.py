@@ -1,0 +1,128 @@
+"""The hand-eye solve on simulated sessions: error within its own sigma, flips named, offset found, blind motions refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry import se3
+
+from handeye_scene import Noise, moving_session, static_session
+
+
+def _nees(H_true, H, covariance):
+    xi = se3.log(H_true @ se3.inv(H))
+    return float(xi @ np.linalg.solve(covariance, xi))
+
+
+def _static(session, **options):
+    return solve_paired(session.boards, session.H_OP, session.camera, Options(**options)).handeye
+
+
+def _moving(session, **options):
+    return solve_moving(session.boards, track_of(session.stream), session.camera, Options(**options)).handeye
+
+
+def test_static_with_flips_is_honest_and_names_them():
+    nees, error = [], []
+    for seed in range(14):
+        session = static_session(np.random.default_rng(seed), 30, flips=0.1)
+        found = _static(session)
+        nees.append([_nees(session.H_PC, found.H_PC, found.H_PC_covariance), _nees(session.H_OB, found.H_OB, found.H_OB_covariance)])
+        error.append(np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]))
+        used = np.array([view.used for view in found.views])
+        assert not np.any(used & session.flipped)
+        assert np.sum(~used & ~session.flipped) <= 1
+        assert all(("misses the others" in view.why) != view.used for view in found.views if view.why)
+    assert np.mean(nees, axis=0) == pytest.approx(6.0, abs=4 * np.sqrt(12 / 14))
+    assert np.sqrt(np.mean(np.square(error))) < 0.7e-3
+
+
+def test_moving_finds_the_offset_and_is_honest():
+    nees, offset, std = [], [], []
+    for seed in range(8):
+        session = moving_session(np.random.default_rng(100 + seed), 40, flips=0.05)
+        found = _moving(session)
+        nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
+        offset.append(found.clock_offset_s - session.offset_s)
+        std.append(found.clock_offset_std_s)
+    assert np.mean(nees) < 6.0 + 4 * np.sqrt(12 / 8)
+    assert np.sqrt(np.mean(np.square(offset))) < 0.4e-3
+    assert np.mean((np.array(offset) / std) ** 2) < 3
+
+
+@pytest.mark.slow
+def test_drifting_noise_does_not_make_it_sure_of_itself():
+    nees = []
+    for seed in range(30):
+        session = moving_session(np.random.default_rng(seed), 150, Noise(drift=0.6))
+        found = _moving(session)
+        nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
+    assert np.mean(nees) < 12
+
+
+def test_camera_error_is_refined_away():
+    session = static_session(np.random.default_rng(7), 40, 30.0)
+    found = _static(session)
+    off = np.abs(found.evidence["camera_as_refined_here"][:2] - [712.4, 713.1]).max()
+    wrong = replace(
+        session.camera, K=session.camera.K * [[1.002, 1, 1], [1, 1.002, 1], [1, 1, 1]], covariance=session.camera.covariance * 25
+    )
+    assert off < 0.6
+    assert np.linalg.norm(_static(replace(session, camera=wrong)).H_PC[:3, 3] - session.H_PC[:3, 3]) < 1.5e-3
+
+
+def test_board_poses_alone():
+    session = moving_session(np.random.default_rng(3), 100)
+    boards = replace(session.boards, corners_px=None, points_B=None)
+    found = solve_moving(boards, track_of(session.stream), None, Options()).handeye
+    assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 3e-3
+    assert abs(found.clock_offset_s - session.offset_s) < 2e-3
+
+
+def test_stated_offset_is_kept():
+    session = moving_session(np.random.default_rng(4), 60)
+    found = _moving(session, clock_offset_s=session.offset_s)
+    assert (found.clock_offset_s, found.clock_offset_std_s) == (session.offset_s, 0.0)
+
+
+def test_a_body_at_rest_shows_no_offset():
+    rng = np.random.default_rng(5)
+    session = static_session(rng, 20)
+    rate, dwell = 120, 1.0
+    t = np.arange(0, 20 * dwell, 1 / rate)
+    at = np.minimum((t / dwell).astype(int), 19)
+    H_OP = se3.exp(rng.normal(0, [5e-4] * 3 + [1e-4] * 3, (len(t), 6))) @ session.H_OP[at]
+    moving = moving_session(rng, 30)
+    stream = replace(moving.stream, t_s=t, H_OP=H_OP, error_m=np.full(len(t), np.nan))
+    boards = replace(session.boards, t_camera_s=(np.arange(20) + 0.5) * dwell + 0.07)
+    found = solve_moving(boards, track_of(stream), session.camera, Options()).handeye
+    assert found.clock_offset_s is None
+    assert any("do not show the clock offset" in warning for warning in found.warnings)
+    assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 2e-3
+
+
+def test_refusals():
+    session = static_session(np.random.default_rng(6), 20)
+    with pytest.raises(DegenerateError, match="3 views"):
+        solve_paired(session.boards.of(np.arange(3)), session.H_OP[:3], session.camera, Options())
+    about_z = static_session(np.random.default_rng(6), 20, 0.05)
+    with pytest.raises(DegenerateError, match="hardly turned"):
+        _static(about_z)
+    one = static_session(np.random.default_rng(6), 20)
+    turned = se3.exp(np.concatenate([np.zeros((20, 2)), np.linspace(-0.6, 0.6, 20)[:, None], np.zeros((20, 3))], axis=1))
+    H_OP = session.H_OP[:1] @ turned
+    H_CB = se3.inv(H_OP @ session.H_PC) @ session.H_OB
+    with pytest.raises(DegenerateError, match="about one axis only, about its z"):
+        solve_paired(replace(one.boards, H_CB=H_CB), H_OP, one.camera, Options())
+    rng = np.random.default_rng(8)
+    with pytest.raises(DisagreementError, match="do not move as one rigid thing"):
+        solve_paired(session.boards, session.H_OP[rng.permutation(20)], session.camera, Options())
+    moving = moving_session(rng, 30)
+    late = replace(moving.boards, t_camera_s=moving.boards.t_camera_s + 3.15e7)
+    with pytest.raises(DisagreementError, match="the clocks do not meet"):
+        solve_moving(late, track_of(moving.stream), moving.camera, Options())

@@ -1,0 +1,69 @@
+"""Pose tracks: flips, gaps and lone samples never reach an interpolated pose; dwells are averaged; velocities are right."""
+
+from __future__ import annotations
+
+import numpy as np
+from lpcal.geometry import se3
+from lpcal.geometry.pose_track import clean, poses_at
+
+FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
+
+
+def _motion(t):
+    xi = np.stack([0.3 * np.sin(2 * t), 0.2 * np.sin(3 * t), 0.1 * np.cos(t), 0.1 * np.sin(t), 0.2 * np.cos(2 * t), 0.1 * t], axis=1)
+    return se3.exp(xi)
+
+
+def test_flips_and_gaps_never_reach_a_pose():
+    t = np.arange(0, 10, 1 / 120)
+    H_OP = _motion(t)
+    flipped = ((t > 2) & (t < 2.04)) | ((t > 5) & (t < 5.01)) | ((t > 7) & (t < 7.2))
+    H_OP[flipped] = H_OP[flipped] @ FLIP
+    gap = (t > 8) & (t < 8.3)
+    track = clean(t[~gap], H_OP[~gap], np.full(np.sum(~gap), np.nan))
+    asked = np.linspace(-0.1, 10.1, 800)
+    found = poses_at(track, asked)
+    error = np.linalg.norm((found.H - _motion(asked))[found.trusted].reshape(-1, 16), axis=1)
+    assert error.max() < 2e-4  # the chord over a sampling interval
+    assert 0.85 < found.trusted.mean() < 0.93
+    lost = [why for why in found.why if why]
+    assert {"outside the mocap recording", "the body was lost, or its markers swapped, within 50 ms"} == set(lost)
+
+
+def test_a_flip_that_lasts_is_found_by_the_marker_error():
+    t = np.arange(0, 10, 1 / 120)
+    H_OP, error = _motion(t), np.full(len(t), 1e-4)
+    swapped = (t > 4) & (t < 6)
+    H_OP[swapped] = H_OP[swapped] @ FLIP
+    error[swapped] = 0.01
+    track = clean(t, H_OP, error)
+    assert track.dropped["markers swapped, by the system's own error"] == swapped.sum()
+    assert not poses_at(track, np.array([5.0])).trusted.any()
+    assert not poses_at(clean(t, H_OP, np.full(len(t), np.nan)), np.array([4.02])).trusted.any()
+
+
+def test_dwells_are_averaged_and_motion_is_not():
+    rng = np.random.default_rng(0)
+    t = np.arange(0, 8, 1 / 120)
+    slow = _motion(np.where(t < 3, 0.0, t - 3))
+    H_OP = se3.exp(rng.normal(0, [5e-4] * 3 + [1e-4] * 3, (len(t), 6))) @ slow
+    found = poses_at(clean(t, H_OP, np.full(len(t), np.nan)), np.array([1.0, 1.5, 2.0, 4.0, 5.0]))
+    assert found.steady.tolist() == [True, True, True, False, False]
+    assert np.all(found.velocity[:3] == 0)
+    single, mean = 5e-4, np.linalg.norm(se3.log(found.H[:3] @ se3.inv(slow[:1]))[:, :3], axis=1) / np.sqrt(3)
+    assert np.sqrt(np.mean(mean**2)) < 0.35 * single
+
+
+def test_velocity():
+    t = np.arange(0, 10, 1 / 120)
+    found = poses_at(clean(t, _motion(t), np.full(len(t), np.nan)), np.linspace(1, 9, 50))
+    step = 1e-4
+    later, before = _motion(found.t_mocap_s + step), _motion(found.t_mocap_s - step)
+    turn = se3.rotation_vector(later[:, :3, :3] @ np.swapaxes(before[:, :3, :3], 1, 2)) / (2 * step)
+    assert np.abs(found.velocity[:, :3] - turn).max() < 1e-2
+    assert np.abs(found.velocity[:, 3:] - (later - before)[:, :3, 3] / (2 * step)).max() < 5e-3
+
+
+def test_what_is_too_short_holds_no_pose():
+    one = clean(np.zeros(1), np.eye(4)[None], np.full(1, np.nan))
+    assert not poses_at(one, np.array([0.0])).trusted.any()

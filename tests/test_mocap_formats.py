@@ -1,0 +1,227 @@
+"""Mocap readers: every layout gives the poses that were written into it; what is wrong is refused with place and exit code."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.formats.image_times import read_image_times
+from lpcal.formats.mocap import read_mocap
+from lpcal.formats.robot_poses import read_robot_poses
+from lpcal.geometry import se3
+
+RATE = 120.0
+
+
+@pytest.fixture
+def truth():
+    rng = np.random.default_rng(0)
+    H_OP = se3.exp(np.concatenate([rng.normal(0, 0.5, (40, 3)), rng.normal(0, 1, (40, 3))], axis=1))
+    return np.arange(40) / RATE, H_OP
+
+
+def motive(
+    path: Path, t, H_OP, *, version="1.23", units="Meters", rotation="Quaternion", bodies=("Panel",), lost=(), timecode=False
+) -> Path:
+    """A file in the manner of Motive: header rows of the version, a mean marker error, one marker, an unlabeled one."""
+    scale = {"Meters": 1.0, "Centimeters": 100.0, "Millimeters": 1000.0}[units]
+    turn = ["X", "Y", "Z", "W"] if rotation == "Quaternion" else list("XYZ")
+    columns = []
+    for body in bodies:
+        columns += [("Rigid Body", body, "Rotation", axis) for axis in turn] + [("Rigid Body", body, "Position", axis) for axis in "XYZ"]
+        columns += [("Rigid Body", body, "Mean Marker Error", "")]
+        columns += [("Rigid Body Marker", f"{body}:Marker1", "Position", axis) for axis in "XYZ"]
+        columns += [("Rigid Body Marker", f"{body}:Marker1", "Marker Quality", "")]
+    columns += [("Marker", "Unlabeled 1005", "Position", axis) for axis in "XYZ"]
+    lead = ["Frame", "Time (Seconds)", *(["TimeCode"] if timecode else [])]
+    new = version in {"1.24", "1.25"}
+    pad = [""] * (len(lead) - 2)
+    labels = [
+        ["", "Type" if new else "", *pad, *(c[0] for c in columns)],
+        ["", "Name" if new else "", *pad, *(c[1] for c in columns)],
+        ["", "ID" if new else "", *pad, *('"ABC"' for _ in columns)],
+        *([["", "Parent", *pad, *("" for _ in columns)]] if version == "1.25" else []),
+        ["", "", *pad, *(c[2] for c in columns)],
+        [*lead, *(c[3] for c in columns)],
+    ]
+    head = f"Format Version,{version},Take Name,Take 1,Capture Frame Rate,240.0,Rotation Type,{rotation},Length Units,{units}"
+    rows = [head, "", *(",".join(row) for row in labels)]
+    marker_P = np.array([0.08, 0.01, 0.0])
+    for k in range(len(t)):
+        cells = [str(k), f"{t[k]:.6f}", *(["14:47:09:09.01"] if timecode else [])]
+        for _ in bodies:
+            if k in lost:
+                cells += [""] * (len(turn) + 8)
+                continue
+            numbers = se3.quaternion(H_OP[k, :3, :3]) if rotation == "Quaternion" else euler_deg(H_OP[k, :3, :3], rotation)
+            marker = H_OP[k, :3, :3] @ marker_P + H_OP[k, :3, 3]
+            cells += [f"{v:.9f}" for v in (*numbers, *(scale * H_OP[k, :3, 3]), scale * 1e-4, *(scale * marker))] + ["0.999"]
+        cells += ["", "", ""] if k % 2 else ["1", "2", "3"]
+        rows.append(",".join(cells))
+    path.write_text("\r\n".join(rows) + "\r\n")
+    return path
+
+
+def euler_deg(R, order):
+    """Angles about X, Y, Z (in this order of columns) for moving axes in the given order."""
+    from scipy.spatial.transform import Rotation
+
+    angles = dict(zip(order, Rotation.from_matrix(R).as_euler(order, degrees=True), strict=True))
+    return [angles[axis] for axis in "XYZ"]
+
+
+LAYOUTS = [
+    {"version": "1.21", "units": "Meters"},
+    {"version": "1.23", "units": "Millimeters"},
+    {"version": "1.24", "units": "Centimeters", "timecode": True},
+    {"version": "1.25", "units": "Meters"},
+    {"version": "1.23", "rotation": "XYZ"},
+    {"version": "1.24", "rotation": "ZYX", "units": "Millimeters"},
+]
+
+
+@pytest.mark.parametrize("layout", LAYOUTS, ids=lambda layout: "-".join(map(str, layout.values())))
+def test_motive_layouts(tmp_path, truth, layout):
+    t, H_OP = truth
+    found = read_mocap(motive(tmp_path / "take.csv", t, H_OP, lost=(3, 4, 20), **layout), "Panel")
+    seen = np.setdiff1d(np.arange(40), [3, 4, 20])
+    assert found.lost == 3
+    assert np.allclose(found.t_s, t[seen], atol=1e-6)
+    assert np.abs(found.H_OP - H_OP[seen]).max() < 1e-6
+    assert np.allclose(found.error_m, 1e-4, atol=1e-8)
+    marker_P = se3.apply(se3.inv(found.H_OP), found.markers_O["Marker1"][:, None])[:, 0]
+    assert np.abs(marker_P - [0.08, 0.01, 0.0]).max() < 1e-6
+
+
+def test_motive_body_is_chosen_or_refused(tmp_path, truth):
+    path = motive(tmp_path / "take.csv", *truth, bodies=("Panel", "Wand"))
+    assert read_mocap(path, "panel").body == "Panel"
+    with pytest.raises(DisagreementError, match=r"no body Lamp(.|\n)*Panel, Wand") as refusal:
+        read_mocap(path, "Lamp")
+    assert refusal.value.exit_code == 6
+    with pytest.raises(InputError, match="2 bodies: Panel, Wand"):
+        read_mocap(path)
+
+
+def test_motive_units_and_order_stated_by_the_user_win(tmp_path, truth):
+    t, H_OP = truth
+    found = read_mocap(motive(tmp_path / "take.csv", t, H_OP), "Panel", units="mm", direction="H_PO")
+    assert np.allclose(found.H_OP[:, :3, :3], np.swapaxes(H_OP[:, :3, :3], 1, 2), atol=1e-6)
+    assert np.allclose(se3.inv(found.H_OP)[:, :3, 3], 1e-3 * H_OP[:, :3, 3], atol=1e-6)
+    assert "against the header's" in found.notes[0]
+    text = (tmp_path / "take.csv").read_text().replace(",Length Units,Meters", "")
+    (tmp_path / "bare.csv").write_text(text)
+    with pytest.raises(InputError, match=r"mocap\.units"):
+        read_mocap(tmp_path / "bare.csv", "Panel")
+
+
+def test_cut_file_names_its_line(tmp_path, truth):
+    path = motive(tmp_path / "take.csv", *truth)
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([*lines[:30], lines[30][:40]]))
+    with pytest.raises(InputError, match=r"take\.csv:31: \d+ cells"):
+        read_mocap(path, "Panel")
+    lines[20] = lines[20].replace(",0.", ",O.", 1)
+    path.write_text("\n".join(lines))
+    with pytest.raises(InputError, match=r"take\.csv:21: 'O\."):
+        read_mocap(path, "Panel")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("plain.csv", "{t:.9f}, {x:.9f}, {y:.9f}, {z:.9f}, {qx:.9f}, {qy:.9f}, {qz:.9f}, {qw:.9f}"),
+        ("tum.txt", "{t:.9f} {x:.9f} {y:.9f} {z:.9f} {qx:.9f} {qy:.9f} {qz:.9f} {qw:.9f}"),
+        ("named.csv", "{x:.9f};{y:.9f};{z:.9f};{qw:.9f};{qx:.9f};{qy:.9f};{qz:.9f};{t:.9f}"),
+        ("euroc.csv", "{ns:d},{x:.9f},{y:.9f},{z:.9f},{qw:.9f},{qx:.9f},{qy:.9f},{qz:.9f},0.1,0.2,0.3"),
+    ],
+)
+def test_plain_layouts(tmp_path, truth, name, text):
+    t, H_OP = truth
+    t = t + 1.5e9 if name == "euroc.csv" else t
+    heads = {
+        "tum.txt": "# timestamp tx ty tz qx qy qz qw",
+        "named.csv": "x_m;y_m;z_m;qw;qx;qy;qz;t_s",
+        "euroc.csv": "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_x, v_y, v_z",
+    }
+    rows = []
+    for k in np.random.default_rng(1).permutation(40):
+        q, x = se3.quaternion(H_OP[k, :3, :3]), H_OP[k, :3, 3]
+        values = dict(zip(("x", "y", "z", "qx", "qy", "qz", "qw"), (*x, *q), strict=True))
+        rows.append(text.format(t=t[k], ns=round(t[k] * 1e9), **values))
+    rows.append(rows[0])
+    (tmp_path / name).write_text("\n".join([*([heads[name]] if name in heads else []), *rows]))
+    found = read_mocap(tmp_path / name)
+    assert np.allclose(found.t_s, t, atol=1e-6)
+    assert np.abs(found.H_OP - H_OP).max() < 1e-6
+    assert any("out of order" in note for note in found.notes)
+    assert any("1 repeated" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("content", "error", "words"),
+    [
+        (b"", InputError, "empty"),
+        (b"\x02\x50" + bytes(100), InputError, "C3D"),
+        (b"NO_OF_FRAMES\t10\n", InputError, "Qualisys TSV"),
+        (b"Trajectories,,,\n100,,\n", InputError, "Vicon CSV"),
+        (b"#ROSBAG V2.0\n", InputError, "a ROS bag"),
+        (b"1,2,3\n4,5,6\n", InputError, "3 columns without names"),
+        (b"t,x,y,z,qx,qy,qz\n", InputError, "no column for qw"),
+        (b"0,1,2,3,0,0,0,2\n", InputError, r"take\.csv:1: a quaternion of length 2"),
+        (b"t,x,y,z,qx,qy,qz,qw\n0,,,,,,,\n1,,,,,,,\n", DegenerateError, "not one pose"),
+    ],
+)
+def test_refusals(tmp_path, content, error, words):
+    (tmp_path / "take.csv").write_bytes(content)
+    with pytest.raises(error, match=words):
+        read_mocap(tmp_path / "take.csv")
+
+
+def test_real_files(data):
+    folder = data("mocap")
+    old = read_mocap(folder / "motive_1.21_hmv-s16.csv")
+    assert (len(old.t_s), old.body, old.lost) == (250, "Rigid Body 1", 0)
+    assert np.ptp(old.H_OP[:, :3, 3], axis=0).max() < 1e-3
+    assert len(old.markers_O) == 3
+    assert len(read_mocap(folder / "tum_freiburg1_xyz.txt").t_s) == 1497
+    euroc = read_mocap(folder / "euroc_V102.csv")
+    assert euroc.rate_hz == pytest.approx(200, rel=1e-3)
+    with pytest.raises(InputError, match="no rigid body, only marker"):
+        read_mocap(folder / "motive_1.24_head.csv")
+
+
+def test_robot_poses(tmp_path, truth):
+    _, H_OP = truth
+    (tmp_path / "flat.txt").write_text("\n".join(" ".join(f"{v:.12f}" for v in H.ravel()) for H in H_OP))
+    (tmp_path / "square.txt").write_text("\n\n".join("\n".join("\t".join(f"{v:.12f}" for v in row) for row in H) for H in H_OP))
+    (tmp_path / "columns.txt").write_text("\n".join(",".join(f"{v:.12f}" for v in H.T.ravel()) for H in H_OP))
+    for name in ("flat.txt", "square.txt", "columns.txt"):
+        assert np.abs(read_robot_poses(tmp_path / name).H - H_OP).max() < 1e-9
+    assert np.abs(read_robot_poses(tmp_path / "flat.txt", direction="H_PO").H @ H_OP - np.eye(4)).max() < 1e-9
+    q = se3.quaternion(H_OP[:, :3, :3])
+    rows = [f"im_{k}.png,{','.join(f'{v:.12f}' for v in (*(1000 * H_OP[k, :3, 3]), *q[k]))}" for k in range(40)]
+    (tmp_path / "named.csv").write_text("\n".join(["file,x_m,y_m,z_m,qx,qy,qz,qw", *rows]))
+    named = read_robot_poses(tmp_path / "named.csv", units="mm")
+    assert named.files[3] == "im_3.png"
+    assert np.abs(named.H - H_OP).max() < 1e-9
+    (tmp_path / "cut.txt").write_text((tmp_path / "flat.txt").read_text()[:-30])
+    with pytest.raises(InputError, match=r"cut\.txt:40"):
+        read_robot_poses(tmp_path / "cut.txt")
+    (tmp_path / "sheared.txt").write_text("1 0.1 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n")
+    with pytest.raises(InputError, match=r"sheared\.txt:1: a matrix that is no rotation"):
+        read_robot_poses(tmp_path / "sheared.txt")
+
+
+def test_image_times(tmp_path):
+    (tmp_path / "a.png").write_bytes(b"")
+    (tmp_path / "times.csv").write_text("file,time_s\na.png,1.5\n")
+    assert read_image_times(tmp_path / "times.csv") == [(tmp_path / "a.png", 1.5)]
+    (tmp_path / "times.csv").write_text("file,time_s\na.png,1.5\nb.png,1.6\n")
+    with pytest.raises(InputError, match=r"times\.csv:3: no such image: b\.png"):
+        read_image_times(tmp_path / "times.csv")
+    (tmp_path / "times.csv").write_text("file,time_s\na.png,\n")
+    with pytest.raises(InputError, match=r"times\.csv:2: time_s"):
+        read_image_times(tmp_path / "times.csv")
