@@ -71,8 +71,9 @@ def read_table(path: Path) -> Calibration:
     body = [row for _, row in (rows if stated is None else rows[1:])]
     if not body or len({len(row) for row in body}) != 1 or 3 not in (len(body), len(body[0])):
         raise InputError("no table of directions", where=str(path), needed="x y z a row, or three rows of x, y and z")
-    found = np.stack(body)
-    found = found if found.shape[1] == 3 else found.T
+    stored = np.stack(body)
+    ways = [way for way in (stored, stored.T) if way.shape[1] == 3]
+    found = min(ways, key=lambda way: float(np.ptp(np.linalg.norm(way, axis=1))))
     if stated not in {None, len(found)}:
         raise InputError(f"{len(found)} lights, but the first row says {stated}", where=str(path), needed="one row a light")
     if np.ptp(np.linalg.norm(found, axis=1)) > UNLIKE_LENGTHS:

@@ -80,10 +80,11 @@ def _meeting_point(S: Array, Dir: Array) -> Array:
 
 def _load(file: Path) -> dict[str, Any]:
     from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
 
     try:
         return dict(loadmat(file))
-    except (OSError, ValueError, NotImplementedError, TypeError) as error:
+    except (OSError, ValueError, NotImplementedError, TypeError, MatReadError) as error:
         raise InputError(
             "cannot be read as a MATLAB file (version 7.2 or older)", where=str(file), needed="light.mat of near_ps"
         ) from error

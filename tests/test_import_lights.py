@@ -1,0 +1,114 @@
+"""``lpcal import``: other systems' lights, in C, and what is wrong with their files."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.formats.import_lights import read_lights
+from scipy.io import savemat
+
+
+def test_lp_is_turned_into_the_cameras_axes(tmp_path):
+    path = tmp_path / "dome.lp"
+    path.write_text("2\nmy stone 01.jpg 0.6 0.0 0.8\nC:\\photos\\img_2.tif 0 3 4\n")
+    name, found = read_lights(path)
+    assert ".lp" in name
+    assert [light.name for light in found.lights] == ["my stone 01", "img_2"]
+    assert np.allclose(found.lights[0].direction_C, [0.6, 0, -0.8])
+    assert np.allclose(found.lights[1].direction_C, [0, -0.6, -0.8])  # above is -y, before the object is -z
+    assert found.camera is None
+    assert all(light.source_C is None for light in found.lights)
+
+
+def diligent(folder, count=3):
+    folder.mkdir()
+    (folder / "filenames.txt").write_text("".join(f"{k + 1:03d}.png\n" for k in range(count)))
+    (folder / "light_directions.txt").write_text("0 0.6 0.8\n0.6 0 0.8\n-0.6 0 0.8\n")
+    (folder / "light_intensities.txt").write_text("1 2 3\n2 3 4\n3 4 5\n")
+    return folder
+
+
+def test_a_diligent_folder(tmp_path):
+    _, found = read_lights(diligent(tmp_path / "ball"))
+    assert [light.name for light in found.lights] == ["001", "002", "003"]
+    assert np.mean([light.intensity for light in found.lights]) == pytest.approx(1)
+    assert found.lights[0].intensity[2] / found.lights[0].intensity[0] == pytest.approx(3)
+    with pytest.raises(DisagreementError, match="4 images, 3 directions"):
+        read_lights(diligent(tmp_path / "bear", count=4))
+
+
+@pytest.mark.parametrize("order", ["2048 1536", "1536 2048"])
+def test_luces_led_params(tmp_path, order):
+    path = tmp_path / "led_params.txt"
+    rows = ["N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]", f"3 {order} 2300 1020.5 770.1 300"]
+    rows += [f"{x} {y} -20 {-x / 100} {-y / 100} 3 1.0 0.9 0.8 0.6 0" for x, y in ((100, 0), (0, 100), (-100, 0))]
+    path.write_text("\n".join(rows) + "\n")
+    _, found = read_lights(path)
+    assert found.camera.image_size == (2048, 1536)
+    assert found.lights[0].source_C == pytest.approx([0.1, 0, -0.02])
+    assert found.lights[0].lobe.exponent == pytest.approx(0.6)
+    assert found.d_object_m == pytest.approx(0.3)
+    d, irradiance = found.lights[0].field(np.array([[0.1, 0, 0.28]]))
+    assert d[0] == pytest.approx([0, 0, -1])
+    expected = 1 / 0.3**2 * np.cos(np.arctan2(1, 3)) ** 0.6 / 0.9
+    assert irradiance[0, 0] == pytest.approx(expected, rel=1e-6)
+
+
+def test_near_ps_mat_with_a_transposed_camera_and_the_images_size(tmp_path):
+    S = np.array([[100.0, 0, 400], [0, 100, 400], [-100, 0, 400]])
+    Dir = np.array([[-0.2, 0, 1.0], [0, -0.2, 1], [0.2, 0, 1]])
+    savemat(tmp_path / "light.mat", {"S": S, "Dir": Dir, "Phi": np.full((3, 1), 3e7), "mu": np.ones((3, 1))})
+    K = np.array([[3000.0, 0, 800], [0, 3000, 610], [0, 0, 1]])
+    savemat(tmp_path / "camera.mat", {"K": K.T})
+    cv2.imwrite(str(tmp_path / "photometric_sample_raw_0001.png"), np.zeros((1200, 1620), np.uint8))
+    _, found = read_lights(tmp_path)
+    assert np.allclose(found.camera.K, K)
+    assert found.camera.image_size == (1620, 1200)
+    assert found.lights[2].source_C == pytest.approx([-0.1, 0, 0.4])
+    assert found.focus_C == pytest.approx([0, 0, 0.9])  # where the axes meet
+
+
+def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
+    path = tmp_path / "light_directions.txt"
+    path.write_text("0.6 0 -0.6\n0 0.6 0\n0.8 0.8 0.8\n")
+    images = tmp_path / "photos"
+    images.mkdir()
+    for stem in ("img_10", "img_2", "img_1", "mask", "ambient_0"):
+        cv2.imwrite(str(images / f"{stem}.png"), np.zeros((4, 4), np.uint8))
+    code, told, _ = lpcal("import", path, "--images", images, "-o", tmp_path / "calibration.yaml")
+    assert code == 0
+    assert "3 distant lights" in told
+    found = read_calibration(tmp_path / "calibration.yaml")
+    assert [light.name for light in found.lights] == ["img_1", "img_2", "img_10"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("a.lp", "3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
+        ("a.lp", "one.jpg 0 0 1\n", "does not begin with the number of lights"),
+        ("a.lp", "1\none.jpg 0 0,5 1\n", "no number"),
+        ("a.lp", "1\none.jpg 0 0 0\n", "no direction"),
+        ("a.lp", "2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
+        ("a.txt", "100 20 300\n0 10 400\n3 3 3\n9 9 9\n", "positions, not directions"),
+        ("a.txt", "1 2\n3 4\n", "no table of directions"),
+        ("led_params.txt", "3 2048 1536 2300 1020 770 300\n1 2 3\n", "not the rows of led_params"),
+        ("light.mat", "not matlab", "MATLAB"),
+        ("a.xyz", "?", "no format that lpcal imports"),
+    ],
+)
+def test_what_is_wrong_is_said(tmp_path, lpcal, name, text, words):
+    path = tmp_path / name
+    path.write_text(text)
+    code, _, told = lpcal("import", path, "-o", tmp_path / "out.yaml")
+    assert code == 3, told
+    assert words in told
+    assert not (tmp_path / "out.yaml").exists()
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        read_lights(tmp_path / "none.lp")

@@ -1,0 +1,208 @@
+"""``lpcal reconstruct`` from a folder of images to all its files, and what its users do wrong."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import tifffile
+import trimesh
+from lpcal.formats.calibration_yaml import write_calibration
+from lpcal.formats.documents import Provenance
+from lpcal.formats.surface_files import read_surface
+from lpcal.records.calibration import Calibration
+from lpcal.records.observations import RawCapture
+
+from lit_scene import SIZE, Scene, calibration, draw, truth
+
+FILES = {"surface.npz", "normals_gl.png", "depth.tif", "albedo.png", "mask.png", "mesh.ply", "mesh.glb", "relight.html", "summary.json"}
+PANEL = "lpcal: 1\nlights: {L0: {}, L1: {}, L2: {}, L3: {}, L4: {}, L5: {}}\nobjects: {ball: objects/first}\n"
+
+
+def write_capture(folder: Path, raw: RawCapture) -> Path:
+    folder.mkdir(parents=True)
+    for name, image in zip(raw.lights, raw.images, strict=True):
+        cv2.imwrite(str(folder / f"{name}.png"), np.rint(65535 * image).astype(np.uint16))
+    cv2.imwrite(str(folder / "ambient.png"), np.rint(65535 * raw.ambient[0]).astype(np.uint16))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def drawn() -> RawCapture:
+    return draw(Scene(), calibration())
+
+
+@pytest.fixture
+def rig(tmp_path, drawn) -> Path:
+    (tmp_path / "panel.yaml").write_text(PANEL)
+    write_calibration(tmp_path / "calib/calibration.yaml", calibration(), Provenance())
+    write_capture(tmp_path / "objects/first", drawn)
+    return tmp_path
+
+
+@pytest.fixture
+def quick(tmp_path) -> Path:
+    """A mask of the ball, which spares the search for it."""
+    path = tmp_path / "ball_mask.png"
+    cv2.imwrite(str(path), 255 * truth(Scene())[0].astype(np.uint8))
+    return path
+
+
+def test_every_file_of_the_contract(lpcal, rig):
+    code, told, _ = lpcal("reconstruct", cwd=rig)
+    assert code == 0, told
+    assert "ball: " in told
+    folder = rig / "surfaces/ball"
+    assert {path.name for path in folder.iterdir()} == FILES
+    surface = read_surface(folder)
+    mask, depth, _ = truth(Scene())
+    assert np.median(np.abs(surface.depth - depth)[mask & surface.mask]) < 0.002
+
+    gl = cv2.imread(str(folder / "normals_gl.png"), cv2.IMREAD_UNCHANGED)[..., ::-1]
+    assert gl.dtype == np.uint16
+    n = gl[surface.mask] / 65535 * 2 - 1
+    assert np.allclose(n * [1, -1, -1], surface.normals[surface.mask], atol=1e-4)
+    assert np.all(gl[~surface.mask] == 0)
+    assert np.array_equal(tifffile.imread(folder / "depth.tif"), surface.depth, equal_nan=True)
+    assert np.array_equal(cv2.imread(str(folder / "mask.png"), 0) > 0, surface.mask)
+
+    ply, glb = trimesh.load(folder / "mesh.ply"), trimesh.load(folder / "mesh.glb", force="mesh")
+    assert ply.vertices[:, 2].min() == pytest.approx(0.32, abs=0.003)  # metres, z forward
+    assert np.allclose(glb.vertices, ply.vertices * [1, -1, -1], atol=1e-6)
+    assert len(ply.visual.vertex_colors) == len(ply.vertices)
+    assert np.all(np.sum(ply.vertex_normals * ply.vertices, axis=1) < 0)
+
+    summary = json.loads((folder / "summary.json").read_text())
+    assert {"label", "pixels", "mean_depth_m", "scale_std"} == set(summary["components"][0])
+    assert {"times_s", "peak_memory_mb", "counts_and_residuals", "versions", "inputs"} <= set(summary)
+    assert len(summary["inputs"]["L0.png"]) == 64
+
+
+def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, rig, drawn, quick):
+    write_capture(rig / "elsewhere", drawn)
+    code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, cwd=rig)
+    assert code == 0, told
+    assert (rig / "surfaces/ball/surface.npz").is_file()
+    assert (rig / "surfaces/elsewhere/surface.npz").is_file()
+
+
+def test_without_a_rig_a_calibration_will_do(lpcal, rig, quick, tmp_path_factory):
+    away = tmp_path_factory.mktemp("away")
+    code, told, _ = lpcal(
+        "reconstruct", rig / "objects/first", "-c", rig / "calib/calibration.yaml", "-o", away / "out", "--mask", quick, "--json", cwd=away
+    )
+    assert code == 0
+    assert json.loads(told)["surfaces"][0]["units"] == "metres"
+    assert (away / "out/surface.npz").is_file()
+
+
+def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, quick):
+    quick.rename(rig / "objects/first/mask.png")
+    code, _, told = lpcal("reconstruct", "--use", "L0,L2,L4,L5", cwd=rig)
+    assert code == 0, told
+    surface = read_surface(rig / "surfaces/ball")
+    assert np.array_equal(surface.mask, truth(Scene())[0])
+    assert surface.lights_used.max() == 4
+
+
+def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
+    dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
+    write_capture(rig / "objects/dark", dark)
+    (rig / "panel.yaml").write_text(PANEL.replace("{ball: objects/first}", "{dark: objects/dark, ball: objects/first}"))
+    code, _, told = lpcal("reconstruct", "--mask", quick, cwd=rig)
+    assert code == 4
+    assert "dark" in told
+    assert not (rig / "surfaces/dark").exists()
+    assert (rig / "surfaces/ball/surface.npz").is_file()
+
+
+def spoil_mask_size(rig: Path) -> None:
+    cv2.imwrite(str(rig / "objects/first/mask.png"), np.full((20, 30), 255, np.uint8))
+
+
+def spoil_mask_empty(rig: Path) -> None:
+    cv2.imwrite(str(rig / "objects/first/mask.png"), np.zeros((SIZE[1], SIZE[0]), np.uint8))
+
+
+def spoil_image_missing(rig: Path) -> None:
+    (rig / "objects/first/L3.png").rename(rig / "objects/first/lamp3.png")
+
+
+def spoil_image_size(rig: Path) -> None:
+    for path in (rig / "objects/first").iterdir():
+        cv2.imwrite(str(path), cv2.imread(str(path), cv2.IMREAD_UNCHANGED)[:-8])
+
+
+def spoil_saturated(rig: Path) -> None:
+    for path in (rig / "objects/first").iterdir():
+        cv2.imwrite(str(path), np.full((SIZE[1], SIZE[0]), 65535, np.uint16))
+
+
+def spoil_calibration_nan(rig: Path) -> None:
+    path = rig / "calib/calibration.yaml"
+    lines = path.read_text().splitlines()
+    at = next(k for k, line in enumerate(lines) if "source_m" in line)
+    path.write_text("\n".join([*lines[:at], "  source_m: [.nan, 0.0, 0.0]", *lines[at + 1 :]]))
+
+
+def spoil_calibration_cut(rig: Path) -> None:
+    path = rig / "calib/calibration.yaml"
+    path.write_text(path.read_text()[: len(path.read_text()) // 2])
+
+
+def spoil_calibration_gone(rig: Path) -> None:
+    (rig / "calib/calibration.yaml").unlink()
+
+
+def spoil_lights_in_a_row(rig: Path) -> None:
+    slopes = np.linspace(-0.5, 0.5, 6)
+    lights = tuple(
+        replace(light, direction_C=np.array([slope, 0, -1.0]) / np.hypot(slope, 1))
+        for slope, light in zip(slopes, calibration().lights, strict=True)
+    )
+    row: Calibration = replace(calibration(), lights=lights)
+    write_calibration(rig / "calib/calibration.yaml", row, Provenance())
+
+
+@pytest.mark.parametrize(
+    ("spoil", "code", "words"),
+    [
+        (spoil_mask_size, 6, "the mask is 30x20"),
+        (spoil_mask_empty, 4, "the mask holds 0 pixels"),
+        (spoil_image_missing, 6, "no image of L3"),
+        (spoil_image_size, 6, "images of 160x104"),
+        (spoil_saturated, 4, "saturated"),
+        (spoil_calibration_nan, 3, "light L0"),
+        (spoil_calibration_cut, 3, "calibration.yaml"),
+        (spoil_calibration_gone, 3, "lpcal export"),
+        (spoil_lights_in_a_row, 4, "one plane"),
+    ],
+)
+def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, words):
+    spoil(rig)
+    found, _, told = lpcal("reconstruct", cwd=rig)
+    assert found == code, told
+    assert words in told
+    assert "Traceback" not in told
+    assert not list((rig / "surfaces").iterdir() if (rig / "surfaces").exists() else [])
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        (("--use", "L0,L1"), 4, "2 lights"),
+        (("--use", "L0,L1,L9"), 6, "L9"),
+        (("--distance", "352"), 2, "bare number"),
+        (("--distance", "0mm"), 2, "in front of the camera"),
+        (("--mask", "nowhere.png"), 3, "nowhere.png"),
+        (("objects/nothing",), 3, "no such folder"),
+    ],
+)
+def test_words_that_are_off(lpcal, rig, words, code, message):
+    found, _, told = lpcal("reconstruct", *words, cwd=rig)
+    assert found == code, told
+    assert message in told
