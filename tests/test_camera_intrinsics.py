@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.panel_yaml import read_rig
@@ -79,6 +80,19 @@ def test_the_files_and_the_summary(lpcal: Run, rig: Path) -> None:
         assert np.linalg.norm(xi[:3]) < 2e-3
         assert np.linalg.norm(xi[3:]) < 3e-3
         assert np.all(np.linalg.eigvalsh(covariance) > 0)
+
+
+@pytest.mark.parametrize("square", ["25 mm", "[25 mm, 25.01 mm]"])
+def test_the_cameramodel_holds_the_same_camera(lpcal: Run, rig: Path, square: str) -> None:
+    """With mrcal's solve and, for squares that mrcal does not know, with lpcal's own; pictures in colour make no difference."""
+    for path in (rig / "boards").glob("*.png"):
+        cv2.imwrite(str(path), cv2.cvtColor(cv2.imread(str(path), cv2.IMREAD_GRAYSCALE), cv2.COLOR_GRAY2BGR))
+    (rig / "panel.yaml").write_text(PANEL.replace("25 mm", square).replace("black_level", "model: opencv5, black_level"))
+    code, _, err = lpcal("intrinsics", "--rig", rig)
+    assert code == 0, err
+    camera, model = read_camera(rig / "calib" / "camera.yaml"), read_camera_file(rig / "calib" / "camera.cameramodel")
+    np.testing.assert_allclose(model.K, camera.K, rtol=1e-9)
+    np.testing.assert_allclose(model.distortion, camera.distortion, rtol=1e-6, atol=1e-9)
 
 
 def test_a_second_run_recalls_the_corners_and_the_stage_knows_it_is_up_to_date(lpcal: Run, rig: Path) -> None:

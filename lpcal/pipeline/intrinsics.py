@@ -166,7 +166,7 @@ def _solution(workspace: Workspace, section: CameraSection, board: Board | None,
             todo="name the right file, or leave camera.cameramodel out to solve the camera anew",
         )
     points_B = board.points_B() if board is not None else np.zeros((0, 3))
-    return CameraSolution(camera, points_B, (), f"given: {section.cameramodel}", ASSUMED_SIGMA_PX, cameramodel=cameramodel_text(camera))
+    return CameraSolution(camera, points_B, (), f"given: {section.cameramodel}", ASSUMED_SIGMA_PX)
 
 
 def _with_radiometry(workspace: Workspace, section: CameraSection, solution: CameraSolution) -> Any:
@@ -201,7 +201,7 @@ def _write(
     board: Board | None,
     provenance: Provenance,
 ) -> None:
-    write_text(workspace.calib("camera.cameramodel"), solution.cameramodel)
+    write_text(workspace.calib("camera.cameramodel"), solution.cameramodel or cameramodel_text(solution.camera))
     write_h_cb(workspace.calib("H_CB.yaml"), poses, left_out, board.corners if board else (0, 0), provenance)
     write_camera(workspace.calib("camera.yaml"), solution, provenance)
 

@@ -70,7 +70,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         corner_sigma_px=fit.sigma_px,
         evidence=_evidence(chosen, tried, fit, board),
         warnings=(*((missing,) if missing else ()), *doubts),
-        cameramodel=fit.cameramodel,
+        cameramodel=fit.cameramodel() if fit.cameramodel else "",
     )
 
 

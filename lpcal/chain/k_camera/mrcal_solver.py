@@ -179,11 +179,15 @@ def _fit(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> CameraFi
             "covariance": sigma_px**2 * covariance if names else None,
         }
     )
-    text = io.StringIO()
-    mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0).write(text)
+
+    def text() -> str:
+        stream = io.StringIO()
+        mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0).write(stream)
+        return stream.getvalue()
+
     bow = inputs["calobject_warp"]
     warp_m = None if bow is None else (float(bow[0]), float(bow[1]))
-    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, warp_m, text.getvalue())
+    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, warp_m, text)
 
 
 def _geometry(problem: CornerProblem, inputs: dict[str, Any]) -> tuple[Array, Array]:

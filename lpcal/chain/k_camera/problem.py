@@ -55,7 +55,8 @@ class CameraFit:
     """One standard deviation of a corner coordinate, degrees of freedom counted."""
     warp_m: tuple[float, float] | None
     """Deflection of the board's middle along x and along y; None: taken as flat."""
-    cameramodel: str = ""
+    cameramodel: Callable[[], str] | None = None
+    """The text of a .cameramodel with the optimisation inputs, where the solver has them."""
 
 
 type Solver = Callable[[CornerProblem, str, bool], CameraFit]
