@@ -90,8 +90,9 @@ def test_a_dome_needs_neither_board_nor_mocap(tmp_path):
     assert {path.name for path in (rig / "things" / "one").iterdir()} == {"L0.png", "L1.png", "ambient.png", "capture.yaml"}
     lights = yaml.safe_load((rig / "truth" / "lights.yaml").read_text())["lights"]
     assert all("H_DL" not in light and light["lit"] == 1 for light in lights)
-    dark = cv2.imread(str(rig / "spheres" / "chrome" / "short_L0.png"), 0)
-    assert 0.01 * 255 <= np.median(dark) < 14  # the black level and a gamma's view of the noise over it
+    short, long = (cv2.imread(str(rig / "spheres" / "chrome" / name), 0) for name in ("short_L0.png", "L0.png"))
+    assert np.median(short) < np.median(long) - 5
+    assert short.max() < 255 == long.max()
 
 
 def test_a_robot_states_one_pose_an_image(tmp_path):
@@ -104,6 +105,13 @@ def test_a_robot_states_one_pose_an_image(tmp_path):
     true = list(csv.DictReader((rig / "truth" / "H_OP.csv").read_text().splitlines()))
     t_true = np.array([[float(row[key]) for key in "xyz"] for row in true])
     np.testing.assert_allclose(se3.inv(H_PO)[:, :3, 3], t_true, atol=0.0015)
+
+
+def test_images_listed_by_name_are_made_by_name(tmp_path):
+    rig = made(tmp_path, "lpcal: 1\ncamera: {images: [a/one.png, a/two.tif, b/three.png]}\nboard: {corners: [6, 4], square: 30 mm}\n")
+    assert all((rig / name).is_file() for name in ("a/one.png", "a/two.tif", "b/three.png"))
+    rows = (rig / "truth" / "H_CB.csv").read_text().splitlines()
+    assert [row.split(",")[0] for row in rows[1:]] == ["a/one.png", "a/two.tif", "b/three.png"]
 
 
 def test_a_charuco_board_is_found_in_its_images(tmp_path):
@@ -126,6 +134,9 @@ def test_a_charuco_board_is_found_in_its_images(tmp_path):
             "board poses are not simulated",
         ),
         ("lpcal: 1\ncamera: {}\nboard: {corners: [9, 6], square: 25 mm}\nmocap: {file: m.c3d}\n", "only Motive's CSV"),
+        ("lpcal: 1\ncamera: {}\nlights: {L0: {}}\nobjects: {a: ../a}\n", "leads out of the folder"),
+        ("lpcal: 1\ncamera: {flat_field: /flat.png}\nlights: {L0: {}}\n", "leads out of the folder"),
+        ("lpcal: 1\ncamera: {images: 's/??.png'}\nboard: {corners: [9, 6], square: 25 mm}\n", "cannot be numbered"),
     ],
 )
 def test_what_cannot_be_simulated_is_said_before_anything_is_written(lpcal, tmp_path, panel, words):

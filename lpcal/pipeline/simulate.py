@@ -5,8 +5,9 @@ The simulator makes arrays, the formats write them; here they meet. The folder a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from fnmatch import fnmatch
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -86,6 +87,36 @@ def _check(rig_file: RigFile) -> None:
         where = rig_file.where("mocap.direction" if rig.mocap.direction == "H_PO" else "mocap.file")
         raise InputError("only Motive's CSV with H_OP is simulated", where=where, needed="a .csv and direction: H_OP", todo="change it")
 
+    for key, name in _names(rig):
+        if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
+            where = rig_file.where(key)
+            raise InputError(
+                f"{name} leads out of the folder", where=where, needed="a path in the rig folder", todo="simulate a copy that names such"
+            )
+    for pattern in rig.camera.images:
+        if any(sign in pattern for sign in "*?[") and not fnmatch(_numbered(pattern, "station", 0), pattern):
+            where = rig_file.where("camera.images")
+            raise InputError(
+                f"images {pattern} cannot be numbered", where=where, needed="a pattern with one *, or names", todo="change the pattern"
+            )
+
+
+def _names(rig: Rig) -> Iterator[tuple[str, str]]:
+    """Every path that the rig names, with its key."""
+    if rig.camera:
+        yield from (("camera.images", name) for name in rig.camera.images)
+        yield from (("camera.flat_field", name) for name in [rig.camera.flat_field, rig.camera.cameramodel] if name)
+    if rig.mocap:
+        yield from (("mocap", name) for name in [rig.mocap.file, rig.mocap.poses, *rig.mocap.images] if name)
+    yield from ((f"spheres.{name}", sphere.images) for name, sphere in rig.spheres.items())
+    yield from ((f"objects.{name}", images) for name, images in rig.objects.items())
+
+
+def _listed(rig: Rig) -> list[str]:
+    """Images of the camera that are named one by one; empty where a pattern names them."""
+    images = rig.camera.images if rig.camera else []
+    return [] if any(sign in image for image in images for sign in "*?[") else images
+
 
 def _response(rig: Rig, built: Built, recipe: Recipe) -> Response:
     camera = rig.camera
@@ -150,6 +181,7 @@ def _write_boards(folder: Path, rig: Rig, built: Built, response: Response, reci
 
 def _session_recipe(rig: Rig, recipe: Recipe) -> Recipe:
     """Without a second list of images there is no sweep; poses that come one an image (a robot's) are neither swapped nor lost."""
+    recipe = replace(recipe, stations=len(_listed(rig)) or recipe.stations)
     if rig.mocap is None or rig.mocap.poses:
         tracking = replace(recipe.tracking, flipped_stations=0, lost_stations=0)
         return replace(recipe, sweep_frames=0, tracking=tracking)
@@ -159,7 +191,7 @@ def _session_recipe(rig: Rig, recipe: Recipe) -> Recipe:
 def _board_images(rig: Rig, built: Built, session: Session) -> list[_BoardImages]:
     """The stations take the names of camera.images, or of a folder stations/; the sweep a folder named like its csv."""
     pattern = rig.camera.images[0] if rig.camera and rig.camera.images else "stations/*.png"
-    stations = [_numbered(pattern, "station", k) for k in range(len(session.station_s))]
+    stations = _listed(rig) or [_numbered(pattern, "station", k) for k in range(len(session.station_s))]
     groups = [_BoardImages(stations, session.station_H_OP, session.station_s + built.clock_offset_s)]
     if len(session.sweep_s) and rig.mocap and len(rig.mocap.images) > 1:
         stem = PurePosixPath(rig.mocap.images[1]).stem
