@@ -173,6 +173,10 @@ def _line_through_lower(x: Array, y: Array) -> tuple[float, float]:
     for _ in range(10):
         A = np.stack([x, np.ones_like(x)], axis=1)
         slope, offset = np.linalg.lstsq(A * weight[:, None], y * weight, rcond=None)[0]
+        if slope < 0:  # a clipped one alone would leave the other's line
+            slope, offset = 0.0, np.average(y, weights=weight**2)
+        elif offset < 0:
+            slope, offset = np.sum(weight**2 * x * y) / np.sum(weight**2 * x**2), 0.0
         line = np.maximum(slope * x + offset, 1e-12)
         weight = np.where(y > line, (line / y) ** 2, 1.0) / line
     return float(slope), float(offset)

@@ -1,0 +1,88 @@
+"""Capture folders: what is taken, what is left out, what is refused."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.capture import read_capture
+
+LIGHTS = ["L0", "L1", "L2"]
+
+
+def image(path, level=100, shape=(20, 30), dtype=np.uint8):
+    cv2.imwrite(str(path), np.full(shape, level, dtype))
+
+
+@pytest.fixture
+def folder(tmp_path):
+    made = tmp_path / "jug"
+    made.mkdir()
+    for k, light in enumerate(LIGHTS):
+        image(made / f"{light}.png", 100 + k)
+    return made
+
+
+def test_lights_ambient_short_mask_and_exposures(folder):
+    for name, level in (("ambient_0", 10), ("ambient_1", 12), ("short_L1", 7), ("mask", 1), ("ref", 50)):
+        image(folder / f"{name}.png", level)
+    (folder / "capture.yaml").write_text("exposure: 20 ms\ngain: 2.0\nexposures: {L2: 40 ms, short_L1: 0.5 ms}\ngains: {L2: 1.0}\n")
+    found = read_capture(folder, LIGHTS)
+    assert found.lights == ("L0", "L1", "L2")
+    assert found.images.shape == (3, 20, 30)
+    assert found.images[2, 0, 0] == pytest.approx(102 / 255)
+    assert found.exposure_s == pytest.approx([0.04, 0.04, 0.04])
+    assert found.ambient.shape == (2, 20, 30)
+    assert found.short_exposure_s["L1"] == pytest.approx(0.001)
+    assert found.mask.all()
+    assert found.left_out == ("ref.png",)
+    assert found.name == "jug"
+
+
+def test_a_short_exposure_that_is_not_stated(folder):
+    image(folder / "short_L0.png", 3)
+    (folder / "capture.yaml").write_text("exposure: 20 ms\n")
+    assert read_capture(folder, LIGHTS).short_exposure_s == {"L0": None}
+
+
+def test_sixteen_bits_and_colour_in_their_order(folder):
+    for light in LIGHTS:
+        pixels = np.zeros((20, 30, 3), np.uint16)
+        pixels[..., 2] = 65535  # OpenCV writes BGR: red
+        cv2.imwrite(str(folder / f"{light}.png"), pixels)
+    found = read_capture(folder, LIGHTS)
+    assert found.images.shape == (3, 20, 30, 3)
+    assert np.allclose(found.images[..., 0], 1)
+    assert found.step == pytest.approx(1 / 65535)
+
+
+def test_a_subset_by_capture_yaml_and_by_use(folder):
+    (folder / "L1.png").unlink()
+    (folder / "capture.yaml").write_text("lights: [L0, L2]\n")
+    assert read_capture(folder, LIGHTS).lights == ("L0", "L2")
+    assert read_capture(folder, LIGHTS, use=["L2"]).lights == ("L2",)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "error", "words"),
+    [
+        (lambda f: (f / "L1.png").rename(f / "lamp.png"), DisagreementError, "no image of L1; found are also lamp"),
+        (lambda f: image(f / "L2.png", shape=(20, 31)), DisagreementError, "31x20 grey, but L0.png is 30x20 grey"),
+        (lambda f: image(f / "L2.png", shape=(20, 30, 3)), DisagreementError, "RGB"),
+        (lambda f: (f / "L2.png").write_bytes(b"\x89PNG nothing"), InputError, "L2.png"),
+        (lambda f: image(f / "mask.png", shape=(5, 5)), DisagreementError, "the mask is 5x5"),
+        (lambda f: (f / "capture.yaml").write_text("exposure: 20\n"), InputError, "bare number"),
+        (lambda f: (f / "capture.yaml").write_text("exposur: 20 ms\n"), InputError, "exposur"),
+        (lambda f: (f / "capture.yaml").write_text("lights: [L0, L7]\n"), DisagreementError, "L7"),
+    ],
+)
+def test_what_is_wrong_is_said(folder, spoil, error, words):
+    spoil(folder)
+    with pytest.raises(error, match=words):
+        read_capture(folder, LIGHTS)
+
+
+def test_no_such_folder(tmp_path):
+    with pytest.raises(InputError, match="no such folder"):
+        read_capture(tmp_path / "nothing", LIGHTS)
