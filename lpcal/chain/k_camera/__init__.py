@@ -158,15 +158,15 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
 
 def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, board: Board) -> dict[str, object]:
     """How the choice was made, in figures and in words."""
-    scores = [{"model": c.model, "warp": c.warp, "cross_validation_px": c.score_px} for c in tried]
+    scores = [{"model": c.model, "warp": c.warp, "cross_validation_px": c.score_px, "expected_error_px": c.expected_px} for c in tried]
     if len(tried) == 1:
         why = "as asked"
     elif np.isnan(chosen.score_px):
         why = "too few views to cross-validate: the simplest"
     else:
-        flat = [c.score_px for c in tried if not c.warp and c.model == chosen.model]
-        bowed = [c.score_px for c in tried if c.warp and c.model == chosen.model]
-        why = "halves of the views agree best"
+        flat = [c.expected_px for c in tried if not c.warp and c.model == chosen.model]
+        bowed = [c.expected_px for c in tried if c.warp and c.model == chosen.model]
+        why = "expected to be nearest to the truth"
         if flat and bowed:
             why += f": {bowed[0]:.3f} px with a bowed board, {flat[0]:.3f} px with a flat one"
     return {

@@ -1,18 +1,21 @@
-"""Which lens model, and whether the board is flat: decided by how well halves of the views agree, not by the residual.
+"""Which lens model, and whether the board is flat: the candidate whose projection is expected to be nearest to the truth.
 
-Symbols: the views are split in two halves a, b; a candidate (model, warp) is solved on each; d its projection difference over the part
-of the imager that corners cover::
+Symbols: the views are split in two halves a, b; a candidate (model, warp) is solved on each and on all; d the projection difference of
+two cameras over the part of the imager that corners cover, rms over it and over the splits::
 
-    score = sqrt(mean over splits and pixels of |d|^2)
+    variance = (d_ab / 2)^2                                    halves scatter twice as much as the whole
+    bias^2   = max(0, d_full^2 - (variance_richest - variance))    d_full: from the richest candidate, all views
+    expected^2 = variance + bias^2
 
-The residual always falls with more parameters, the score does not. A candidate with more parameters must be better by MARGIN.
-Source: cross-validation as in mrcal's documentation.
+The residual always falls with more parameters; halves always agree better with fewer, also where they agree on what is wrong: a bowed
+board taken as flat bends both alike. A candidate with more parameters must be better by MARGIN.
+Sources: cross-validation as in mrcal's documentation; the variance of the difference of a richer and a poorer estimate, Hausman 1978.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,7 +37,9 @@ class Candidate:
     model: str
     warp: bool
     score_px: float
-    """NaN: not tried."""
+    """Difference between halves of the views; NaN: not tried."""
+    expected_px: float = float("nan")
+    """Expected difference from the truth, rms."""
 
     @property
     def parameters(self) -> int:
@@ -55,19 +60,40 @@ def choose(problem: CornerProblem, solver: Solver, models: Sequence[str], may_wa
     def tried(model: str, warp: bool) -> Candidate:
         return Candidate(model, warp, cross_validate(problem, solver, model, warp, pixels))
 
-    lenses = [tried(model, may_warp) for model in models]
+    lenses = _with_expectation([tried(model, may_warp) for model in models], problem, solver, pixels)
     lens = _better(lenses)
     if not may_warp:
         return lens, lenses
-    boards = [tried(lens.model, False), lens]
-    return _better(boards), [boards[0], *lenses]
+    flat, bowed = _with_expectation([tried(lens.model, False), lens], problem, solver, pixels)
+    return _better([flat, bowed]), [flat, *(bowed if one is lens else one for one in lenses)]
+
+
+def _with_expectation(candidates: Sequence[Candidate], problem: CornerProblem, solver: Solver, pixels: Array) -> list[Candidate]:
+    """The candidates with what each is expected to be off by, against the richest of those that could be solved."""
+    solved = [candidate for candidate in candidates if np.isfinite(candidate.score_px)]
+    if not solved:
+        return list(candidates)
+    cameras = {candidate: solver(problem, candidate.model, candidate.warp).camera for candidate in solved}
+    richest = max(solved, key=lambda candidate: candidate.parameters)
+    found = []
+    for candidate in candidates:
+        if candidate not in cameras:
+            found.append(replace(candidate, expected_px=float("inf")))
+            continue
+        variance, reference = (candidate.score_px / 2) ** 2, (richest.score_px / 2) ** 2
+        apart2 = 0.0
+        if candidate is not richest:
+            apart2 = float(np.mean(np.sum(difference(cameras[candidate], cameras[richest], pixels) ** 2, axis=1)))
+        bias2 = max(0.0, apart2 - max(reference - variance, 0.0))
+        found.append(replace(candidate, expected_px=float(np.sqrt(variance + bias2))))
+    return found
 
 
 def _better(candidates: Sequence[Candidate]) -> Candidate:
-    """The least score, but more parameters must earn themselves."""
+    """The least expected difference from the truth, but more parameters must earn themselves."""
     chosen, *others = sorted(candidates, key=lambda c: c.parameters)
     for candidate in others:
-        if candidate.score_px < MARGIN * chosen.score_px:
+        if candidate.expected_px < MARGIN * chosen.expected_px:
             chosen = candidate
     return chosen
 
