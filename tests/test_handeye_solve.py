@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
+from lpcal.records.calibration import Camera
 
-from handeye_scene import Noise, moving_session, static_session
+from handeye_scene import K_TRUE, Noise, moving_session, static_session
 
 
 def _nees(H_true, H, covariance):
@@ -74,6 +76,35 @@ def test_camera_error_is_refined_away():
     )
     assert off < 0.6
     assert np.linalg.norm(_static(replace(session, camera=wrong)).H_PC[:3, 3] - session.H_PC[:3, 3]) < 1.5e-3
+
+
+def test_boards_found_by_their_other_end_are_turned_back():
+    session = static_session(np.random.default_rng(9), 24)
+    wrong = np.arange(24) % 5 == 0
+    turned = turned_by_half(session.boards)
+    boards = replace(
+        session.boards,
+        H_CB=np.where(wrong[:, None, None], turned.H_CB, session.boards.H_CB),
+        corners_px=np.where(wrong[:, None, None], turned.corners_px, session.boards.corners_px),
+    )
+    found = solve_paired(boards, session.H_OP, session.camera, Options()).handeye
+    assert all(view.used for view in found.views)
+    assert np.allclose(found.H_PC, _static(session).H_PC, atol=1e-6)
+
+
+def test_a_splined_camera():
+    session = static_session(np.random.default_rng(10), 24)
+    model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=11_Ny=8_fov_x_deg=80"
+    core = [712.4, 713.1, 385.1, 230.6]
+    camera = Camera((752, 480), "splined", K_TRUE, np.zeros(0), lensmodel=model, spline=np.concatenate([core, np.zeros(2 * 11 * 8)]))
+    points_B = session.boards.points_B
+    H_CB = se3.inv(session.H_OP @ session.H_PC) @ session.H_OB
+    rng = np.random.default_rng(11)
+    corners = np.array([camera.project(se3.apply(H, points_B)) for H in H_CB]) + rng.normal(0, 0.15, (24, len(points_B), 2))
+    boards = replace(session.boards, H_CB=H_CB, corners_px=corners)
+    found = solve_paired(boards, session.H_OP, camera, Options()).handeye
+    assert found.evidence["corner_sigma_px"] == pytest.approx(0.15, rel=0.1)
+    assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 22
 
 
 def test_board_poses_alone():

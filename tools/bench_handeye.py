@@ -17,8 +17,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock
+from lpcal.chain.h_pc_handeye.camera_part import camera_prior
 from lpcal.chain.h_pc_handeye.likelihood import Sigmas, Views, estimate
-from lpcal.chain.h_pc_handeye.solve import Options, camera_prior, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.pose_track import poses_at

@@ -15,7 +15,7 @@ errors in both sensors, for example Koide & Menegatti, General hand-eye calibrat
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -48,6 +48,8 @@ class Views:
     """(N, M, 2), NaN where not seen; None: board poses alone."""
     points_B: Array | None = None
     """(M, 3)."""
+    corner_scale: Array | None = None
+    """(N, M) factor on the corners' sigma; None: 1."""
 
     @property
     def count(self) -> int:
@@ -57,8 +59,16 @@ class Views:
     def of(self, rows: npt.NDArray[Any]) -> Views:
         """Some of the views."""
         corners = None if self.corners_px is None else self.corners_px[rows]
+        scale = None if self.corner_scale is None else self.corner_scale[rows]
         return Views(
-            self.H_CB[rows], self.H_OP[rows], self.velocity[rows], self.noise_class[rows], self.deflation[rows], corners, self.points_B
+            self.H_CB[rows],
+            self.H_OP[rows],
+            self.velocity[rows],
+            self.noise_class[rows],
+            self.deflation[rows],
+            corners,
+            self.points_B,
+            scale,
         )
 
 
@@ -93,12 +103,22 @@ class Estimate:
     camera: Array
     d_offset_s: float
     solution: Solution
-    order: tuple[str, ...] = field(default=())
+    order: tuple[str, ...]
     """Kinds of the solution's terms: corners | board, mocap, camera."""
+    sigmas: Sigmas
+    """Those that it was weighted by."""
 
     def term(self, kind: str) -> int:
         """Place of a kind of term; -1 where there is none."""
         return self.order.index(kind) if kind in self.order else -1
+
+    def corner_residuals(self) -> tuple[Array, npt.NDArray[np.intp]]:
+        """Residuals (K, 2) of the corners in pixels of the image, and the view (K,) of each; empty where there are no corners."""
+        place = self.term("corners")
+        if place < 0:
+            return np.zeros((0, 2)), np.zeros(0, dtype=np.intp)
+        term = self.solution.terms[place]
+        return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, term.items(2)
 
     def covariance(self) -> Array:
         """(13, 13) of H_PC, H_OB (left perturbations) and the offset."""
@@ -125,7 +145,7 @@ def estimate(
     blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock)}
     if views.corners_px is None or camera is None:
         found = solve(blocks, [_board_term(views, sigmas)], options=options)
-        return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",))
+        return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",), sigmas)
     earlier = start if isinstance(start, Estimate) else None
     same = earlier is not None and len(earlier.solution["H_OP"]) == views.count
     blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same else views.H_OP)
@@ -135,7 +155,7 @@ def estimate(
         terms.append(_camera_prior(camera))
         order.append("camera")
     found = solve(blocks, terms, eliminate="H_OP", options=options)
-    return Estimate(found["H_PC"][0], found["H_OB"][0], found["camera"][0], float(found["clock"][0, 0]), found, tuple(order))
+    return Estimate(found["H_PC"][0], found["H_OB"][0], found["camera"][0], float(found["clock"][0, 0]), found, tuple(order), sigmas)
 
 
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
@@ -149,7 +169,14 @@ def _corner_term(views: Views, sigmas: Sigmas) -> Term:
     corners, points_B = np.asarray(views.corners_px), np.asarray(views.points_B)
     view, corner = np.nonzero(np.isfinite(corners).all(axis=2))
     data = np.concatenate([corners[view, corner], points_B[corner]], axis=1)
-    return Term(_corner_model(), ("H_PC", "H_OB", "H_OP", "camera"), (0, 0, view, 0), data, weight=np.full((len(data), 2), sigmas.px**-2.0))
+    scale = np.ones(len(view)) if views.corner_scale is None else views.corner_scale[view, corner]
+    return Term(
+        _corner_model(),
+        ("H_PC", "H_OB", "H_OP", "camera"),
+        (0, 0, view, 0),
+        data,
+        weight=np.repeat(scale[:, None] ** -2.0, 2, axis=1) / sigmas.px**2,
+    )
 
 
 def _board_term(views: Views, sigmas: Sigmas) -> Term:

@@ -13,7 +13,8 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import congruence, observability, variance
-from lpcal.chain.h_pc_handeye.likelihood import CAMERA_SIZE, CameraPrior, Estimate, Sigmas, Views, estimate, misfit
+from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior, turned_by_half
+from lpcal.chain.h_pc_handeye.likelihood import CameraPrior, Estimate, Sigmas, Views, estimate, misfit
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array, Mask
@@ -35,9 +36,6 @@ CORNER_SIGMAS = 6.0
 READMIT = 5.0
 CLOCK_UNSEEN_S = 0.02
 """An offset less certain than this is not one that the data show."""
-OVERLAP_FLOOR = 0.05
-UNKNOWN_FOCAL = 3e-3
-"""Relative sigma of the focal lengths, and in units of them of the centre, of a camera of unknown uncertainty."""
 MOST_BAD = 0.5
 
 
@@ -77,6 +75,8 @@ class _State:
     deflation: Array = field(default_factory=lambda: np.zeros(0))
     found: Estimate | None = None
     corners_px: Array | None = None
+    corner_scale: Array | None = None
+    """(N, M) by how much a pixel's error grew on the way to the pinhole of the likelihood; None: not at all."""
     track: PoseTrack | None = None
 
     def views(self) -> Views:
@@ -85,7 +85,14 @@ class _State:
         both = min(np.sum(steady[self.inliers]), np.sum(~steady[self.inliers])) >= FEWEST_OF_A_CLASS
         noise_class = steady.astype(np.intp) if both else np.zeros(len(steady), dtype=np.intp)
         whole = Views(
-            self.boards.H_CB, self.panel.H, self.panel.velocity, noise_class, self.deflation, self.corners_px, self.boards.points_B
+            self.boards.H_CB,
+            self.panel.H,
+            self.panel.velocity,
+            noise_class,
+            self.deflation,
+            self.corners_px,
+            self.boards.points_B,
+            self.corner_scale,
         )
         return whole.of(self.inliers)
 
@@ -117,7 +124,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
     panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
-    agreed = _agreed(boards, panel, options.seed)
+    boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options.seed))
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
     _refuse(state, agreed)
     return _finding(_refine(state, None), None, [], None)
@@ -135,9 +142,10 @@ def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Came
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
             continue
         agreed = _agreed(boards, panel, options.seed)
+        turned, agreed = _turned_back(boards, panel, agreed)
         score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
         if best is None or score < best[0]:
-            state = _state(boards, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
+            state = _state(turned, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
             best = score, replace(state, track=track), agreed
     if best is None:
         raise DegenerateError(
@@ -167,11 +175,34 @@ def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
     return replace(found, inliers=inliers, residual_rad=angle, residual_m=distance)
 
 
+def _turned_back(boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus) -> tuple[BoardPoses, park.Consensus]:
+    """The boards, those turned by half a turn that were found by the wrong end, and the closed form with them.
+
+    A board whose pattern does not tell its ends may be found by either; only one places it where the other views do.
+    """
+    if boards.corners_px is None or boards.points_B is None or not agreed.inliers.any():
+        return boards, agreed
+    turned = turned_by_half(boards)
+    angle, distance = park.residuals(panel.H, turned.H_CB, agreed.H_PC, agreed.H_OB)
+    fits = (angle <= READMIT * agreed.residual_rad[agreed.inliers].max()) & (distance <= READMIT * agreed.residual_m[agreed.inliers].max())
+    wrong = panel.trusted & ~agreed.inliers & fits & (angle < 0.2 * agreed.residual_rad)
+    if not wrong.any():
+        return boards, agreed
+    H_CB = np.where(wrong[:, None, None], turned.H_CB, boards.H_CB)
+    corners = np.where(wrong[:, None, None], np.asarray(turned.corners_px), boards.corners_px)
+    return replace(boards, H_CB=H_CB, corners_px=corners), replace(
+        agreed,
+        inliers=agreed.inliers | wrong,
+        residual_rad=np.where(wrong, angle, agreed.residual_rad),
+        residual_m=np.where(wrong, distance, agreed.residual_m),
+    )
+
+
 def _state(
     boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus, offset: float, camera: Camera | None, options: Options, *, clock: bool
 ) -> _State:
     count = len(boards.H_CB)
-    corners = None if boards.corners_px is None else boards.corners_px.copy()
+    corners, scale = (None, None) if boards.corners_px is None or camera is None else as_pinhole(boards.corners_px, camera)
     return _State(
         boards,
         panel,
@@ -182,27 +213,8 @@ def _state(
         camera_prior(camera, options.camera_share) if camera is not None and corners is not None else None,
         deflation=np.ones(count),
         corners_px=corners,
+        corner_scale=scale,
     )
-
-
-def camera_prior(camera: Camera, share: float = 0.0) -> CameraPrior:
-    """The camera's parameters with their covariance as prior.
-
-    `share` of the views were counted in that covariance already: its information is lessened by as much. A camera of unknown
-    uncertainty moves in focal length and centre only, by some permille.
-    """
-    core = np.array([camera.K[0, 0], camera.K[1, 1], camera.K[0, 2], camera.K[1, 2]])
-    mean = np.concatenate([core, np.ravel(camera.distortion), np.zeros(CAMERA_SIZE)])[:CAMERA_SIZE]
-    free = np.zeros(CAMERA_SIZE, dtype=bool)
-    names = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
-    if camera.covariance is not None and set(camera.parameters) <= set(names):
-        places = [names.index(name) for name in camera.parameters]
-        order = np.argsort(places)
-        free[places] = True
-        lessened = max(1 - share, OVERLAP_FLOOR)
-        return CameraPrior(mean, free, camera.covariance[np.ix_(order, order)] / lessened)
-    free[:4] = True
-    return CameraPrior(mean, free, np.diag(np.full(4, (UNKNOWN_FOCAL * core[0]) ** 2)))
 
 
 def _refine(state: _State, t_camera_s: Array | None) -> _State:
@@ -288,10 +300,10 @@ def _choose(state: _State) -> tuple[Mask, Array | None]:
 
 def _without_gross_corners(state: _State, found: Estimate) -> Array | None:
     """The corners, NaN where one misses the model by many sigmas; the same array where none does."""
-    place = found.term("corners")
-    if place < 0 or state.corners_px is None:
+    residuals, _ = found.corner_residuals()
+    if not len(residuals) or state.corners_px is None:
         return state.corners_px
-    gross = np.linalg.norm(found.solution.residuals[place], axis=1) > CORNER_SIGMAS * np.sqrt(2) * state.sigmas.px
+    gross = np.linalg.norm(residuals, axis=1) > CORNER_SIGMAS * np.sqrt(2) * state.sigmas.px
     if not gross.any():
         return state.corners_px
     rows = np.flatnonzero(state.inliers)
@@ -334,12 +346,12 @@ def _verdicts(state: _State, found: Estimate) -> tuple[ViewVerdict, ...]:
     whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     px = np.full(len(state.inliers), np.nan)
-    place = found.term("corners")
-    if place >= 0:
+    residuals, view = found.corner_residuals()
+    if len(residuals):
         rows = np.flatnonzero(state.inliers)
-        item = rows[found.solution.terms[place].items(2)]
-        squares = np.sum(found.solution.residuals[place] ** 2, axis=1) / 2
-        px[rows] = np.sqrt(np.bincount(item, squares, len(px))[rows] / np.maximum(np.bincount(item, minlength=len(px))[rows], 1))
+        squares = np.bincount(rows[view], np.sum(residuals**2, axis=1) / 2, len(px))
+        counts = np.bincount(rows[view], minlength=len(px))
+        px = np.where(counts > 0, np.sqrt(squares / np.maximum(counts, 1)), np.nan)
     verdicts = []
     for k, image in enumerate(state.boards.images):
         why = state.panel.why[k]

@@ -53,7 +53,7 @@ def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
         of = views.noise_class == group
         rad[group] = _updated(rad[group], r[of, :3], free[of, :3])
         metre[group] = _updated(metre[group], r[of, 3:], free[of, 3:])
-    corners = found.solution.residuals[found.term("corners")]
+    corners, _ = found.corner_residuals()
     absorbed = found.solution.parameters - float(leverage.sum())  # all leverages add up to the parameters; the prior's are the camera's
     px = np.sqrt(np.sum(corners**2) / max(corners.size - absorbed, LEAST_FREEDOM))
     return replace(sigmas, mocap_rad=tuple(rad), mocap_m=tuple(metre), px=max(float(px), SHRINK * sigmas.px, FLOOR_PX))
