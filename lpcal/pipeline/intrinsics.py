@@ -26,6 +26,7 @@ from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Array
 from lpcal.pipeline.board_search import refuse_another_board, refuse_two_sizes, search
 from lpcal.pipeline.intrinsics_summary import summarise
+from lpcal.pipeline.sensor import has_lens
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardViews
@@ -209,7 +210,7 @@ def _write(
 STAGE = Stage(
     name="intrinsics",
     kinds={"camera.yaml": "camera", "H_CB.yaml": "H_CB"},
-    wanted=lambda workspace: workspace.rig_file.rig.camera is not None,
+    wanted=has_lens,
     inputs=lambda workspace: _inputs(workspace, camera_images(workspace), _others(workspace)),
     settings=settings,
     run=run,

@@ -45,7 +45,7 @@ def _figures(solution: CameraSolution) -> list[str]:
         f"views       {used} used, board found in {found} of {len(solution.views)}; {rejected} corners rejected",
         f"residual    {camera.rms_px:.4f} px rms a coordinate (over both coordinates: {np.sqrt(2) * camera.rms_px:.4f})",
     ]
-    for label, first, second in (("f", 0, 1), ("c", 2, 3)):
+    for label, first, second in (("f", 0, 1), ("c", 2, 3)) if camera.spline is None else ():
         values = (camera.K[0, 0], camera.K[1, 1]) if label == "f" else (camera.K[0, 2], camera.K[1, 2])
         sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
         lines.append(f"{label}           {values[0]:.2f} +- {sigma[0]:.2f}, {values[1]:.2f} +- {sigma[1]:.2f} px")

@@ -30,7 +30,7 @@ FOCAL_GUESSES = (0.9, 0.5, 1.8, 3.6)
 """In units of the image's width; the first that leads to a fit under GOOD_START is taken."""
 GOOD_START = 0.01
 """rms of a start without distortion, in units of the image's width."""
-SPLINE_PX = 40
+SPLINE_PX = 90
 """About so many pixels between the knots of a splined lens."""
 
 
