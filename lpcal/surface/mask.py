@@ -41,6 +41,7 @@ class Found:
     mask: Mask
     how: str
     planes: tuple[planes.Plane, ...] = ()
+    """The first is the one behind the object."""
 
 
 def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:
@@ -68,7 +69,7 @@ def _by_strength(maps: Grey) -> Mask:
 
 
 def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Found | None:
-    coarse, coarse_rays = _binned(maps, rays_C)
+    coarse, coarse_rays, _ = binned(maps, rays_C)
     shape = coarse.signal.shape[1:]
     everywhere = look_at(coarse, coarse_rays, np.ones(shape, bool), central=True)
     bright = strength(coarse)
@@ -174,8 +175,8 @@ def _log(bright: Image) -> Image:
     return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
 
 
-def _binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array]:
-    """The maps with blocks of pixels joined, so many that COARSE_PIXELS are left at most."""
+def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
+    """The maps and rays with blocks of f x f pixels joined, so that COARSE_PIXELS are left at most, and f."""
     height, width = maps.signal.shape[1:]
     f = int(np.ceil(np.sqrt(height * width / COARSE_PIXELS)))
     rows, columns = height // f, width // f
@@ -187,7 +188,7 @@ def _binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array]:
     sigma = np.sqrt((blocks(maps.sigma.astype(float)) ** 2).sum(axis=(-3, -1))) / f**2
     usable = blocks(maps.usable.astype(float)).min(axis=(-3, -1)) > 0
     rays = np.moveaxis(blocks(np.moveaxis(rays_C, -1, 0)).mean(axis=(-3, -1)), 0, -1)
-    return Grey(signal.astype(np.float32), sigma.astype(np.float32), usable), rays
+    return Grey(signal.astype(np.float32), sigma.astype(np.float32), usable), rays, f
 
 
 def _enlarged(mask: Mask, maps: Grey) -> Mask:

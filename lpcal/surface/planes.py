@@ -28,6 +28,8 @@ SPAN = (0.55, 3.5)
 TILTS = ((0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0))
 """Slopes of the planes that a fit starts from: x and y parts of q by its z part."""
 BEHIND = 1e-3
+TRUSTED = 4.0
+"""Misfit of a pixel under which the plane is believed there."""
 
 
 @dataclass(frozen=True)

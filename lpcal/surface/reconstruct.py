@@ -7,18 +7,18 @@ that is given or designed.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 
 import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.records.calibration import Calibration, Light
+from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, distance, gloss, mask, normals, pieces, sight, uncertainty
+from lpcal.surface import bend, distance, gloss, mask, normals, pieces, planes, shadow_anchor, sight, uncertainty
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
@@ -61,6 +61,8 @@ class State:
     found: Estimate
     own: Own
     gloss: gloss.Gloss | None = None
+    shadow_scales: dict[int, float] = field(default_factory=dict)
+    """What a piece's shadow did to its distance, by label."""
 
 
 @dataclass(frozen=True)
@@ -113,8 +115,32 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m)
     how = background.how if background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
-    surface = _surface(radiance, scene, _rounds(scene, float(begin), progress), rays_C)
+    state = _rounds(scene, float(begin), progress)
+    if near and background is not None and background.planes and calibration.camera is not None and options.distance_m is None:
+        state = _anchored(scene, state, maps, rays_C, background.planes[0], calibration.camera)
+    surface = _surface(radiance, scene, state, rays_C)
     return replace(surface, figures={"mask": how, **surface.figures})
+
+
+def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall: planes.Plane, camera: Camera) -> State:
+    """The state with pieces put where their shadows on the wall say, and one more round of normals there."""
+    coarse, coarse_rays, factor = mask.binned(maps, rays_C)
+    everywhere = sight.look_at(coarse, coarse_rays, np.ones(coarse.signal.shape[1:], bool), central=True)
+    height, width = (side * factor for side in everywhere.mask.shape)
+    object_mask = scene.seen.mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
+    shown = shadow_anchor.screen(everywhere, wall, scene.lights, object_mask, factor)
+    label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
+    scales = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label)
+    if not scales:
+        return state
+    shift = np.zeros(256)
+    shift[list(scales)] = np.log(list(scales.values()))
+    u = state.u + shift[label]
+    again = _round(scene, u, state, GLOSS_ROUNDS[-1])
+    for one in scales:  # the round's own distance is what the shadow overrules
+        inside = label == one
+        again.u[inside] += np.mean(u[inside]) - np.mean(again.u[inside])
+    return replace(again, weight=state.weight, shadow_scales=scales)  # the same weights: the same labels
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
@@ -224,6 +250,8 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
         curvature = float(state.own.curvature[inside].sum())
         if scene.distance_m is not None and one == 1:
             std = STATED_DISTANCE
+        elif int(one) in state.shadow_scales:
+            std = shadow_anchor.STD
         elif scene.near:
             std = uncertainty.scale_std(scene.lights, curvature, middle, glossy=state.gloss is not None, shaded_share=shaded)
         else:
@@ -256,6 +284,7 @@ def _figures(state: State) -> dict[str, object]:
         "pixels": len(found.b),
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
+        "shadow_scales": state.shadow_scales,
         "gloss": None if state.gloss is None else asdict(state.gloss),
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }
