@@ -12,8 +12,6 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
 
-EMPTY_CELL = re.compile(r"(?:(?<=,)|(?<=;)|(?<=\t)|(?<=\n))[ ]*(?=[,;\t\r\n])|(?<=[,;\t])[ ]*\Z")
-
 BLANK_ROW = re.compile(r"(?:nan|[\s,;])*")
 
 
@@ -41,7 +39,7 @@ def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | Non
     InputError
         A cell that is no number, or a row with too few of them: its line is named.
     """
-    filled = text if delimiter is None else EMPTY_CELL.sub("nan", text)
+    filled = text if delimiter is None else _filled(text, delimiter)
     lines = [line for line in filled.splitlines() if not BLANK_ROW.fullmatch(line)]
     if not lines:
         return np.zeros((0, len(columns or ())))
@@ -49,6 +47,16 @@ def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | Non
         return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments="#")
     except ValueError as error:
         raise _complaint(text, first_line, path, delimiter, columns) from error
+
+
+def _filled(text: str, delimiter: str) -> str:
+    """The text with nan in every empty cell."""
+    text = f"\n{text.replace('\r', '')}\n"
+    if f"{delimiter} " in text:
+        text = re.sub(rf" +(?=[{delimiter}\n])", "", text)
+    for _ in range(2):  # neighbouring empty cells share a delimiter
+        text = text.replace(delimiter * 2, f"{delimiter}nan{delimiter}")
+    return text.replace(f"{delimiter}\n", f"{delimiter}nan\n").replace(f"\n{delimiter}", f"\nnan{delimiter}")
 
 
 def _complaint(text: str, first_line: int, path: Path, delimiter: str | None, columns: Sequence[int] | None) -> InputError:
