@@ -5,15 +5,14 @@ Symbols: signal I_k, light vector B_k (see geometry.lambert), variance of a samp
 
 A sample is a candidate when it is not saturated, stands over its noise, is no shadow by its shading ``I_k / E_k`` (under SHADOW of the
 second largest of the pixel), and its light is not known to be hidden. With few lights every three candidates propose b and the
-proposal of the least ``sum min(r^2, OUTLIER^2)`` wins; with many, the middle of the ranked shadings starts. Then weighted least squares
-on the inliers (abs(r) < OUTLIER), in rounds. Sources: Barsky and Petrou 2003 (four lights), Fischler and Bolles 1981 (consensus),
-Wu et al. 2010 and Hernandez et al. 2008 (shadows as outliers); the ranked start follows Verbiest and Van Gool 2008.
+proposal of the least ``sum min(r^2, OUTLIER^2)`` wins, then weighted least squares on the inliers (abs(r) < OUTLIER), in rounds. With many,
+the middle of the ranked shadings starts and weights by the pixel's own spread follow. Sources: Barsky and Petrou 2003 (four lights),
+Fischler and Bolles 1981 (consensus), Wu et al. 2010 and Hernandez et al. 2008 (shadows as outliers), Verbiest and Van Gool 2008 (ranks).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -31,7 +30,10 @@ OUTLIER = 3.0
 ROUNDS = 3
 LEAST = 3
 FEW_LIGHTS = 8
-DARKEST, BRIGHTEST = 0.3, 0.1
+DARKEST, BRIGHTEST = 0.3, 0.3
+WEIGHT_ROUNDS = 6
+SCALE = 1.5
+MAD = 1.4826
 BLOCK = 16384
 FACING = -0.02
 """n . v of a pixel that the camera can see (v the unit ray) is under this."""
@@ -77,10 +79,10 @@ def variances(sight: Sight, gloss: Array | None = None) -> Array:
 
 def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:
     """b of each pixel from the samples `usable` (L, P), by light vectors B (L, P, 3); `gloss` (L, P) is taken off the signal."""
-    start: Callable[..., Array] = _best_three if len(B) <= FEW_LIGHTS else _middle_of_the_ranks
+    way = _few if len(B) <= FEW_LIGHTS else _many
     signal = sight.signal if gloss is None else sight.signal - gloss
     blocks = [slice(first, first + BLOCK) for first in range(0, sight.pixels, BLOCK)]
-    parts = [_estimate(start, signal[:, at], B[:, at], usable[:, at], variance[:, at], sight.rays_C[at]) for at in blocks]
+    parts = [way(signal[:, at], B[:, at], usable[:, at], variance[:, at], sight.rays_C[at]) for at in blocks]
     return Estimate(
         np.concatenate([part.b for part in parts]),
         np.concatenate([part.inliers for part in parts], axis=1),
@@ -90,17 +92,41 @@ def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array
     )
 
 
-def _estimate(start: Callable[..., Array], signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
-    b = start(signal, B, usable, variance)
+def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
+    """The best three, then least squares on the inliers, in rounds."""
+    b = _best_three(signal, B, usable, variance)
     inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
     for _ in range(ROUNDS):
         b, covariance = lambert.weighted(B, signal, inliers / variance)
         inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
+    return _judged(signal, B, usable, variance, rays_C, b, covariance)
+
+
+def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
+    """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
+    b = _middle_of_the_ranks(signal, B, usable)
+    for _ in range(WEIGHT_ROUNDS):
+        residual = np.where(usable, np.abs(signal - lambert.predicted(B, b)), np.nan)
+        spread = MAD * _median_of_known(residual)
+        own = np.maximum(variance, spread**2)
+        square = np.nan_to_num(residual) ** 2 / (SCALE**2 * own)
+        b, covariance = lambert.weighted(B, signal, usable / (1 + square) ** 2 / own)
+    return _judged(signal, B, usable, own, rays_C, b, covariance)
+
+
+def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array, b: Array, covariance: Array) -> Estimate:
+    """The estimate with its inliers and misfit; b is NaN where too few agree or the normal looks away."""
     square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
-    towards = np.einsum("pi,pi->p", b, rays_C) < FACING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
+    inliers = usable & (square < OUTLIER**2)
+    towards = lambert.dot(b, rays_C) < FACING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
     good = (inliers.sum(axis=0) >= LEAST) & towards
-    found = Estimate(b, inliers, covariance, np.sum(np.where(inliers, square, 0.0), axis=0), np.sum(np.minimum(square, OUTLIER**2), axis=0))
-    return replace(found, b=np.where(good[:, None], b, np.nan))
+    return Estimate(
+        np.where(good[:, None], b, np.nan),
+        inliers,
+        covariance,
+        np.sum(np.where(inliers, square, 0.0), axis=0),
+        np.sum(np.minimum(square, OUTLIER**2), axis=0),
+    )
 
 
 def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Array:
@@ -121,10 +147,21 @@ def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array
     return best
 
 
-def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
+def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask) -> Array:
     """b (P, 3) by least squares on the candidates without the darkest and the brightest of them."""
-    shading = np.where(usable, signal / np.linalg.norm(B, axis=2), np.inf)
+    shading = np.where(usable, signal / np.maximum(np.linalg.norm(B, axis=2), 1e-300), np.inf)
     rank = np.argsort(np.argsort(shading, axis=0), axis=0)
     count = usable.sum(axis=0)
     kept = usable & (rank >= np.floor(DARKEST * count)) & (rank < np.ceil((1 - BRIGHTEST) * count))
-    return lambert.weighted(B, signal, kept / variance)[0]
+    return lambert.weighted(B, signal, kept.astype(float))[0]
+
+
+def _median_of_known(values: Array) -> Array:
+    """Median (P,) over the lights of values (L, P), NaN left out; 0 where all are."""
+    count = np.isfinite(values).sum(axis=0)
+    ranked = np.sort(values, axis=0)  # NaN goes last
+    low, high = np.maximum(count - 1, 0) // 2, count // 2
+    found = (
+        np.take_along_axis(ranked, low[None], axis=0)[0] + np.take_along_axis(ranked, np.minimum(high, len(values) - 1)[None], axis=0)[0]
+    ) / 2
+    return np.nan_to_num(found)
