@@ -67,3 +67,18 @@ def test_velocity():
 def test_what_is_too_short_holds_no_pose():
     one = clean(np.zeros(1), np.eye(4)[None], np.full(1, np.nan))
     assert not poses_at(one, np.array([0.0])).trusted.any()
+
+
+def test_many_short_flips_leave_the_rest_to_be_trusted():
+    rng = np.random.default_rng(2)
+    t = np.arange(0, 10, 1 / 120)
+    H_OP = _motion(t)
+    flipped = np.zeros(len(t), dtype=bool)
+    while flipped.mean() < 0.2:
+        start = rng.integers(len(t))
+        flipped[start : start + int(rng.integers(1, 12))] = True
+    H_OP[flipped] = H_OP[flipped] @ FLIP
+    asked = np.linspace(0.2, 9.8, 500)
+    found = poses_at(clean(t, H_OP, np.full(len(t), np.nan)), asked)
+    assert np.linalg.norm((found.H - _motion(asked))[found.trusted].reshape(-1, 16), axis=1).max() < 2e-4
+    assert found.trusted.mean() > 0.2

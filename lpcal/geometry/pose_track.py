@@ -22,6 +22,8 @@ JUMP_RAD_S = 10.0
 JUMP_M_S, JUMP_RATIO = 20.0, 50.0
 """A speed beyond this, and beyond so many times the fast ones of the recording (its unit may be misstated), is a jump."""
 SHORTEST_RUN_S = 0.3
+CHAIN_S = 0.5
+"""A run goes on with an earlier one across a flip or a gap of up to this."""
 GUARD_S = 0.05
 """Kept clear at either end of a run."""
 GAP_SAMPLES = 3.5
@@ -106,8 +108,9 @@ def clean(t_s: Array, H_AB: Array, error_m: Array) -> PoseTrack:
     jump = (_neighbour_angle(R) > JUMP_RAD_S * dt) | (speed > max(JUMP_M_S, JUMP_RATIO * float(np.quantile(speed, 0.9))))
     run = np.concatenate([[0], np.cumsum(jump | (dt > GAP_SAMPLES * interval))])
     first, last = np.flatnonzero(np.diff(run, prepend=-1)), np.flatnonzero(np.diff(run, append=run[-1] + 1))
-    kept = (t_s[last] - t_s[first] >= min(SHORTEST_RUN_S, 0.5 * (t_s[-1] - t_s[0]))) & (last > first)
-    dropped["in runs shorter than 0.3 s between jumps or gaps"] = int(np.sum((last - first + 1)[~kept]))
+    lasting = _lasting(_chains(t_s, H_AB, first, last), t_s[first], t_s[last])
+    kept = lasting & (last > first)
+    dropped["in stretches that jump away from the rest and back, or shorter than 0.3 s"] = int(np.sum((last - first + 1)[~kept]))
     guard = max(GUARD_S, 1.5 * interval)
     starts_s = t_s[first] + guard * (first > 0)
     ends_s = t_s[last] - guard * (last < len(t_s) - 1)
@@ -142,6 +145,45 @@ def _swapped(error_m: Array) -> Mask:
     if not known.size:
         return np.zeros(len(error_m), dtype=bool)
     return np.nan_to_num(error_m, nan=0.0) > ERROR_RATIO * np.median(known) + ERROR_FLOOR_M
+
+
+def _chains(t_s: Array, H_AB: Array, first: npt.NDArray[np.intp], last: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
+    """Chain (R,) of each run: a run goes on with the latest earlier one from which a plausible motion leads to it.
+
+    A flip and its return so become two chains, the body's own and the flipped one's.
+    """
+    chain = np.zeros(len(first), dtype=np.intp)
+    ends: list[int] = []
+    for run in range(len(first)):
+        for number in sorted(range(len(ends)), key=lambda n: -ends[n]):
+            end, dt = ends[number], float(t_s[first[run]] - t_s[ends[number]])
+            turn = float(_neighbour_angle(H_AB[[end, first[run]], :3, :3])[0])
+            if dt > CHAIN_S or (turn < JUMP_RAD_S * min(dt, 0.1) and _shift(H_AB, end, first[run]) < JUMP_M_S * dt):
+                chain[run] = number if dt <= CHAIN_S else len(ends)
+                break
+        else:
+            chain[run] = len(ends)
+        if chain[run] == len(ends):
+            ends.append(int(last[run]))
+        ends[chain[run]] = int(last[run])
+    return chain
+
+
+def _shift(H_AB: Array, i: int, j: int) -> float:
+    return float(np.linalg.norm(H_AB[j, :3, 3] - H_AB[i, :3, 3]))
+
+
+def _lasting(chain: npt.NDArray[np.intp], start_s: Array, end_s: Array) -> Mask:
+    """Runs (R,) of chains that last 0.3 s in all, less those that a longer chain of the same time contradicts."""
+    length = np.bincount(chain, end_s - start_s)
+    begin, end = (np.array([find(of[chain == n]) for n in range(len(length))]) for find, of in ((np.min, start_s), (np.max, end_s)))
+    whole = float(end_s[-1] - start_s[0])
+    good = length >= min(SHORTEST_RUN_S, 0.5 * whole)
+    for n in np.argsort(-length):
+        over = (begin < end[n]) & (end > begin[n]) & (length < length[n])
+        if good[n]:
+            good &= ~over
+    return np.asarray(good[chain])
 
 
 def _neighbour_angle(R: Array) -> Array:

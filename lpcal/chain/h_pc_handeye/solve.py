@@ -147,9 +147,15 @@ def _start(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Came
         if best is None or score < best[0]:
             state = _state(turned, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
             best = score, replace(state, track=track), agreed
+    if not offsets:
+        raise DegenerateError(
+            "no clock offset at which a third of the views fall into steady stretches of the recording",
+            needed="a body that is tracked through most of the images",
+            todo="look at: lpcal check; or state the offset: mocap.clock_offset",
+        )
     if best is None:
         raise DegenerateError(
-            f"{int(poses_at(track, t_camera_s - (offsets or [0.0])[0]).trusted.sum())} views with a trusted panel pose",
+            f"{int(poses_at(track, t_camera_s - offsets[0]).trusted.sum())} views with a trusted panel pose",
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
