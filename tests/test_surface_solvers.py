@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lpcal.geometry import lambert
-from lpcal.surface import multigrid, normals, pieces
+from lpcal.records.calibration import Light
+from lpcal.surface import gains, multigrid, normals, pieces
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.sight import Sight
 from scipy import sparse
@@ -168,3 +169,16 @@ def test_filling_is_smooth_and_keeps_what_is_known():
     found = pieces.fill(grid, np.where(known[:, None], values, np.nan), known)
     assert np.array_equal(found[known], values[known])
     assert np.abs(found - values).max() < 0.5
+
+
+def test_intensities_that_nobody_measured_are_found_from_the_object():
+    rng = np.random.default_rng(11)
+    seen, B, _ = random_sight(rng, 12, 3000, 0.002)
+    true = rng.uniform(0.6, 1.5, 12)
+    true /= true.mean()
+    seen.signal[:] *= true[:, None]
+    seen.signal[0, :400] *= 0.01  # shadows
+    lights = [Light(f"L{k}", direction, np.ones(1)) for k, direction in enumerate(B[:, 0])]
+    assert gains.unmeasured(lights)
+    assert gains.intensities(seen, lights) == pytest.approx(true, rel=0.01)
+    assert gains.intensities(seen, lights[:4]) is None

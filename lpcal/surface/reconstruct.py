@@ -18,7 +18,7 @@ from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, distance, gloss, mask, normals, pieces, planes, shadow_anchor, sight, uncertainty
+from lpcal.surface import bend, distance, gains, gloss, mask, normals, pieces, planes, shadow_anchor, sight, uncertainty
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Sight
@@ -112,6 +112,10 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
     object_mask = _object(background, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
+    gain = gains.intensities(seen, lights) if gains.unmeasured(lights) else None
+    if gain is not None:
+        lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
+        seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m)
     how = background.how if background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
@@ -119,7 +123,8 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     if near and background is not None and background.planes and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, maps, rays_C, background.planes[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C)
-    return replace(surface, figures={"mask": how, **surface.figures})
+    told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
+    return replace(surface, figures={"mask": how, **told, **surface.figures})
 
 
 def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall: planes.Plane, camera: Camera) -> State:
