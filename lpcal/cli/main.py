@@ -35,6 +35,10 @@ COMMANDS = {
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
 REFUSED = {getattr(errno, name, None) for name in ("EACCES", "EPERM", "EROFS", "ENOSPC", "EDQUOT")}
+# many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's word wins
+for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")
+
 INTERRUPTED = 130
 BUG = 1
 USAGE = 2

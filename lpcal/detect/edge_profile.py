@@ -21,6 +21,8 @@ from lpcal.geometry.arrays import Array, Mask
 
 REACH_PX, SEARCH_PX, STEP_PX = 6.0, 2.5, 0.1
 BLURS_PX = (0.4, 2.5)
+INNER_SHARE, INNER_PX = {"chrome": 0.07, "matte": 0.12}, 2.5
+"""Inwards a profile is looked at over this share of the radius, this far at least: a chrome rim mirrors the room in ever narrower rings."""
 NEAR_PX = 1.0
 """The least misfit is looked for this far from where the step explains most."""
 LARGE_RADIUS_PX, LARGEST_SCALE = 200.0, 3.0
@@ -60,7 +62,10 @@ def match_edges(coefficients: Array, points: Array, normals: Array, kind: str, r
     if not inside.any():
         return Edges(np.zeros(len(points)), inside, np.zeros(len(points)), 0.0)
     offsets = np.linspace(-search, search, int(2 * np.ceil(min(search / (STEP_PX * scale), COARSEST))) + 1)
-    window = _Window(profile, s, offsets, REACH_PX * scale)
+    step = STEP_PX * scale
+    inner = float(np.clip(INNER_SHARE[kind] * radius, INNER_PX * scale, REACH_PX * scale))
+    # half a step more, so that rounding never decides whether the last place counts
+    window = _Window(profile, s, offsets, (round(inner / step) + 0.5) * step, REACH_PX * scale + 0.5 * step)
     smooth = window.misfits(_smooth_terms)
 
     def cost(blur: float) -> Array:
@@ -83,18 +88,19 @@ def match_edges(coefficients: Array, points: Array, normals: Array, kind: str, r
 
 @dataclass(frozen=True)
 class _Window:
-    """Profiles (K, S) at places s (S,), looked at about each of the offsets within a reach."""
+    """Profiles (K, S) at places s (S,), looked at about each of the offsets from `inner` inwards to `outer` outwards."""
 
     profile: Array
     s: Array
     offsets: Array
-    reach: float
+    inner: float
+    outer: float
 
     def misfits(self, terms: Callable[[Array], Array]) -> Array:
         """Squared misfit (K, offsets) of the profiles to terms about each offset."""
         found = []
         for offset in self.offsets:
-            near = np.abs(self.s - offset) <= self.reach
+            near = (self.s - offset >= -self.inner) & (self.s - offset <= self.outer)
             Q = np.linalg.qr(terms(self.s[near] - offset))[0]
             part = self.profile[:, near]
             part = part - part.mean(axis=1, keepdims=True)  # numerically kinder; the constant is one of the terms
@@ -104,8 +110,8 @@ class _Window:
     def contrast(self, offset: Array, misfit: Array) -> Array:
         """Step (K,) across the edges over the noise that the misfit shows."""
         away = self.s[None] - offset[:, None]
-        near, gap = np.abs(away) <= self.reach, self.reach / 3
-        outer, inner = near & (away > gap), near & (away < -gap)
+        near = (away >= -self.inner) & (away <= self.outer)
+        outer, inner = near & (away > self.outer / 3), near & (away < -self.inner / 3)
         step = np.sum(self.profile * inner, axis=1) / np.maximum(inner.sum(axis=1), 1)
         step -= np.sum(self.profile * outer, axis=1) / np.maximum(outer.sum(axis=1), 1)
         noise = np.sqrt(np.maximum(misfit, 0.0) / near.sum(axis=1))

@@ -156,7 +156,7 @@ def remove(path: Path) -> None:
     shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink(missing_ok=True)
 
 
-class _Dumper(yaml.SafeDumper):
+class _Dumper(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):  # type: ignore[misc]
     """Never an alias, and floats with all the digits they need and no more."""
 
     def ignore_aliases(self, data: Any) -> bool:  # noqa: ARG002

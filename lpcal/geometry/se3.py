@@ -46,6 +46,9 @@ def quaternion(R: Array) -> Array:
     The eigenvector of the largest eigenvalue: the nearest rotation where R is only nearly one.
     """
     R = np.asarray(R, dtype=float)
+    if R.shape[-2:] != (3, 3):
+        msg = f"a rotation is (..., 3, 3), not {R.shape}"
+        raise ValueError(msg)
     K = np.empty((*R.shape[:-2], 4, 4))
     for i in range(3):
         for j in range(3):

@@ -1,7 +1,9 @@
 """What a sphere's outline says of its centre, and how sure that is; what a pixel's residual is in any lens.
 
 Symbols: outline points with scatter sigma a point; a common radial bias b (px, outwards) moves the centre by ``by_bias * b``. To the
-formal covariance come systematic parts that the scatter does not show: the whole outline shifted, and its bias.
+formal covariance come systematic parts that the scatter does not show: the whole outline shifted, and its bias. How large they are the
+outline itself tells: what mirrors or hides it unevenly also bends it, and the bends of two to six waves round it (which no sphere has) are
+about as large as the shift, of one wave, that cannot be told from the sphere's place.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ from lpcal.records.observations import SphereView
 LATERAL_PX = {"chrome": 0.05, "matte": 0.03}
 OWN_BIAS_PX = {"chrome": 0.015, "matte": 0.02}
 SCATTER_FACTOR = 2.0
+WAVES = (2, 3, 4, 5, 6)
 STEP = 1e-6
 
 
@@ -53,13 +56,23 @@ def measure_centre(view: SphereView, camera: Camera) -> CentreMeasurement:
     by_bias = (centre_of(points + STEP * outward) - centre_of(points - STEP * outward)) / (-2 * STEP)
     by_shift = np.stack([(centre_of(points + step) - centre_of(points - step)) / (2 * STEP) for step in STEP * np.eye(2)], axis=1)
     J = normal_offset_jacobian(centre_C, view.radius_m, camera)
+    bend_px = _bend(points, camera.project(sphere.outline(centre_C, view.radius_m, np.linspace(0, 2 * np.pi, 720, endpoint=False))))
+    lateral_px, bias_px = max(LATERAL_PX[view.kind], bend_px), max(OWN_BIAS_PX[view.kind], bend_px / 2)
     formal = view.outline_sigma_px**2 * np.linalg.inv(J.T @ J * len(points) / len(J))
-    covariance = (
-        SCATTER_FACTOR**2 * formal
-        + LATERAL_PX[view.kind] ** 2 * by_shift @ by_shift.T
-        + OWN_BIAS_PX[view.kind] ** 2 * np.outer(by_bias, by_bias)
-    )
+    covariance = SCATTER_FACTOR**2 * formal + lateral_px**2 * by_shift @ by_shift.T + bias_px**2 * np.outer(by_bias, by_bias)
     return CentreMeasurement(centre_C, covariance, by_bias)
+
+
+def _bend(points: Array, drawn: Array) -> float:
+    """Amplitude (px, rms of a sine) of the outline's departure from the drawn one, over waves that no sphere has."""
+    middle = drawn.mean(axis=0)
+    seen, true = points - middle, drawn - middle
+    around, true_around = np.arctan2(seen[:, 1], seen[:, 0]), np.arctan2(true[:, 1], true[:, 0])
+    offset = np.linalg.norm(seen, axis=1) - np.interp(around, true_around, np.linalg.norm(true, axis=1), period=2 * np.pi)
+    low = np.column_stack([np.ones_like(around), np.cos(around), np.sin(around)])
+    bends = np.column_stack([wave(k * around) for k in WAVES for wave in (np.cos, np.sin)])
+    found = np.linalg.lstsq(np.hstack([low, bends]), offset, rcond=None)[0][3:]
+    return float(np.sqrt(np.mean(found**2)))
 
 
 def normal_offset_jacobian(centre_C: Array, radius_m: float, camera: Camera) -> Array:

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.refine_lights.distant import refine_distant
-from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
 from lpcal.chain.refine_lights.samples import sample_blocks
 from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, nominal_lobe
-from lpcal.errors import DegenerateError
+from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, SphereFinding, Wings
@@ -22,6 +22,7 @@ from lpcal.records.observations import SphereView
 DIRECTION_FLOOR_RAD = float(np.radians(0.02))
 """LEDs that stand a little askew move the source seen from different places: what a point source cannot follow."""
 WORST_HIGHLIGHT_PX = 1.0
+REFUSED_HIGHLIGHT_PX, DOUBTED_PX, DOUBTED_SIGMAS = 2.0, 0.25, 3.0
 UNSURE = 0.3
 """A free light whose distance is less sure than this share of itself is told."""
 
@@ -215,8 +216,37 @@ def _solution(
         "highlight_rms_px": _rms(list(highlights.values())),
         "shading_rms": _rms(list(misfit.values())),
     }
-    told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings)
+    told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings, *_doubts(joint.bias_px if joint else fit.bias_px, highlights))
     return LightsSolution(tuple(lights), focus_C, _d_object(H_CD, focus_C), H_CD, tuple(spheres), told, evidence)
+
+
+def _doubts(bias_px: dict[str, float], highlights: dict[tuple[str, str], float]) -> list[str]:
+    """What in a solution that settled is not as it should be.
+
+    Raises
+    ------
+    ConvergenceError
+        The highlights are nowhere near where the lights put them.
+    """
+    rms_px = _rms(list(highlights.values()))
+    if rms_px > REFUSED_HIGHLIGHT_PX:
+        worst = max(highlights, key=highlights.__getitem__)
+        raise ConvergenceError(
+            f"the highlights lie {rms_px:.1f} px rms from where the lights put them, worst that of {worst[1]} in {worst[0]}",
+            needed=f"under {REFUSED_HIGHLIGHT_PX} px",
+            todo="look at the spheres' radii and outlines (a hint: [x, y, radius] helps) and at the wings' settings",
+        )
+    doubts = (
+        [f"the highlights agree to {rms_px:.2f} px only, where 0.05 is usual: is a radius or an outline wrong?"]
+        if rms_px > DOUBTED_PX
+        else []
+    )
+    for kind, (mean, sigma) in BIAS_PX.items():
+        if abs(bias_px[kind] - mean) > DOUBTED_SIGMAS * sigma:
+            doubts.append(
+                f"the outlines of the {kind} spheres are biased by {bias_px[kind]:.2f} px, where {mean} +- {sigma} is usual: look at them"
+            )
+    return doubts
 
 
 def _finding(
