@@ -1,7 +1,7 @@
 """wings.yaml: every light as designed, and the frame and tolerances it comes from.
 
-``lights`` in the panel's order: ``name, setting (azimuth_deg, joint_angle_deg, d1_m, d2_m), leds, H_DL, H_CL, position_std_m, axis_std_deg``;
-``covariance`` (6L, 6L) joint over the lights, rotation then translation each.
+``lights`` in the panel's order: ``name, setting (azimuth_deg, joint_angle_deg, d1_m, d2_m), leds, H_DL, H_CL, position_std_m,
+axis_std_deg``; ``covariance`` (6L, 6L) joint over the lights, rotation then translation each.
 """
 
 from __future__ import annotations

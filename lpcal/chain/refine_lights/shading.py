@@ -61,56 +61,88 @@ def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names:
     names : the spheres' names
     intensity_sd : prior of the relative intensity of a light
     """
-    modes = sorted({mode or 0 for mode in leds})
-    mode_of_light = np.array([modes.index(mode or 0) for mode in leds])
-    light, which = samples.light, samples.sphere
-    spheres, block = np.unique(which), np.unique(samples.block, return_inverse=True)[1]
-    interpolation = _interpolation(samples.angle_rad)
-    lobe_columns = [interpolation[:, 1:] * (mode_of_light[light] == m)[:, None] for m in range(len(modes))]
-    exponent_columns = [
-        np.log(np.maximum(np.cos(samples.angle_rad), 1e-3)) * (mode_of_light[light] == m)
-        for m in range(len(modes))
-        if modes[m] not in led_cluster.RINGS
-    ]
-    design = np.column_stack([np.eye(count)[light], (which[:, None] == spheres).astype(float), *lobe_columns, *exponent_columns])
-    known = np.zeros(light.size)
-    for m, mode in enumerate(modes):
+    layout = _Layout(samples, count, tuple(leds), intensity_sd)
+    target = samples.log_data - samples.log_geometry - layout.known
+    block = np.unique(samples.block, return_inverse=True)[1]
+    sigma = np.hypot(samples.relative_sigma, MODEL_SD)
+    found, covariance, residual = _solve_with_blocks(layout.design, target, sigma, block, layout.prior)
+    intensity, std = _intensities(samples, found[:count], covariance[:count, :count])
+    lobes = [layout.lobe(m, found) for m in range(len(layout.modes))]
+    rows = slice(layout.lobe_start, None)
+    return ShadingFit(
+        intensity=intensity,
+        intensity_std=std,
+        lobes=tuple(lobes[m] for m in layout.mode_of_light),
+        residual={names[s]: float(np.sqrt(np.mean(residual[samples.sphere == s] ** 2))) for s in layout.spheres},
+        log_lobe=layout.known + layout.design[:, rows] @ found[rows] + residual,
+        log_intensity=found[:count],
+        log_albedo={int(s): float(found[count + k]) for k, s in enumerate(layout.spheres)},
+        seen_rad=float(samples.angle_rad.max()),
+    )
+
+
+class _Layout:
+    """The unknowns in order: log intensity a light, log albedo a sphere, lobe deviations a mode, exponent an unknown mode."""
+
+    def __init__(self, samples: Samples, count: int, leds: tuple[int | None, ...], intensity_sd: float) -> None:
+        self.samples = samples
+        self.modes = sorted({mode or 0 for mode in leds})
+        self.unknown = [mode for mode in self.modes if mode not in led_cluster.RINGS]
+        self.mode_of_light = np.array([self.modes.index(mode or 0) for mode in leds])
+        self.spheres = np.unique(samples.sphere)
+        self.lobe_start = count + len(self.spheres)
+        own = [self.mode_of_light[samples.light] == m for m in range(len(self.modes))]
+        weights, log_cosine = _interpolation(samples.angle_rad)[:, 1:], np.log(np.maximum(np.cos(samples.angle_rad), 1e-3))
+        self.known = np.zeros(samples.light.size)
+        for mine, mode in zip(own, self.modes, strict=True):
+            if mode in led_cluster.RINGS:
+                self.known += np.where(mine, np.log(led_cluster.mean_lobe(samples.angle_rad, mode)), 0.0)
+        self.design = np.column_stack(
+            [
+                np.eye(count)[samples.light],
+                (samples.sphere[:, None] == self.spheres).astype(float),
+                *(weights * mine[:, None] for mine in own),
+                *(log_cosine * own[self.modes.index(mode)] for mode in self.unknown),
+            ]
+        )
+        self.prior = np.zeros((self.design.shape[1],) * 2)
+        self.prior[:count, :count] += np.eye(count) / intensity_sd**2
+        for m, mode in enumerate(self.modes):
+            sd = LOBE_SD if mode in led_cluster.RINGS else UNKNOWN_LOBE_SD
+            self.prior[self._lobe_rows(m), self._lobe_rows(m)] += np.linalg.inv(_smooth_covariance(sd))
+        for row in range(self.design.shape[1] - len(self.unknown), self.design.shape[1]):
+            self.prior[row, row] += 1 / EXPONENT_SD**2
+
+    def _lobe_rows(self, m: int) -> slice:
+        width = len(KNOTS_RAD) - 1
+        return slice(self.lobe_start + m * width, self.lobe_start + (m + 1) * width)
+
+    def lobe(self, m: int, found: Array) -> Lobe:
+        """The known shape times what was found; beyond the largest angle seen the factor stays what it was there."""
+        mode, seen_rad = self.modes[m], float(self.samples.angle_rad.max())
+        deviation = np.concatenate([[0.0], found[self._lobe_rows(m)]])
+        deviation = np.interp(np.minimum(KNOTS_RAD, seen_rad), KNOTS_RAD, deviation)
         if mode in led_cluster.RINGS:
-            known += np.where(mode_of_light[light] == m, np.log(led_cluster.mean_lobe(samples.angle_rad, mode)), 0.0)
-    target = samples.log_data - samples.log_geometry - known
-    prior = np.zeros((design.shape[1],) * 2)
-    prior[:count, :count] += np.eye(count) / intensity_sd**2
-    start = count + len(spheres)
-    for m, mode in enumerate(modes):
-        at = slice(start + m * (len(KNOTS_RAD) - 1), start + (m + 1) * (len(KNOTS_RAD) - 1))
-        prior[at, at] += np.linalg.inv(_smooth_covariance(LOBE_SD if mode in led_cluster.RINGS else UNKNOWN_LOBE_SD))
-    for column in range(design.shape[1] - len(exponent_columns), design.shape[1]):
-        prior[column, column] += 1 / EXPONENT_SD**2
-    found, covariance, residual = _solve_with_blocks(design, target, np.hypot(samples.relative_sigma, MODEL_SD), block, prior)
-    logs = found[:count]
-    seen = np.isin(np.arange(count), light)
-    level = np.mean(np.exp(logs[seen]))
+            base = led_cluster.mean_lobe(KNOTS_RAD, mode)
+        else:
+            exponent = found[len(found) - len(self.unknown) + self.unknown.index(mode)]
+            base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(float(exponent), 0.0)
+        return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))
+
+
+def _intensities(samples: Samples, logs: Array, covariance: Array) -> tuple[Array, Array]:
+    """Relative intensities (L, C), mean 1, and their standard deviations (L,); 1 and NaN for a light that no sphere shows."""
+    count = len(logs)
+    seen = np.isin(np.arange(count), samples.light)
     colour = np.ones((count, samples.colour.shape[1]))
     for k in np.flatnonzero(seen):
-        colour[k] = np.median(samples.colour[light == k], axis=0)
+        colour[k] = np.median(samples.colour[samples.light == k], axis=0)
     colour /= colour[seen].mean(axis=0)
-    intensity = np.where(seen, np.exp(logs) / level, 1.0)[:, None] * colour
+    intensity = np.where(seen, np.exp(logs) / np.mean(np.exp(logs[seen])), 1.0)[:, None] * colour
     centring = np.eye(count)[seen] - np.mean(np.eye(count)[seen], axis=0)
     std = np.full(count, np.nan)
-    std[seen] = np.sqrt(np.diag(centring @ covariance[:count, :count] @ centring.T))
-    unknown = [mode for mode in modes if mode not in led_cluster.RINGS]
-    seen_rad = float(samples.angle_rad.max())
-    lobes = [_lobe(mode, m, found, start, unknown, seen_rad) for m, mode in enumerate(modes)]
-    return ShadingFit(
-        intensity=intensity / intensity.mean(),
-        intensity_std=std,
-        lobes=tuple(lobes[m] for m in mode_of_light),
-        residual={names[s]: float(np.sqrt(np.mean(residual[which == s] ** 2))) for s in spheres},
-        log_lobe=known + design[:, start:] @ found[start:] + residual,
-        log_intensity=logs,
-        log_albedo={int(s): float(found[count + k]) for k, s in enumerate(spheres)},
-        seen_rad=seen_rad,
-    )
+    std[seen] = np.sqrt(np.diag(centring @ covariance @ centring.T))
+    return intensity / intensity.mean(), std
 
 
 def nominal_lobe(leds: int | None) -> Lobe:
@@ -152,15 +184,3 @@ def _solve_with_blocks(design: Array, target: Array, sigma: Array, block: Index,
         scale = np.maximum(1.4826 * np.median(np.abs(residual / sigma)), 1.0)
         weight = 1 / (sigma * scale) ** 2 / (1 + (residual / (ROBUST * sigma * scale)) ** 2)
     return found, np.linalg.inv(N), residual
-
-
-def _lobe(mode: int, m: int, found: Array, start: int, unknown: list[int], seen_rad: float) -> Lobe:
-    """The known shape times what was found; beyond the largest angle seen the factor stays what it was there."""
-    width = len(KNOTS_RAD) - 1
-    deviation = np.concatenate([[0.0], found[start + m * width : start + (m + 1) * width]])
-    deviation = np.interp(np.minimum(KNOTS_RAD, seen_rad), KNOTS_RAD, deviation)
-    if mode in led_cluster.RINGS:
-        base = led_cluster.mean_lobe(KNOTS_RAD, mode)
-    else:
-        base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(found[len(found) - len(unknown) + unknown.index(mode)], 0.0)
-    return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))
