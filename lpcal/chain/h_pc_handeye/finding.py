@@ -1,0 +1,121 @@
+"""The solve's end: the record with its covariance, the verdict on each view, and the evidence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.chain.h_pc_handeye import congruence, observability, variance
+from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
+from lpcal.chain.h_pc_handeye.state import State
+from lpcal.errors import ConvergenceError
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.pose_track import TrackPoses
+from lpcal.records.calibration import HandEye, ViewVerdict
+
+MOST_BAD = 0.5
+"""Share of the views that may not fit one rigid camera."""
+
+
+@dataclass(frozen=True)
+class HandEyeFinding:
+    """The record, and the panel pose that each of the asked views got."""
+
+    handeye: HandEye
+    panel: TrackPoses
+    offset_s: float
+    """The clock offset at which they were taken, known or not."""
+
+
+def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], known_offset_s: float | None) -> HandEyeFinding:
+    """The record of a settled solve.
+
+    Raises
+    ------
+    ConvergenceError
+        Most views do not fit.
+    DegenerateError
+        Those that are left cannot show H_PC.
+    """
+    found, views = state.estimate(), state.views()
+    spread, more = observability.refuse_what_cannot_show_it(views.H_OP)
+    factor = variance.block_factor(views, found, None if t_camera_s is None else t_camera_s[state.inliers])
+    covariance = found.covariance() * factor
+    bad = float(np.mean(~state.inliers[state.panel.trusted]))
+    if bad > MOST_BAD:
+        raise ConvergenceError(
+            f"{100 * bad:.0f} % of the views do not fit one rigid camera", needed="a majority that does", todo="look at: lpcal check"
+        )
+    size = congruence.board_size_warning(views.H_OP, views.H_CB, found.H_PC[:3, :3])
+    roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
+    warnings += [each for each in (size, roles) if each is not None]
+    clocked = state.clock and t_camera_s is not None
+    offset = state.offset_s if clocked else known_offset_s
+    handeye = HandEye(
+        H_PC=found.H_PC,
+        H_PC_covariance=covariance[:6, :6],
+        H_OB=found.H_OB,
+        H_OB_covariance=covariance[6:12, 6:12],
+        clock_offset_s=offset,
+        clock_offset_std_s=float(np.sqrt(covariance[12, 12])) if clocked else (0.0 if offset is not None else None),
+        views=_verdicts(state, found),
+        warnings=(*warnings, *more),
+        evidence=_evidence(state, found, spread, factor),
+    )
+    return HandEyeFinding(handeye, state.panel, state.offset_s)
+
+
+def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
+    whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
+    angle, distance = misfit(whole, found)
+    px = np.full(len(state.inliers), np.nan)
+    residuals, view = found.corner_residuals()
+    if len(residuals):
+        rows = np.flatnonzero(state.inliers)
+        squares = np.bincount(rows[view], np.sum(residuals**2, axis=1) / 2, len(px))
+        counts = np.bincount(rows[view], minlength=len(px))
+        px = np.where(counts > 0, np.sqrt(squares / np.maximum(counts, 1)), np.nan)
+    verdicts = []
+    for k, image in enumerate(state.boards.images):
+        why = state.panel.why[k]
+        used = bool(state.inliers[k])
+        if why is None and not used:
+            why = f"its mocap pose misses the others by {np.degrees(angle[k]):.2f} deg, {1e3 * distance[k]:.1f} mm"
+        seen = why is None or used or state.panel.why[k] is None
+        verdicts.append(
+            ViewVerdict(
+                image,
+                used,
+                None if used else why,
+                residual_px=float(px[k]) if np.isfinite(px[k]) else None,
+                residual_m=float(distance[k]) if seen else None,
+                residual_rad=float(angle[k]) if seen else None,
+            )
+        )
+    return tuple(verdicts)
+
+
+def _evidence(state: State, found: Estimate, spread: observability.Spread, factor: float) -> dict[str, object]:
+    s = state.sigmas
+    group = int(state.views().noise_class.max())
+    evidence: dict[str, object] = {
+        "views_used": int(state.inliers.sum()),
+        "rotation_spread_deg": np.degrees(spread.sigma_rad),
+        "mocap_sigma_deg": np.degrees(s.mocap_rad[0]),
+        "mocap_sigma_m": s.mocap_m[0],
+        "closed_form_H_PC": state.start[0],
+        "covariance_factor_of_shared_errors": factor,
+        "views_that_share_an_error": float(np.median(state.deflation[state.inliers])),
+    }
+    if group:
+        evidence |= {"mocap_sigma_dwell_deg": np.degrees(s.mocap_rad[1]), "mocap_sigma_dwell_m": s.mocap_m[1]}
+    if state.camera is not None:
+        evidence |= {"corner_sigma_px": s.px, "camera_as_refined_here": found.camera, "camera_moved": found.camera - state.camera.mean}
+    else:
+        evidence |= {"board_sigma_deg": np.degrees(s.board_rad), "board_sigma_m": [s.board_lateral_m, s.board_lateral_m, s.board_depth_m]}
+    difference = found.H_PC @ se3.inv(state.start[0])
+    evidence["moved_from_closed_form_deg"] = float(np.degrees(se3.angle_rad(difference[:3, :3])))
+    evidence["moved_from_closed_form_m"] = float(np.linalg.norm(found.H_PC[:3, 3] - state.start[0][:3, 3]))
+    return evidence

@@ -1,0 +1,125 @@
+"""Where the hand-eye solve starts: trusted panel poses, the likeliest clock offset, the closed form among outliers.
+
+Refuses where the motion cannot show H_PC, or body and camera do not move as one; turns boards back that were found by their other end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from lpcal.chain.h_pc_handeye import clock as clocks
+from lpcal.chain.h_pc_handeye import congruence, observability
+from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior, turned_by_half
+from lpcal.chain.h_pc_handeye.state import Options, State
+from lpcal.errors import DegenerateError
+from lpcal.geometry import park
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
+from lpcal.records.calibration import Camera
+from lpcal.records.observations import BoardPoses
+
+READMIT = 5.0
+"""Times the worst residual of the views that agree, up to which a board turned by half counts as agreeing."""
+
+
+def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Camera | None, options: Options) -> State:
+    """The closed form at each likely offset; the one of least scatter."""
+    if options.clock_offset_s is not None:
+        offsets = [options.clock_offset_s]
+    else:
+        offsets = [candidate.offset_s for candidate in clocks.offset_candidates(track, t_camera_s, boards.H_CB)]
+    best: tuple[float, State, park.Consensus] | None = None
+    for offset in offsets:
+        panel = poses_at(track, t_camera_s - offset)
+        if panel.trusted.sum() < observability.FEWEST_VIEWS:
+            continue
+        agreed = _agreed(boards, panel, options.seed)
+        turned, agreed = _turned_back(boards, panel, agreed)
+        score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
+        if best is None or score < best[0]:
+            state = _state(turned, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
+            best = score, replace(state, track=track), agreed
+    if not offsets:
+        raise DegenerateError(
+            "no clock offset at which a third of the views fall into steady stretches of the recording",
+            needed="a body that is tracked through most of the images",
+            todo="look at: lpcal check; or state the offset: mocap.clock_offset",
+        )
+    if best is None:
+        raise DegenerateError(
+            f"{int(poses_at(track, t_camera_s - offsets[0]).trusted.sum())} views with a trusted panel pose",
+            needed=f"{observability.FEWEST_VIEWS}, better 15",
+            todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
+        )
+    _refuse(best[1], best[2])
+    return best[1]
+
+
+def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
+    """The closed form with one panel pose a view. Raises as `start_moving`."""
+    boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options.seed))
+    state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
+    _refuse(state, agreed)
+    return state
+
+
+def _refuse(state: State, agreed: park.Consensus) -> None:
+    """Stop where the data are no rigid motion, with what is wrong."""
+    trusted = state.panel.trusted
+    of_trusted = replace(agreed, inliers=agreed.inliers[trusted])
+    congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], of_trusted, from_images=state.boards.corners_px is not None)
+
+
+def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
+    """The closed form on the trusted views, after the refusal of motions that cannot show H_PC; rows are all views."""
+    trusted = panel.trusted
+    observability.refuse_what_cannot_show_it(panel.H[trusted])
+    found = park.consensus(panel.H[trusted], boards.H_CB[trusted], seed)
+    inliers = np.zeros(len(trusted), dtype=bool)
+    inliers[trusted] = found.inliers
+    angle, distance = park.residuals(panel.H, boards.H_CB, found.H_PC, found.H_OB)
+    return replace(found, inliers=inliers, residual_rad=angle, residual_m=distance)
+
+
+def _turned_back(boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus) -> tuple[BoardPoses, park.Consensus]:
+    """The boards, those turned by half a turn that were found by the wrong end, and the closed form with them.
+
+    A board whose pattern does not tell its ends may be found by either; only one places it where the other views do.
+    """
+    if boards.corners_px is None or boards.points_B is None or not agreed.inliers.any():
+        return boards, agreed
+    turned = turned_by_half(boards)
+    angle, distance = park.residuals(panel.H, turned.H_CB, agreed.H_PC, agreed.H_OB)
+    fits = (angle <= READMIT * agreed.residual_rad[agreed.inliers].max()) & (distance <= READMIT * agreed.residual_m[agreed.inliers].max())
+    wrong = panel.trusted & ~agreed.inliers & fits & (angle < 0.2 * agreed.residual_rad)
+    if not wrong.any():
+        return boards, agreed
+    H_CB = np.where(wrong[:, None, None], turned.H_CB, boards.H_CB)
+    corners = np.where(wrong[:, None, None], np.asarray(turned.corners_px), boards.corners_px)
+    return replace(boards, H_CB=H_CB, corners_px=corners), replace(
+        agreed,
+        inliers=agreed.inliers | wrong,
+        residual_rad=np.where(wrong, angle, agreed.residual_rad),
+        residual_m=np.where(wrong, distance, agreed.residual_m),
+    )
+
+
+def _state(
+    boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus, offset: float, camera: Camera | None, options: Options, *, clock: bool
+) -> State:
+    count = len(boards.H_CB)
+    corners, scale = (None, None) if boards.corners_px is None or camera is None else as_pinhole(boards.corners_px, camera)
+    return State(
+        boards,
+        panel,
+        agreed.inliers,
+        offset,
+        clock,
+        (agreed.H_PC, agreed.H_OB),
+        camera_prior(camera, options.camera_share) if camera is not None and corners is not None else None,
+        deflation=np.ones(count),
+        corners_px=corners,
+        corner_scale=scale,
+    )
