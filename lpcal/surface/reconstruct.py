@@ -61,7 +61,7 @@ class State:
     found: Estimate
     own: Own
     gloss: gloss.Gloss | None = None
-    shadow_scales: dict[int, float] = field(default_factory=dict)
+    anchors: dict[int, shadow_anchor.Anchor] = field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
 
 
@@ -135,17 +135,18 @@ def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall:
     object_mask = scene.seen.mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
     shown = shadow_anchor.screen(everywhere, wall, scene.lights, object_mask, factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    scales = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label)
-    if not scales:
+    near_std = {piece.label: piece.scale_std for piece in _components(scene, state, np.exp(state.u), label)}
+    anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, near_std)
+    if not anchors:
         return state
     shift = np.zeros(256)
-    shift[list(scales)] = np.log(list(scales.values()))
+    shift[list(anchors)] = [np.log(anchor.used) for anchor in anchors.values()]
     u = state.u + shift[label]
     again = _round(scene, u, state, GLOSS_ROUNDS[-1])
-    for one in scales:  # the round's own distance is what the shadow overrules
+    for one in anchors:  # the round's own distance is what the shadow overrules
         inside = label == one
         again.u[inside] += np.mean(u[inside]) - np.mean(again.u[inside])
-    return replace(again, weight=state.weight, shadow_scales=scales)  # the same weights: the same labels
+    return replace(again, weight=state.weight, anchors=anchors)  # the same weights: the same labels
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
@@ -255,8 +256,8 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
         curvature = float(state.own.curvature[inside].sum())
         if scene.distance_m is not None and one == 1:
             std = STATED_DISTANCE
-        elif int(one) in state.shadow_scales:
-            std = shadow_anchor.STD
+        elif int(one) in state.anchors:
+            std = state.anchors[int(one)].std
         elif scene.near:
             std = uncertainty.scale_std(scene.lights, curvature, middle, glossy=state.gloss is not None, shaded_share=shaded)
         else:
@@ -289,7 +290,7 @@ def _figures(state: State) -> dict[str, object]:
         "pixels": len(found.b),
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
-        "shadow_scales": state.shadow_scales,
+        "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
         "gloss": None if state.gloss is None else asdict(state.gloss),
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }

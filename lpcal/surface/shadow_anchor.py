@@ -1,9 +1,14 @@
 r"""The distance of a piece from the edge of its shadow on the plane behind it; no intensities enter.
 
-Symbols: plane ``q . y = 1`` (see surface.planes), light at S, point X of the piece; its shadow falls on ``y = S + t (X - S)`` with
-``t = (1 - q.S) / (q.(X - S))``. The piece is scaled about the camera by s and the shadow that its pixels would throw is compared with
-the one that is seen: ``cost(s) = mean abs(foretold - seen)`` over the plane's pixels and the lights. The side of a shadow away from its
-light is thrown by parts that the camera sees. Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
+Symbols: plane ``q . y = 1`` (see surface.planes), point X of the piece, d the direction to the light there; its shadow falls on
+``y = X - t d`` with ``t = (q.X - 1) / (q.d)``. The piece is scaled about the camera by s and the shadow that its pixels would throw is
+compared with the one that is seen, over the plane's pixels and the lights: ``cost(s) = sum(foretold and lit) + sum(dark, not
+foretold, beyond)``. Only the side of a shadow away from its object is thrown by parts that the camera sees; what is dark on the near side
+of a foretold shadow may be thrown by what the camera does not see, and says nothing.
+
+The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. So the
+shadow is heard where near light itself is in greater doubt about the piece (gloss, parts hidden from each other), and joined with it by
+their variances. Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
 """
 
 from __future__ import annotations
@@ -19,11 +24,12 @@ from lpcal.surface import planes
 from lpcal.surface.sight import Sight
 
 SCALES = np.linspace(0.955, 1.045, 31)
-NEEDED_DROP = 0.10
-"""Of the cost: less says nothing."""
-FEWEST_EDGE_PIXELS = 150
-STD = 0.004
-"""Relative, of a distance that the shadow tells."""
+RIM = 4
+NEEDED_RISE_PX = 60.0
+"""Coarse pixels that disagree more, RIM scales to either side of the best one: a shallower valley says nothing."""
+NINTH = 9
+EDGE_STD, PLANE_STD = 0.002, 0.008
+"""Relative, of a distance that the shadow tells: by its edge, and by a plane of misfit 1."""
 
 
 @dataclass(frozen=True)
@@ -52,48 +58,102 @@ def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mas
     return Screen(plane, np.where(known, shade, 0.0).reshape(size), known.astype(float).reshape(size), factor)
 
 
-def anchored(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array, label: Labels) -> dict[int, float]:
-    """Scales by piece, where its shadow tells one; points x_C (P, 3) with their piece's label (P,)."""
-    found: dict[int, float] = {}
+@dataclass(frozen=True)
+class Anchor:
+    """What the shadow of a piece says of the scale of its distance."""
+
+    seen: float
+    """By the shadow alone."""
+    used: float
+    """Joined with near light's own."""
+    std: float
+    """Relative standard deviation of the two together."""
+
+
+def anchored(
+    shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array, label: Labels, near_std: dict[int, float]
+) -> dict[int, Anchor]:
+    """Anchors by piece, where its shadow tells one; points x_C (P, 3) with their piece's label (P,), `near_std` what near light knows."""
+    found: dict[int, Anchor] = {}
     x_C = x_C.copy()
-    for one in np.unique(label):
+    shadow_std = float(np.hypot(EDGE_STD, PLANE_STD * shown.plane.misfit))
+    for one, own_std in near_std.items():
+        if own_std < shadow_std:
+            continue
         inside = label == one
         rest = _foretold(shown, lights, camera, x_C[~inside])
         costs = np.array([_cost(shown, rest, _foretold(shown, lights, camera, scale * x_C[inside])) for scale in SCALES])
-        scale, drop, edge = _lowest(costs, _cost(shown, rest, _foretold(shown, lights, camera, x_C[inside])), shown)
-        if drop > NEEDED_DROP and edge:
-            found[int(one)] = scale
-            x_C[inside] *= scale
+        scale = _lowest(costs)
+        if scale is None:
+            continue
+        share = own_std**2 / (own_std**2 + shadow_std**2)
+        found[one] = Anchor(scale, float(scale**share), float(shadow_std * np.sqrt(share)))
+        x_C[inside] *= found[one].used
     return found
 
 
-def _cost(shown: Screen, rest: Mask, own: Mask) -> float:
-    return float(np.sum(shown.weight * np.abs((rest | own) - shown.shade)) / max(shown.weight.sum(), 1))
+@dataclass(frozen=True)
+class Foretold:
+    """Shadows (L, H, W), and the pixels on their near sides, of which they say nothing."""
+
+    dark: Mask
+    near_side: Mask
 
 
-def _lowest(costs: Array, now: float, shown: Screen) -> tuple[float, float, bool]:
-    """The scale of least cost by a parabola through its neighbours, the drop that it brings, and whether it lies inside the range."""
+def _cost(shown: Screen, rest: Foretold, own: Foretold) -> float:
+    dark = rest.dark | own.dark
+    beyond = ~dark & ~rest.near_side & ~own.near_side
+    return float(np.sum(shown.weight * (dark * (1 - shown.shade) + beyond * shown.shade)))
+
+
+def _lowest(costs: Array) -> float | None:
+    """The scale of least cost by a parabola through its neighbours; None where the valley is shallow or at the end of the range."""
     k = int(np.argmin(costs))
-    if k in {0, len(costs) - 1} or shown.shade.sum() < FEWEST_EDGE_PIXELS:
-        return 1.0, 0.0, False
+    if not RIM <= k < len(costs) - RIM or min(costs[k - RIM], costs[k + RIM]) - costs[k] < NEEDED_RISE_PX:
+        return None
     left, middle, right = costs[k - 1 : k + 2]
     shift = 0.5 * (left - right) / max(left - 2 * middle + right, 1e-12)
-    return float(SCALES[k] + np.clip(shift, -0.5, 0.5) * (SCALES[1] - SCALES[0])), 1 - float(middle) / max(now, 1e-12), True
+    return float(SCALES[k] + np.clip(shift, -0.5, 0.5) * (SCALES[1] - SCALES[0]))
 
 
-def _foretold(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array) -> Mask:
-    """Shadows (L, H, W) of points x_C (P, 3) on the screen."""
+def _foretold(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array) -> Foretold:
+    """Shadows of points x_C (P, 3) on the screen."""
     from scipy import ndimage
 
-    shade = np.zeros(shown.shade.shape, bool)
+    dark, near_side = np.zeros(shown.shade.shape, bool), np.zeros(shown.shade.shape, bool)
+    if not len(x_C):
+        return Foretold(dark, near_side)
+    own_px = camera.project(x_C[::NINTH])
     for k, light in enumerate(lights):
-        if light.source_C is None or not len(x_C):
-            continue
-        along = x_C - light.source_C
-        y_C = light.source_C + ((1 - shown.plane.q @ light.source_C) / (along @ shown.plane.q))[:, None] * along
-        pixel = np.rint((camera.project(y_C) - (shown.factor - 1) / 2) / shown.factor)
-        inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < shade.shape[2]) & (pixel[:, 1] < shade.shape[1]) & (y_C[:, 2] > 0)
+        d, _ = light.field(x_C)
+        y_C = x_C - ((x_C @ shown.plane.q - 1) / np.minimum(d @ shown.plane.q, -1e-6))[:, None] * d
+        shadow_px = camera.project(y_C)
+        pixel = np.rint((shadow_px - (shown.factor - 1) / 2) / shown.factor)
+        inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < dark.shape[2]) & (pixel[:, 1] < dark.shape[1]) & (y_C[:, 2] > 0)
         column, row = pixel[inside].astype(int).T
-        shade[k, row, column] = True
-        shade[k] = ndimage.binary_closing(shade[k])
-    return shade
+        dark[k, row, column] = True
+        dark[k] = ndimage.binary_closing(dark[k])
+        away = np.median(shadow_px[::NINTH] - own_px, axis=0)
+        near_side[k] = _behind(dark[k], away / max(np.linalg.norm(away), 1e-9), int(np.linalg.norm(away) / shown.factor) + 1)
+    return Foretold(dark, near_side)
+
+
+def _behind(dark: Mask, away: Array, reach: int) -> Mask:
+    """Pixels (H, W) from which some dark one lies within reach in the direction away (x, y), doubling the step each time."""
+    found, step = dark.copy(), 1.0
+    while step <= 2 * reach:
+        column, row = (int(v) for v in np.rint(away * step))
+        found |= _moved(found, -row, -column)
+        step *= 2
+    return found
+
+
+def _moved(values: Mask, rows: int, columns: int) -> Mask:
+    """Values (H, W) moved by rows and columns, False coming in."""
+    height, width = values.shape
+    found = np.zeros_like(values)
+    if abs(rows) < height and abs(columns) < width:
+        found[max(rows, 0) : height + min(rows, 0), max(columns, 0) : width + min(columns, 0)] = values[
+            max(-rows, 0) : height + min(-rows, 0), max(-columns, 0) : width + min(-columns, 0)
+        ]
+    return found
