@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.formats.capture import read_capture
+from lpcal.formats.import_lights import read_lights
 from lpcal.records.surface import Surface
-from lpcal.surface import mesh
+from lpcal.surface import mesh, planes, shadow_anchor, sight
 from lpcal.surface.reconstruct import Options, reconstruct
 
 from lit_scene import SIZE, Scene, calibration, draw, truth
@@ -151,3 +153,34 @@ def test_what_cannot_be_reconstructed_says_why():
     )
     with pytest.raises(DegenerateError, match="one plane"):
         reconstruct(radiance, replace(calibration(), lights=row), Options())
+
+
+def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance():
+    lights = calibration()
+    radiance = to_radiance(draw(Scene(centre=(0.004, -0.003, 0.35), radius=0.02, wall_z=0.42), lights), Sensor())
+    used = sight.lights_of(lights, radiance)
+    maps, rays_C = sight.grey(radiance, used), sight.ray_map((SIZE[1], SIZE[0]), lights.camera)
+    object_mask, depth, _ = truth(Scene(centre=(0.004, -0.003, 0.35), radius=0.02, wall_z=0.42))
+    everywhere = sight.look_at(maps, rays_C, np.ones_like(object_mask), central=True)
+    wall = planes.Plane(np.array([0, 0, 1 / 0.42]), 0.2)
+    shown = shadow_anchor.screen(everywhere, wall, used, object_mask, 1)
+    label = np.ones(int(object_mask.sum()), np.uint8)
+    for wrong in (0.985, 1.0, 1.02):
+        x_C = wrong * (rays_C * depth[..., None])[object_mask]
+        found = shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 0.05})
+        assert found[1].seen * wrong == pytest.approx(1.0, abs=0.008)
+        assert found[1].std < 0.004
+    assert shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 1e-4}) == {}  # near light knows better
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "use", "most"), [("ball", range(1, 97), 2.0), ("bear", range(21, 97), 6.5)])
+def test_diligent(data, name, use, most):
+    folder = data(f"surface/diligent_{name}")
+    _, lights = read_lights(folder)
+    raw = read_capture(folder, [light.name for light in lights.lights], use=[f"{k:03d}" for k in use])
+    found = reconstruct(to_radiance(raw, Sensor()), lights, Options())
+    with np.load(folder / "normal_gt.npz") as stored:
+        n = stored[stored.files[0]] * [1, -1, -1]
+    both = found.mask & (np.linalg.norm(n, axis=-1) > 0.5)
+    assert angle_deg(found.normals, n)[both].mean() <= most

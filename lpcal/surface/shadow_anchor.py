@@ -25,8 +25,8 @@ from lpcal.surface.sight import Sight
 
 SCALES = np.linspace(0.955, 1.045, 31)
 RIM = 4
-NEEDED_RISE_PX = 60.0
-"""Coarse pixels that disagree more, RIM scales to either side of the best one: a shallower valley says nothing."""
+NEEDED_RISE = 0.3
+"""Pixels that disagree more, RIM scales to either side of the best one, by the root of the dark area: a shallower valley says nothing."""
 NINTH = 9
 EDGE_STD, PLANE_STD = 0.002, 0.008
 """Relative, of a distance that the shadow tells: by its edge, and by a plane of misfit 1."""
@@ -83,7 +83,7 @@ def anchored(
         inside = label == one
         rest = _foretold(shown, lights, camera, x_C[~inside])
         costs = np.array([_cost(shown, rest, _foretold(shown, lights, camera, scale * x_C[inside])) for scale in SCALES])
-        scale = _lowest(costs)
+        scale = _lowest(costs, NEEDED_RISE * float(np.sqrt(shown.shade.sum())))
         if scale is None:
             continue
         share = own_std**2 / (own_std**2 + shadow_std**2)
@@ -106,10 +106,10 @@ def _cost(shown: Screen, rest: Foretold, own: Foretold) -> float:
     return float(np.sum(shown.weight * (dark * (1 - shown.shade) + beyond * shown.shade)))
 
 
-def _lowest(costs: Array) -> float | None:
+def _lowest(costs: Array, needed_rise: float) -> float | None:
     """The scale of least cost by a parabola through its neighbours; None where the valley is shallow or at the end of the range."""
     k = int(np.argmin(costs))
-    if not RIM <= k < len(costs) - RIM or min(costs[k - RIM], costs[k + RIM]) - costs[k] < NEEDED_RISE_PX:
+    if not RIM <= k < len(costs) - RIM or min(costs[k - RIM], costs[k + RIM]) - costs[k] < needed_rise:
         return None
     left, middle, right = costs[k - 1 : k + 2]
     shift = 0.5 * (left - right) / max(left - 2 * middle + right, 1e-12)
