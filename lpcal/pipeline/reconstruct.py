@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import resource
+import sys
 import time
 from dataclasses import asdict, dataclass, replace
 from importlib.metadata import version
@@ -128,12 +128,22 @@ def document_of(
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
-        "peak_memory_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024),
+        "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
         "options": asdict(wishes),
         "inputs": hashes(task, calibration_path),
         "notes": list(notes),
     }
+
+
+def peak_memory_mb() -> int | None:
+    """The most memory that this process has held; None where the system does not say (Windows)."""
+    try:
+        import resource
+    except ImportError:
+        return None
+    held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return round(held / (1024 * 1024 if sys.platform == "darwin" else 1024))
 
 
 def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
