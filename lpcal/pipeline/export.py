@@ -63,7 +63,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     return Outcome(
         summary=[f"{workspace.relative(workspace.calib(FILE))}: {len(solution.lights)} lights", *summary_of(solution)[1:]],
         document={"file": str(workspace.calib(FILE))},
-        warnings=list(solution.warnings),
+        warnings=[] if refine_stage.wanted(workspace) else list(solution.warnings),
         next_command="lpcal reconstruct",
     )
 
