@@ -164,10 +164,11 @@ def test_plain_layouts(tmp_path, truth, name, text):
     ("content", "error", "words"),
     [
         (b"", InputError, "empty"),
-        (b"\x02\x50" + bytes(100), InputError, "C3D"),
-        (b"NO_OF_FRAMES\t10\n", InputError, "Qualisys TSV"),
-        (b"Trajectories,,,\n100,,\n", InputError, "Vicon CSV"),
-        (b"#ROSBAG V2.0\n", InputError, "a ROS bag"),
+        (b"\x02\x50" + bytes(100), InputError, "cannot be read as C3D"),
+        (b"NO_OF_FRAMES\t10\n", InputError, "no FREQUENCY and no MARKER_NAMES"),
+        (b"Trajectories,,,\n100,,\n", InputError, r"take\.csv:2: not the rows rate"),
+        (b"Joints,,,\n100,,\n", InputError, "only Joints"),
+        (b"#ROSBAG V2.0\n", InputError, "cannot be read as a bag"),
         (b"1,2,3\n4,5,6\n", InputError, "3 columns without names"),
         (b"t,x,y,z,qx,qy,qz\n", InputError, "no column for qw"),
         (b"0,1,2,3,0,0,0,2\n", InputError, r"take\.csv:1: a quaternion of length 2"),
@@ -189,8 +190,17 @@ def test_real_files(data):
     assert len(read_mocap(folder / "tum_freiburg1_xyz.txt").t_s) == 1497
     euroc = read_mocap(folder / "euroc_V102.csv")
     assert euroc.rate_hz == pytest.approx(200, rel=1e-3)
-    with pytest.raises(InputError, match="no rigid body, only marker"):
-        read_mocap(folder / "motive_1.24_head.csv")
+    assert euroc.t_s[0] == pytest.approx(int((folder / "euroc_V102.csv").read_text().splitlines()[1].split(",")[0]) * 1e-9, abs=2.5e-7)
+    markers = read_mocap(folder / "motive_1.24_head.csv")
+    assert (markers.body, markers.names) == ("Oak-D-Kamera", ("Marker 001", "Marker 002", "Marker 003"))
+    qualisys = read_mocap(folder / "qualisys_6D.tsv")
+    assert (qualisys.body, len(qualisys.t_s)) == ("PSVH", 1489)
+    assert qualisys.H_OP[0, :3, 3] == pytest.approx([-0.19491974, 0.0022415, 0.00099661])
+    foot = read_mocap(folder / "optitrack_walking.c3d", "Foot")
+    assert (foot.x_O.shape, foot.rate_hz) == ((3361, 5, 3), pytest.approx(160))
+    tf = read_mocap(folder / "ros_tf_example.bag", "base_footprint")
+    assert len(tf.t_s) == 517
+    assert tf.t_s[0] == pytest.approx(1714741164.1775, abs=1e-3)
 
 
 def test_robot_poses(tmp_path, truth):

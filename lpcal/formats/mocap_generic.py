@@ -16,6 +16,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.number_table import is_number, read_numbers, read_text
 from lpcal.formats.pose_table import PoseTable
+from lpcal.geometry.arrays import Array
 
 PLAIN = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"]
 LAYOUT = "t_s, x_m, y_m, z_m, qx, qy, qz, qw"
@@ -50,8 +51,19 @@ def read_generic(path: Path, quaternion: str | None = None, units: str | None = 
         places = [*places[:4], *(places[i] for i in (5, 6, 7, 4))]
     first = start + 1 + named
     numbers = read_numbers("\n".join(lines[first - 1 :]), first, path, delimiter=delimiter, columns=places)
-    t_s = numbers[:, 0] * TIMES[unit_of_time or ("ns" if np.nanmax(np.abs(numbers[:, 0]), initial=0) > NANOSECONDS else "s")]
+    unit = unit_of_time or ("ns" if np.nanmax(np.abs(numbers[:, 0]), initial=0) > NANOSECONDS else "s")
+    t_s = _whole_ns(lines[first - 1 :], delimiter, places[0], len(numbers)) if unit == "ns" else None
+    t_s = numbers[:, 0] * TIMES[unit] if t_s is None else t_s
     return PoseTable("", t_s, numbers[:, 1:4], None, numbers[:, 4:8], units or unit_of_length or "m", first_line=first)
+
+
+def _whole_ns(lines: list[str], delimiter: str, place: int, count: int) -> Array | None:
+    """Times (N,) of whole nanoseconds, which a float of nanoseconds would round to 256; None where they are not whole."""
+    rows = (line.split(delimiter) for line in lines if line.strip() and not line.startswith("#"))
+    stamps = [row[place].strip() for row in rows if place < len(row)]
+    if len(stamps) != count or not all(stamp.isdigit() for stamp in stamps):
+        return None
+    return np.array([int(stamp) // 10**9 + (int(stamp) % 10**9) * 1e-9 for stamp in stamps])
 
 
 def _named(cells: list[str], where: str) -> tuple[list[int], str | None, str | None]:

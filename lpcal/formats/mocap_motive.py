@@ -15,7 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from lpcal.errors import DisagreementError, InputError
+from lpcal.errors import InputError
+from lpcal.formats.body_choice import choose_body
+from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import read_numbers, read_text
 from lpcal.formats.pose_table import PoseTable
 from lpcal.geometry import se3
@@ -52,8 +54,8 @@ def is_motive(text: str) -> bool:
     return text.lstrip('"').startswith("Format Version")
 
 
-def read_motive(path: Path, body: str | None, quaternion: str | None = None, units: str | None = None) -> PoseTable:
-    """The poses of one body.
+def read_motive(path: Path, body: str | None, quaternion: str | None = None, units: str | None = None) -> PoseTable | MarkerTable:
+    """The poses of one body, or the tracks of all markers where the file has no body.
 
     Raises
     ------
@@ -64,7 +66,10 @@ def read_motive(path: Path, body: str | None, quaternion: str | None = None, uni
     """
     text = read_text(path)
     header = _header(text, path)
-    name = _chosen(header, body, path)
+    bodies = list(dict.fromkeys(c.name for c in header.columns if c.kind in BODY_TYPES and c.category == "rotation"))
+    if not bodies:
+        return _marker_table(text, header, units, path)
+    name = choose_body(bodies, body, path)
     of_body = [column for column in header.columns if column.name == name and column.kind in BODY_TYPES]
     rotation = [column for column in of_body if column.category == "rotation"]
     position = sorted((column for column in of_body if column.category == "position"), key=lambda column: column.axis)
@@ -74,8 +79,7 @@ def read_motive(path: Path, body: str | None, quaternion: str | None = None, uni
         found = f"{len(rotation)} rotation and {len(position)} position columns of {name}"
         raise InputError(found, where=f"{path}:{header.first_line - 1}", needed="3 or 4, and 3", todo="export it with rotations")
     wanted = [header.time, *(c.place for c in (*rotation, *position, *error[:1])), *(c.place for track in markers.values() for c in track)]
-    lines = text.splitlines(keepends=True)[header.first_line - 1 :]
-    numbers = iter(read_numbers("".join(lines), header.first_line, path, delimiter=",", columns=wanted).T)
+    numbers = iter(_numbers(text, header, wanted, path).T)
 
     def take(count: int) -> Array:
         return np.stack([next(numbers) for _ in range(count)], axis=1)
@@ -129,24 +133,29 @@ def _header(text: str, path: Path) -> _Header:
     return _Header(keys, columns, time, at + 2)
 
 
-def _chosen(header: _Header, body: str | None, path: Path) -> str:
-    bodies = list(dict.fromkeys(c.name for c in header.columns if c.kind in BODY_TYPES and c.category == "rotation"))
-    listed = ", ".join(bodies)
-    if not bodies:
+def _numbers(text: str, header: _Header, places: list[int], path: Path) -> Array:
+    lines = text.splitlines(keepends=True)[header.first_line - 1 :]
+    return read_numbers("".join(lines), header.first_line, path, delimiter=",", columns=places)
+
+
+def _marker_table(text: str, header: _Header, units: str | None, path: Path) -> MarkerTable:
+    """The tracks of a file without a body."""
+    tracks: dict[str, list[_Column]] = {}
+    for column in header.columns:
+        if "marker" in column.kind and column.category == "position":
+            tracks.setdefault(column.name, []).append(column)
+    whole = {name: sorted(track, key=lambda column: column.axis) for name, track in tracks.items() if len(track) == 3}
+    if not whole:
         kinds = ", ".join(sorted({c.kind for c in header.columns})) or "nothing"
         raise InputError(
-            f"no rigid body, only {kinds}", where=str(path), needed="a Rigid Body", todo="export the take with Rigid Bodies ticked"
+            f"no rigid body and no markers, only {kinds}",
+            where=str(path),
+            needed="a Rigid Body",
+            todo="export the take with Rigid Bodies ticked",
         )
-    if body is None:
-        if len(bodies) > 1:
-            raise InputError(f"{len(bodies)} bodies: {listed}", where=str(path), needed="one", todo="name it in panel.yaml: mocap.body")
-        return bodies[0]
-    found = [name for name in bodies if name == body] or [name for name in bodies if name.lower() == body.lower()]
-    if not found:
-        raise DisagreementError(
-            f"no body {body}", where=str(path), needed=f"one of those it holds: {listed}", todo="correct mocap.body in panel.yaml"
-        )
-    return found[0]
+    numbers = _numbers(text, header, [header.time, *(c.place for track in whole.values() for c in track)], path)
+    unit, notes = _units(header, units, path)
+    return MarkerTable(numbers[:, 0], {name: numbers[:, 3 * k + 1 : 3 * k + 4] for k, name in enumerate(whole)}, unit, tuple(notes))
 
 
 def _markers(header: _Header, body: str) -> dict[str, list[_Column]]:

@@ -43,10 +43,21 @@ def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | Non
     lines = [line for line in filled.splitlines() if not BLANK_ROW.fullmatch(line)]
     if not lines:
         return np.zeros((0, len(columns or ())))
+    if delimiter is not None and not text.endswith("\n") and len(lines) > 1:
+        _refuse_cut(text, first_line, path, delimiter)
     try:
         return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments="#")
     except ValueError as error:
         raise _complaint(text, first_line, path, delimiter, columns) from error
+
+
+def _refuse_cut(text: str, first_line: int, path: Path, delimiter: str) -> None:
+    """Stop where the last line has no end and fewer cells than the one before."""
+    lines = text.splitlines()
+    last, before = lines[-1].count(delimiter), lines[-2].count(delimiter)
+    if last < before:
+        where = f"{path}:{first_line + len(lines) - 1}"
+        raise InputError(f"{last + 1} cells", where=where, needed=f"{before + 1}", todo="is the file cut off? export it again")
 
 
 def _filled(text: str, delimiter: str) -> str:

@@ -73,14 +73,19 @@ def timed_poses(table: PoseTable, path: Path, *, inverse: bool = False) -> Timed
     lost = int(np.sum(np.isfinite(table.t_s) & ~seen))
     if not np.any(seen):
         raise DegenerateError(f"not one pose of {table.body or 'the body'}", where=str(path), needed="rows with position and rotation")
-    order = np.flatnonzero(seen)[np.argsort(table.t_s[seen], kind="stable")]
-    unsorted = int(np.sum(np.diff(table.t_s[seen]) < 0))
-    repeated = np.concatenate([[False], np.diff(table.t_s[order]) < SUPERFLUOUS])
-    notes = [f"{unsorted} rows stood out of order of time: sorted"] * bool(unsorted)
-    notes += [f"{int(repeated.sum())} repeated times: the first of each kept"] * bool(repeated.any())
-    keep = order[~repeated]
+    keep, notes = in_order(table.t_s, seen)
     H = se3.transform(R[keep], METRES[table.units] * table.position[keep])
     return TimedPoses(table.t_s[keep], se3.inv(H) if inverse else H, keep, lost, (*table.notes, *notes))
+
+
+def in_order(t_s: Array, seen: Mask) -> tuple[npt.NDArray[np.intp], list[str]]:
+    """The seen rows in order of time, each time once, and in words what that took."""
+    order = np.flatnonzero(seen)[np.argsort(t_s[seen], kind="stable")]
+    unsorted = int(np.sum(np.diff(t_s[seen]) < 0))
+    repeated = np.concatenate([[False], np.diff(t_s[order]) < SUPERFLUOUS])
+    notes = [f"{unsorted} rows stood out of order of time: sorted"] * bool(unsorted)
+    notes += [f"{int(repeated.sum())} repeated times: the first of each kept"] * bool(repeated.any())
+    return order[~repeated], notes
 
 
 def stream_of(table: PoseTable, path: Path, direction: str = "H_OP") -> PoseStream:

@@ -14,7 +14,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Mask
 
 FEWEST_POINTS = 3
 LINE = 1e-3
@@ -53,3 +53,31 @@ def fit(points_A: Array, points_B: Array, sigma_m: float | None = None) -> tuple
         sigma_m = float(np.sqrt(np.sum(residuals_A**2) / (3 * len(points_A) - 6)))
     J = np.concatenate([-se3.hat(fitted_A), np.tile(np.eye(3), (len(points_A), 1, 1))], axis=2).reshape(-1, 6)
     return H_AB, sigma_m**2 * np.linalg.inv(J.T @ J), residuals_A
+
+
+def fit_each(points_A: Array, points_B: Array, seen: Mask) -> tuple[Array, Array]:
+    """H_AB (N, 4, 4) of N sets of the same points, and what remains of each point.
+
+    Parameters
+    ----------
+    points_A : (N, M, 3), anything where not seen
+    points_B : (M, 3)
+    seen : (N, M); three at least, not on one line, or H_AB is meaningless
+
+    Returns
+    -------
+    H_AB (N, 4, 4), and the residuals (N, M, 3) in A, zero where not seen.
+    """
+    weight = seen[..., None].astype(float)
+    a, count = np.where(weight > 0, points_A, 0.0), np.maximum(weight.sum(axis=1, keepdims=True), 1)
+    c_A, c_B = a.sum(axis=1, keepdims=True) / count, (weight * points_B).sum(axis=1, keepdims=True) / count
+    R_AB = se3.nearest_rotation(np.swapaxes(weight * (a - c_A), 1, 2) @ (points_B - c_B))
+    t_AB = c_A[:, 0] - (R_AB @ c_B[:, 0, :, None])[..., 0]
+    fitted_A = points_B @ np.swapaxes(R_AB, 1, 2) + t_AB[:, None]
+    return se3.transform(R_AB, t_AB), weight * (a - fitted_A)
+
+
+def covariances(fitted_A: Array, seen: Mask, sigma_m: float) -> Array:
+    """Covariance (N, 6, 6) of each H_AB of fitted points (N, M, 3), of which some were seen (N, M)."""
+    J = np.concatenate([-se3.hat(fitted_A), np.broadcast_to(np.eye(3), (*fitted_A.shape, 3))], axis=-1) * seen[..., None, None]
+    return np.asarray(sigma_m**2 * np.linalg.inv(np.einsum("nmki,nmkj->nij", J, J)))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lpcal.chain.h_op_body import body_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
@@ -106,16 +107,25 @@ def gather(workspace: Workspace, progress: Progress) -> HandEyeInputs:
     if section.poses is not None:
         return _from_poses(workspace, section, known, camera)
     listed = _timed_images(workspace, section)
-    stream = _recording(workspace, section)
+    stream = recording(workspace, section)
     boards, without = _chosen(known, list(listed))
     boards = replace(boards, t_camera_s=np.array([listed[image] for image in boards.images]))
     times = np.array(list(listed.values()))
     return HandEyeInputs(boards, camera, _share(workspace, boards), stream, None, without, tuple(listed), times, {})
 
 
-def _recording(workspace: Workspace, section: MocapSection) -> PoseStream:
+def recording(workspace: Workspace, section: MocapSection) -> PoseStream:
+    """The body's stream of ``mocap.file``; bare markers are made a body, in the frame of ``panel.markers`` where they are named there.
+
+    Raises
+    ------
+    InputError, DisagreementError, DegenerateError
+        As `read_mocap` and `body_of`.
+    """
     path = workspace.path(str(section.file), "mocap.file")
-    return read_mocap(path, section.body, quaternion=section.quaternion, units=section.units, direction=section.direction)
+    found = read_mocap(path, section.body, quaternion=section.quaternion, units=section.units, direction=section.direction)
+    panel = workspace.rig_file.rig.panel
+    return found if isinstance(found, PoseStream) else body_of(found, panel.markers if panel else None)
 
 
 def _timed_images(workspace: Workspace, section: MocapSection) -> dict[str, float]:
@@ -194,4 +204,4 @@ def _from_board_poses(workspace: Workspace, section: MocapSection) -> HandEyeInp
     found = BoardPoses(names, rows.t_s, rows.H)
     if section.file is None:
         raise InputError("no file", where=workspace.rig_file.where("mocap"), needed="mocap.file: a recording", todo="name it")
-    return HandEyeInputs(found, None, 0.0, _recording(workspace, section), None, {}, names, rows.t_s, {})
+    return HandEyeInputs(found, None, 0.0, recording(workspace, section), None, {}, names, rows.t_s, {})

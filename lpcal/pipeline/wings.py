@@ -11,9 +11,9 @@ from lpcal.chain.h_pd_markers import h_pd_from_markers
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
 from lpcal.errors import DegenerateError
 from lpcal.formats.handeye_yaml import read_handeye
-from lpcal.formats.mocap import read_mocap
 from lpcal.formats.wings_yaml import KIND, write_wings
 from lpcal.geometry.arrays import Array
+from lpcal.pipeline.handeye_inputs import recording
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Wing, Wings
 from lpcal.records.outcome import Outcome, Progress
@@ -109,9 +109,7 @@ def disc_in_camera(workspace: Workspace, panel: PanelSection) -> tuple[Array, Ar
         return H_CD, np.diag([mount_sigma_rad**2] * 3 + [mount_sigma_m**2] * 3), "the camera's place as drawn"
     handeye = read_handeye(workspace.calib("handeye.yaml"))
     if panel.markers and mocap.file:
-        stream = read_mocap(
-            workspace.path(mocap.file, "mocap.file"), mocap.body, quaternion=mocap.quaternion, units=mocap.units, direction=mocap.direction
-        )
+        stream = recording(workspace, mocap)
         H_PD, H_PD_covariance, _ = h_pd_from_markers(stream, panel.markers)
         return *camera_in_disc(handeye.H_PC, handeye.H_PC_covariance, H_PD, H_PD_covariance), "hand-eye and the markers' tracks"
     covariance = np.diag([P_IS_D_SIGMA[0] ** 2] * 3 + [P_IS_D_SIGMA[1] ** 2] * 3)

@@ -107,6 +107,21 @@ class PoseStream:
     rate_hz: float = float("nan")
     notes: tuple[str, ...] = ()
     """What the reader had to decide or repair, in words."""
+    covariance: Array | None = None
+    """(N, 6, 6) of the left perturbations, where the poses come from markers; white noise of the markers alone."""
+
+
+@dataclass(frozen=True)
+class MarkerStream:
+    """The markers of one body, x_O (N, M, 3) at times t_s (N,), increasing; NaN where one was not seen. No pose yet."""
+
+    body: str
+    t_s: Array
+    names: tuple[str, ...]
+    """(M,) without the body's."""
+    x_O: Array
+    rate_hz: float = float("nan")
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,51 @@
+"""C3D, the marker file of biomechanics: points, their unit and rate. A residual below zero says that a marker was not seen.
+
+Read with ezc3d. Source: the C3D file format, c3d.org.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.errors import InputError
+from lpcal.formats.marker_table import MarkerTable
+from lpcal.formats.pose_table import METRES
+
+
+def is_c3d(head: bytes) -> bool:
+    """Whether the first bytes of a file are those of a C3D header."""
+    return head[1:2] == b"\x50" and head[:1] < b"\x20"
+
+
+def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
+    """The tracks of all markers.
+
+    Raises
+    ------
+    InputError
+        Cut off or garbled, no markers, or a unit that nothing states.
+    """
+    import ezc3d
+
+    try:
+        content = ezc3d.c3d(str(path))
+        points, parameters = np.asarray(content["data"]["points"], dtype=float), content["parameters"]["POINT"]
+        residuals = np.asarray(content["data"]["meta_points"]["residuals"], dtype=float)[0]
+        first = int(content["header"]["points"]["first_frame"])
+    except (OSError, RuntimeError, ValueError, KeyError, IndexError, MemoryError) as error:
+        raise InputError(
+            "cannot be read as C3D", where=str(path), needed="a whole C3D file", todo="is it cut off? export it again"
+        ) from error
+    labels = [str(label).strip() for key in ("LABELS", "LABELS2") for label in parameters.get(key, {"value": []})["value"]]
+    if not points.size or not labels:
+        raise InputError("no markers", where=str(path), needed="points with labels", todo="export the marker trajectories")
+    stated = "".join(parameters.get("UNITS", {"value": []})["value"]).strip().lower()
+    if units is None and stated not in METRES:
+        raise InputError(f"{stated!r} as unit of length", where=str(path), needed="m, cm or mm", todo="state mocap.units in panel.yaml")
+    rate = float(parameters["RATE"]["value"][0])
+    x = np.where(residuals[..., None] < 0, np.nan, np.moveaxis(points[:3], 0, -1))
+    notes = (f"lengths read as {units}, as panel.yaml says, against the file's {stated}",) if units and stated not in {"", units} else ()
+    t_s = (first + np.arange(points.shape[2])) / rate
+    return MarkerTable(t_s, dict(zip(labels, x, strict=False)), units or stated, notes)
