@@ -9,7 +9,7 @@ import pytest
 from lpcal.chain import k_camera
 from lpcal.chain.h_cb_board import fit_board_pose
 from lpcal.chain.k_camera.bundle import lens_jacobian
-from lpcal.chain.k_camera.opencv_solver import find_warp
+from lpcal.chain.k_camera.refit import find_shape
 from lpcal.chain.k_camera.opencv_solver import solve as solve_own
 from lpcal.chain.k_camera.problem import CornerProblem
 from lpcal.detect.board import find_board
@@ -205,7 +205,7 @@ def test_a_pose_and_its_covariance() -> None:
 def test_a_bow_is_found_under_a_given_camera() -> None:
     views = corner_views()
     problem = CornerProblem(BOARD, STUDIO.size, np.stack([np.asarray(view.corners_px) for view in views.views]))
-    points_B = find_warp(problem, Camera(STUDIO.size, "opencv5", K, LENS), poses(VIEWS, 17, BOWED))
+    points_B = find_shape(problem, Camera(STUDIO.size, "opencv5", K, LENS), poses(VIEWS, 17, BOWED))
     truth = BOWED.points()[:, 2]
     np.testing.assert_allclose(points_B[:, 2], truth - truth.mean(), atol=2e-5)
 
@@ -224,7 +224,7 @@ def test_a_splined_lens_projects_where_the_lens_does() -> None:
 def test_own_solver_leaves_the_poses_consistent() -> None:
     views = corner_views()
     problem = CornerProblem(BOARD, STUDIO.size, np.stack([np.asarray(view.corners_px) for view in views.views]))
-    fit = solve_own(problem, "opencv5", True)
+    fit = solve_own(problem, "opencv5", "bowed")
     found = fit.camera.project(se3.apply(fit.H_CB, fit.points_B))
     np.testing.assert_allclose(problem.corners_px - found, fit.residual_px, atol=1e-9)
     assert 0.045 < fit.sigma_px < 0.055

@@ -3,7 +3,8 @@
 Symbols: corner (i, j) of nx along x and ny along y, row j * nx + i of the result; spacing s, the distance of neighbouring corners in
 pixels. Two detectors of OpenCV find the grid, the quads of the classic one first (it is faster and finds more on distorted lenses),
 the sector-based one (SB) where it fails; neither is exact, so every corner is refined to the saddle of its window, whose half side is
-0.4 s. Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
+0.4 s, and then to where two blurred edges fitted to that window cross (`saddle`).
+Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
 
 The order: x to y turns clockwise as seen (z of B points away from the camera); of the ends that are left, the one whose outer square is
 black; where the pattern does not tell, the one with x most to the right in the image, so that views of one roll agree.
@@ -15,10 +16,11 @@ import numpy as np
 
 from lpcal.detect.board_charuco import find_charuco, marker_free
 from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
+from lpcal.detect.saddle import fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 1
+DETECTOR_VERSION = 2
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
@@ -104,7 +106,8 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
             name, None, f"the board is too small in the image: its corners are {spacing:.1f} px apart, {SMALL_SPACING_PX:.0f} are needed"
         )
     share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
-    refined = refine(image.astype(np.float32), rough, spacing, share)
+    light = image.astype(np.float32)
+    refined, _ = fit_saddles(light, refine(light, rough, spacing, share), round(share * spacing))
     if board.kind == "charuco":
         return BoardView(name, refined.reshape(-1, 2))
     if any(beyond(grey, refined)):

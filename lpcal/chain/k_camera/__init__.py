@@ -1,28 +1,30 @@
 """The intrinsics K of the camera from board corners: choose a lens model, solve, reject, say how sure.
 
-``q_km = project(K, H_CB[k] x_B,m)`` for corner m of view k; unknown are the lens, the poses H_CB and the board's bow. Solved by mrcal
-where it is installed and the squares are square, else from OpenCV's start by lpcal's own adjustment, which finds the same.
+``q_km = project(K, H_CB[k] x_B,m)`` for corner m of view k; unknown are the lens, the poses H_CB and the board's shape. Solved by mrcal
+where it is installed and the squares are square, else from OpenCV's start by lpcal's own adjustment, which finds the same and knows more
+shapes of a board.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
 
 from lpcal.chain.k_camera.choice import Candidate, choose
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
+from lpcal.chain.k_camera.refit import find_shape, refit
+from lpcal.chain.k_camera.settle import FEWEST_VIEWS, settle
+from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 from lpcal.records.observations import Board, BoardViews
 
-FEWEST_VIEWS = 3
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
 """Of a focal length, or of the image's width for the principal point: a sigma above is refused, warned of."""
-WORST_SHARE = 0.5
-"""A view of which more corners than this are rejected is not used."""
 
 
 def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver: str = "auto") -> CameraSolution:
@@ -56,10 +58,12 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     if model == "splined" and name != "mrcal":
         raise InputError(f"a splined lens needs mrcal; {missing}", where="camera.model", todo="install mrcal, or use opencv8")
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
-    problem = CornerProblem(board, views.image_size, corners_px)
-    models = list(DISTORTIONS) if model == "auto" else [model]
-    chosen, tried = choose(problem, solve, models, board.warp)
-    fit, left_out = _solve_without_misfits(problem, solve, chosen)
+    problem, judged = CornerProblem(board, views.image_size, corners_px), solve
+    if model != "splined":
+        start = solve(problem, "opencv4", BOARDS[board.warp])
+        problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
+    chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], board.warp)
+    fit, left_out = settle(problem, solve, chosen)
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     doubts = refuse_degenerate(fit)
     return CameraSolution(
@@ -119,27 +123,12 @@ def refuse_degenerate(fit: CameraFit) -> list[str]:
 
 
 def board_shape(views: BoardViews, board: Board, camera: Camera, H_CB: dict[str, Array]) -> Array:
-    """Points_B (M, 3) of a board that may be bowed, the camera given and poses H_CB by image known about."""
+    """Points_B (M, 3) of a board that may be bent, the camera given and poses H_CB by image known about."""
     if not board.warp or camera.spline is not None or len(H_CB) < FEWEST_VIEWS:
         return board.points_B()
-    from lpcal.chain.k_camera.opencv_solver import find_warp
-
     corners_px = np.stack([np.asarray(view.corners_px) for view in views.views if view.image in H_CB])
     problem = CornerProblem(board, views.image_size, corners_px)
-    return find_warp(problem, camera, np.stack([H_CB[view.image] for view in views.views if view.image in H_CB]))
-
-
-def _solve_without_misfits(problem: CornerProblem, solve: Solver, chosen: Candidate) -> tuple[CameraFit, dict[int, str]]:
-    """The fit, and the rows of views that were left out of it because most of their corners do not fit."""
-    fit = solve(problem, chosen.model, chosen.warp)
-    seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
-    rejected = seen - fit.inlier.sum(axis=1)
-    bad = rejected > WORST_SHARE * seen
-    if bad.any() and (~bad).sum() >= FEWEST_VIEWS:
-        fit = solve(problem.part(~bad), chosen.model, chosen.warp)
-    else:
-        bad[:] = False
-    return fit, {int(row): f"{rejected[row]} of {seen[row]} corners do not fit" for row in np.flatnonzero(bad)}
+    return find_shape(problem, camera, np.stack([H_CB[view.image] for view in views.views if view.image in H_CB]))
 
 
 def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], fit: CameraFit) -> tuple[ViewVerdict, ...]:
@@ -158,21 +147,19 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
 
 def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, board: Board) -> dict[str, object]:
     """How the choice was made, in figures and in words."""
-    scores = [{"model": c.model, "warp": c.warp, "cross_validation_px": c.score_px, "expected_error_px": c.expected_px} for c in tried]
+    scores = [{"model": c.model, "board": c.board, "cross_validation_px": c.score_px, "expected_error_px": c.expected_px} for c in tried]
     if len(tried) == 1:
         why = "as asked"
     elif np.isnan(chosen.score_px):
         why = "too few views to cross-validate: the simplest"
     else:
-        flat = [c.expected_px for c in tried if not c.warp and c.model == chosen.model]
-        bowed = [c.expected_px for c in tried if c.warp and c.model == chosen.model]
-        why = "expected to be nearest to the truth"
-        if flat and bowed:
-            why += f": {bowed[0]:.3f} px with a bowed board, {flat[0]:.3f} px with a flat one"
+        sheets = [f"{c.expected_px:.3f} px on a {c.board} board" for c in tried if c.model == chosen.model]
+        why = "expected to be nearest to the truth" + (f": {', '.join(sheets)}" if len(sheets) > 1 else "")
     return {
-        "chosen": {"model": chosen.model, "warp": chosen.warp, "why": why},
+        "chosen": {"model": chosen.model, "board": chosen.board, "why": why},
         "cross_validation": scores,
         "corner_sigma_px": fit.sigma_px,
-        "board_warp_m": None if fit.warp_m is None else list(fit.warp_m),
+        "board_warp_m": [fit.shape[name][0] for name in ("bow_x_m", "bow_y_m")] if fit.shape else None,
+        "board_shape": {name: {"value": value, "std": std} for name, (value, std) in fit.shape.items()},
         "board_warp_allowed": board.warp,
     }

@@ -1,22 +1,23 @@
-"""Bundle adjustment of one camera and a grid board, in numpy: lens, poses and the board's bow at once.
+"""Bundle adjustment of one camera and a printed board, in numpy: lens, poses and the board's shape at once.
 
-Symbols: corner m of view k, residual ``r_km = q_km - project(H_CB[k] (x_B,m + z_m e_z))`` with ``z_m = sum_j w_j s_j(m)``, shapes
-s = 4 xi (1 - xi) along x and along y; shared unknowns s (lens, then w), poses by left perturbation xi_k. With A = dr/ds, B_k = dr/dxi_k::
+Symbols: corner m of view k, residual ``r_km = q_km - project(H_CB[k] (x_B,m + sum_j w_j f_jm))`` with the fields f of `shape`;
+shared unknowns s (lens, then w), poses by left perturbation xi_k. With A = dr/ds, B_k = dr/dxi_k::
 
     (sum A'A - sum A'B_k (B_k'B_k)^-1 B_k'A) ds = -(...)          poses eliminated (Schur)
     covariance of s = sigma^2 times the inverse of that matrix
 
-Coefficients of rational lenses have a weak prior about 0, without which ordinary lenses get absurd ones. Corners further off than
-four sigmas are rejected until none is. Source: Triggs et al. 2000, Bundle adjustment: a modern synthesis.
+Coefficients of rational lenses have a weak prior about 0, without which ordinary lenses get absurd ones; so have the board's terms.
+Corners further off than four sigmas are rejected until none is. Source: Triggs et al. 2000, Bundle adjustment: a modern synthesis.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lpcal.chain.k_camera.problem import ROUNDS, fitting, scatter
+from lpcal.chain.k_camera.shape import ShapeTerms
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
@@ -34,25 +35,23 @@ EMPTY = 1e-9
 
 @dataclass(frozen=True)
 class Unknowns:
-    """The state: K and distortion, poses, and the deflection of the board's middle along x and along y."""
+    """The state: K and distortion, poses, and the numbers (J,) of the board's terms."""
 
     K: Array
     distortion: Array
     H_CB: Array
-    warp_m: Array
+    shape: Array
 
-    def moved(self, shared: Array, poses: Array, free_lens: bool, free_warp: bool) -> Unknowns:
+    def moved(self, shared: Array, poses: Array, free_lens: bool) -> Unknowns:
         """After a step of the shared unknowns and of the poses (N, 6)."""
-        K, distortion, warp_m = self.K.copy(), self.distortion.copy(), self.warp_m.copy()
+        K, distortion = self.K.copy(), self.distortion.copy()
         if free_lens:
             K[0, 0] += shared[0]
             K[1, 1] += shared[1]
             K[0, 2] += shared[2]
             K[1, 2] += shared[3]
             distortion += shared[4 : 4 + distortion.size]
-        if free_warp:
-            warp_m += shared[-2:]
-        return Unknowns(K, distortion, se3.exp(poses) @ self.H_CB, warp_m)
+        return Unknowns(K, distortion, se3.exp(poses) @ self.H_CB, self.shape + shared[shared.size - self.shape.size :])
 
 
 @dataclass(frozen=True)
@@ -68,37 +67,32 @@ class Adjusted:
 
 @dataclass(frozen=True)
 class Bundle:
-    """A problem: corners (N, M, 2) NaN where not seen, a grid of nx, ny points_B (M, 3), and what is free."""
+    """A problem: corners (N, M, 2) NaN where not seen, points_B (M, 3) of the flat board, the terms of its shape, and what is free."""
 
     corners_px: Array
     points_B: Array
-    shape: tuple[int, int]
+    terms: ShapeTerms
     free_lens: bool
-    free_warp: bool
+    sigma_px: float = PRIOR_PX
+    """About what a corner scatters by: the scale on which the priors count."""
 
-    def shapes(self) -> Array:
-        """Bow along x and along y (2, M), 1 in the middle of the board."""
-        columns, rows = self.shape
-        along_x, along_y = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
-        return np.stack([4 * along_x * (1 - along_x), 4 * along_y * (1 - along_y)]).reshape(2, -1)
-
-    def bowed(self, state: Unknowns) -> Array:
-        """points_B (M, 3) with the bow."""
-        return np.asarray(self.points_B + (state.warp_m @ self.shapes())[:, None] * [0.0, 0.0, 1.0])
+    def shaped(self, state: Unknowns) -> Array:
+        """points_B (M, 3) with the board's shape."""
+        return np.asarray(self.points_B + np.tensordot(state.shape, self.terms.fields, axes=1))
 
     def residual(self, state: Unknowns) -> Array:
         """(N, M, 2), NaN where not seen."""
-        return np.asarray(self.corners_px - project(se3.apply(state.H_CB, self.bowed(state)), state.K, state.distortion))
+        return np.asarray(self.corners_px - project(se3.apply(state.H_CB, self.shaped(state)), state.K, state.distortion))
 
     def jacobians(self, state: Unknowns) -> tuple[Array, Array]:
         """Derivatives of the projection by the shared unknowns (N, M, 2, S) and by the poses (N, M, 2, 6)."""
-        x_C = se3.apply(state.H_CB, self.bowed(state))
+        x_C = se3.apply(state.H_CB, self.shaped(state))
         J_x = projection_jacobian(x_C, state.K, state.distortion)
         poses = np.concatenate([-J_x @ se3.hat(x_C), J_x], axis=-1)
         shared = [lens_jacobian(x_C, state.K, state.distortion)] if self.free_lens else []
-        if self.free_warp:
-            along_z = (J_x @ state.H_CB[:, None, :3, 2:])[..., 0]
-            shared.append(along_z[..., None] * self.shapes().T[None, :, None, :])
+        if len(self.terms.names):
+            J_B = J_x @ state.H_CB[:, None, :3, :3]
+            shared.append(J_B @ np.moveaxis(self.terms.fields, 0, -1)[None])
         return np.concatenate(shared, axis=-1) if shared else np.zeros((*x_C.shape[:2], 2, 0)), poses
 
 
@@ -122,6 +116,7 @@ def adjust(bundle: Bundle, start: Unknowns, *, reject: bool = True) -> Adjusted:
         if not reject or np.array_equal(kept, inlier):
             break
         inlier = kept
+        bundle = replace(bundle, sigma_px=sigma_px)
     return Adjusted(state, inlier, residual_px, covariance, sigma_px)
 
 
@@ -149,7 +144,7 @@ def _solve(bundle: Bundle, state: Unknowns, inlier: Mask) -> tuple[Unknowns, Arr
     system = _normal(bundle, state, inlier)
     for _ in range(STEPS):
         shared, poses = _step(system, damping)
-        trial = state.moved(shared, poses, bundle.free_lens, bundle.free_warp)
+        trial = state.moved(shared, poses, bundle.free_lens)
         lower = _cost(bundle, trial, inlier)
         if lower < cost:
             fall, state, cost, damping = (cost - lower) / max(cost, 1e-300), trial, lower, damping * 0.1
@@ -181,12 +176,11 @@ def _normal(bundle: Bundle, state: Unknowns, inlier: Mask) -> _System:
 
 
 def _prior(bundle: Bundle, state: Unknowns) -> tuple[Array, Array]:
-    """Weight and value (S,) of the prior on the coefficients k3 to k6."""
+    """Weight and value (S,) of the priors on the coefficients k3 to k6 and on the board's terms."""
     lens = np.concatenate([np.zeros(8), state.distortion[4:]]) if bundle.free_lens else np.zeros(0)
-    value = np.concatenate([lens, np.zeros(2 * bundle.free_warp)])
-    weight = np.zeros(value.size)
-    weight[8 : lens.size] = (PRIOR_PX / PRIOR_COEFFICIENT) ** 2
-    return weight, value
+    weight = np.zeros(lens.size)
+    weight[8:] = (PRIOR_PX / PRIOR_COEFFICIENT) ** 2
+    return np.concatenate([weight, (bundle.sigma_px / bundle.terms.prior) ** 2]), np.concatenate([lens, state.shape])
 
 
 def _cost(bundle: Bundle, state: Unknowns, inlier: Mask) -> float:

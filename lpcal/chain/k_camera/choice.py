@@ -1,6 +1,6 @@
-"""Which lens model, and whether the board is flat: the candidate whose projection is expected to be nearest to the truth.
+"""Which lens model, and what the board is taken as: the candidate whose projection is expected to be nearest to the truth.
 
-Symbols: the views are split in two halves a, b; a candidate (model, warp) is solved on each and on all; d the projection difference of
+Symbols: the views are split in two halves a, b; a candidate (model, board) is solved on each and on all; d the projection difference of
 two cameras over the part of the imager that corners cover, rms over it and over the splits::
 
     variance = (d_ab / 2)^2                                    halves scatter twice as much as the whole
@@ -19,7 +19,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.chain.k_camera.problem import DISTORTIONS, CornerProblem, Solver
+from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver
+from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import LpcalError
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
@@ -35,75 +36,89 @@ class Candidate:
     """A lens model and a board, and what speaks for them."""
 
     model: str
-    warp: bool
+    board: str
     score_px: float
     """Difference between halves of the views; NaN: not tried."""
     expected_px: float = float("nan")
     """Expected difference from the truth, rms."""
 
     @property
-    def parameters(self) -> int:
-        """How many numbers it fits beside the poses."""
-        return DISTORTIONS.get(self.model, 99) + 2 * self.warp
+    def rank(self) -> int:
+        """Its rank by the numbers that it fits beside the poses."""
+        return 10 * DISTORTIONS.get(self.model, 99) + BOARDS.index(self.board)
 
 
 def choose(problem: CornerProblem, solver: Solver, models: Sequence[str], may_warp: bool) -> tuple[Candidate, list[Candidate]]:
     """The candidate to take, and all that were tried with their scores.
 
-    The lens is chosen first, on a board as free as it may be; then whether the board is bowed, with that lens.
+    The lens is chosen first, on a board as free as it may be but for its sides; then the board, with that lens.
     """
-    simplest = Candidate(models[0], False, float("nan"))
+    simplest = Candidate(models[0], BOARDS[0], float("nan"))
     if len(problem.corners_px) < FEWEST_VIEWS or (len(models) == 1 and not may_warp):
         return simplest, [simplest]
     pixels = covered_pixels(problem)
-
-    def tried(model: str, warp: bool) -> Candidate:
-        return Candidate(model, warp, cross_validate(problem, solver, model, warp, pixels))
-
-    lenses = _with_expectation([tried(model, may_warp) for model in models], problem, solver, pixels)
+    boards = (BOARDS if set(models) <= set(DISTORTIONS) else BOARDS[:2]) if may_warp else BOARDS[:1]
+    usual = boards[min(2, len(boards) - 1)]
+    trials = {(model, usual): _Trial(problem, solver, model, usual, pixels) for model in models}
+    lenses = _with_expectation(list(trials.values()), pixels)
     lens = _better(lenses)
-    if not may_warp:
+    if len(boards) == 1:
         return lens, lenses
-    flat, bowed = _with_expectation([tried(lens.model, False), lens], problem, solver, pixels)
-    return _better([flat, bowed]), [flat, *(bowed if one is lens else one for one in lenses)]
+    kinds = [trials.get((lens.model, board)) or _Trial(problem, solver, lens.model, board, pixels) for board in boards]
+    sheets = _with_expectation(kinds, pixels)
+    return _better(sheets), [*(one for one in lenses if one.model != lens.model), *sheets]
 
 
-def _with_expectation(candidates: Sequence[Candidate], problem: CornerProblem, solver: Solver, pixels: Array) -> list[Candidate]:
+class _Trial:
+    """A candidate solved on all views and on halves of them."""
+
+    def __init__(self, problem: CornerProblem, solver: Solver, model: str, board: str, pixels: Array) -> None:
+        self.fit: CameraFit | None = None
+        score = float("inf")
+        try:
+            self.fit = solver(problem, model, board)
+            known = replace(problem, camera=self.fit.camera, H_CB=self.fit.H_CB)
+            score = cross_validate(known, solver, model, board, pixels)
+        except (LpcalError, np.linalg.LinAlgError):
+            pass
+        self.candidate = Candidate(model, board, score)
+
+
+def _with_expectation(trials: Sequence[_Trial], pixels: Array) -> list[Candidate]:
     """The candidates with what each is expected to be off by, against the richest of those that could be solved."""
-    solved = [candidate for candidate in candidates if np.isfinite(candidate.score_px)]
+    solved = [trial for trial in trials if np.isfinite(trial.candidate.score_px)]
     if not solved:
-        return list(candidates)
-    cameras = {candidate: solver(problem, candidate.model, candidate.warp).camera for candidate in solved}
-    richest = max(solved, key=lambda candidate: candidate.parameters)
+        return [trial.candidate for trial in trials]
+    richest = max(solved, key=lambda trial: trial.candidate.rank)
     found = []
-    for candidate in candidates:
-        if candidate not in cameras:
-            found.append(replace(candidate, expected_px=float("inf")))
+    for trial in trials:
+        if trial not in solved or trial.fit is None or richest.fit is None:
+            found.append(replace(trial.candidate, expected_px=float("inf")))
             continue
-        variance, reference = (candidate.score_px / 2) ** 2, (richest.score_px / 2) ** 2
+        variance, reference = (trial.candidate.score_px / 2) ** 2, (richest.candidate.score_px / 2) ** 2
         apart2 = 0.0
-        if candidate is not richest:
-            apart2 = float(np.mean(np.sum(difference(cameras[candidate], cameras[richest], pixels) ** 2, axis=1)))
+        if trial is not richest:
+            apart2 = float(np.mean(np.sum(difference(trial.fit.camera, richest.fit.camera, pixels) ** 2, axis=1)))
         bias2 = max(0.0, apart2 - max(reference - variance, 0.0))
-        found.append(replace(candidate, expected_px=float(np.sqrt(variance + bias2))))
+        found.append(replace(trial.candidate, expected_px=float(np.sqrt(variance + bias2))))
     return found
 
 
 def _better(candidates: Sequence[Candidate]) -> Candidate:
     """The least expected difference from the truth, but more parameters must earn themselves."""
-    chosen, *others = sorted(candidates, key=lambda c: c.parameters)
+    chosen, *others = sorted(candidates, key=lambda c: c.rank)
     for candidate in others:
         if candidate.expected_px < MARGIN * chosen.expected_px:
             chosen = candidate
     return chosen
 
 
-def cross_validate(problem: CornerProblem, solver: Solver, model: str, warp: bool, pixels: Array) -> float:
+def cross_validate(problem: CornerProblem, solver: Solver, model: str, board: str, pixels: Array) -> float:
     """The score of one candidate over some pixels (N, 2); infinite where a half cannot be solved."""
     squares = []
     for half in splits(len(problem.corners_px)):
         try:
-            first, second = solver(problem.part(half), model, warp).camera, solver(problem.part(~half), model, warp).camera
+            first, second = solver(problem.part(half), model, board).camera, solver(problem.part(~half), model, board).camera
         except (LpcalError, np.linalg.LinAlgError):
             return float("inf")
         squares.append(np.mean(np.sum(difference(first, second, pixels) ** 2, axis=1)))

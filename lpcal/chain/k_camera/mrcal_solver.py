@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.k_camera.problem import DISTORTIONS, ROUNDS, CameraFit, CornerProblem, fitting, parameter_names, rms, scatter
+from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -34,8 +35,8 @@ SPLINE_PX = 90
 """About so many pixels between the knots of a splined lens."""
 
 
-def solve(problem: CornerProblem, model: str, warp: bool) -> CameraFit:
-    """Intrinsics, poses and the board's bow.
+def solve(problem: CornerProblem, model: str, board: str) -> CameraFit:
+    """Intrinsics, poses and, where the board is not taken as flat, its bow; mrcal knows no other shape.
 
     Raises
     ------
@@ -46,7 +47,7 @@ def solve(problem: CornerProblem, model: str, warp: bool) -> CameraFit:
         inputs = _start(problem)
         _append_lens(inputs, problem, model)
         _optimize(inputs, problem, model)
-        if warp:
+        if board != BOARDS[0]:
             inputs |= {"calobject_warp": np.zeros(2), "do_optimize_calobject_warp": True}
             _optimize(inputs, problem, model)
         return _fit(problem, model, inputs)
@@ -186,8 +187,8 @@ def _fit(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> CameraFi
         return stream.getvalue()
 
     bow = inputs["calobject_warp"]
-    warp_m = None if bow is None else (float(bow[0]), float(bow[1]))
-    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, warp_m, text)
+    shape = {} if bow is None else {name: (float(value), float("nan")) for name, value in zip(("bow_x_m", "bow_y_m"), bow, strict=True)}
+    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, BOARDS[bool(shape)], shape, text)
 
 
 def _geometry(problem: CornerProblem, inputs: dict[str, Any]) -> tuple[Array, Array]:

@@ -31,10 +31,14 @@ class CornerProblem:
     image_size: tuple[int, int]
     corners_px: Array
     """(N, M, 2) in the order of ``board.points_B()``, NaN where one was not seen."""
+    camera: Camera | None = None
+    """About what the camera is, where that is known."""
+    H_CB: Array | None = None
+    """(N, 4, 4) about where the boards are, where that is known."""
 
     def part(self, rows: Mask) -> CornerProblem:
         """Some of the views."""
-        return replace(self, corners_px=self.corners_px[rows])
+        return replace(self, corners_px=self.corners_px[rows], H_CB=None if self.H_CB is None else self.H_CB[rows])
 
 
 @dataclass(frozen=True)
@@ -53,14 +57,16 @@ class CameraFit:
     """(N, M, 2) seen less projected, outliers too; NaN where not seen."""
     sigma_px: float
     """One standard deviation of a corner coordinate, degrees of freedom counted."""
-    warp_m: tuple[float, float] | None
-    """Deflection of the board's middle along x and along y; None: taken as flat."""
+    board: str
+    """What the board was taken as, one of `shape.BOARDS`."""
+    shape: dict[str, tuple[float, float]]
+    """The numbers of the board's terms, each with its sigma (NaN where the solver does not tell)."""
     cameramodel: Callable[[], str] | None = None
     """The text of a .cameramodel with the optimisation inputs, where the solver has them."""
 
 
-type Solver = Callable[[CornerProblem, str, bool], CameraFit]
-"""A problem, a lens model, and whether the board may be warped."""
+type Solver = Callable[[CornerProblem, str, str], CameraFit]
+"""A problem, a lens model, and what the board is taken as, one of `shape.BOARDS`."""
 
 
 def parameter_names(model: str) -> tuple[str, ...]:

@@ -1,0 +1,53 @@
+"""The last solve, with what was chosen: views that do not fit left out, the board's whole shape, and mrcal's inputs kept.
+
+mrcal knows of the board its bow alone. Where the board has more shape, that is found by `refit` and taken out of the corners before mrcal
+solves them, so that both hold the same camera; symbols: q a corner, x_B the board's point with its whole shape, b_B with its bow alone::
+
+    q' = q - project(H_CB x_B) + project(H_CB b_B)
+
+The covariance is that of `refit`, in which the shape is free.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from lpcal.chain.k_camera.choice import Candidate
+from lpcal.chain.k_camera.problem import CameraFit, CornerProblem, Solver
+from lpcal.chain.k_camera.refit import refit
+from lpcal.chain.k_camera.shape import BOARDS
+from lpcal.geometry import se3
+
+WORST_SHARE = 0.5
+"""A view of which more corners than this are rejected is not used."""
+FEWEST_VIEWS = 3
+
+
+def settle(problem: CornerProblem, solver: Solver, chosen: Candidate) -> tuple[CameraFit, dict[int, str]]:
+    """The fit, and the rows of views that were left out of it because most of their corners do not fit."""
+    fit = _solve(problem, solver, chosen)
+    seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
+    rejected = seen - fit.inlier.sum(axis=1)
+    bad = rejected > WORST_SHARE * seen
+    if bad.any() and (~bad).sum() >= FEWEST_VIEWS:
+        fit = _solve(problem.part(~bad), solver, chosen)
+    else:
+        bad[:] = False
+    return fit, {int(row): f"{rejected[row]} of {seen[row]} corners do not fit" for row in np.flatnonzero(bad)}
+
+
+def _solve(problem: CornerProblem, solver: Solver, chosen: Candidate) -> CameraFit:
+    if chosen.board in BOARDS[:2]:
+        return solver(problem, chosen.model, chosen.board)
+    shaped = refit(problem, chosen.model, chosen.board)
+    if solver is refit:
+        return shaped
+    bowed = refit(problem, chosen.model, BOARDS[1])
+    taken_out = shaped.camera.project(se3.apply(shaped.H_CB, shaped.points_B)) - shaped.camera.project(
+        se3.apply(shaped.H_CB, bowed.points_B)
+    )
+    fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), chosen.model, BOARDS[1])
+    camera = replace(fit.camera, covariance=shaped.camera.covariance)
+    return replace(fit, camera=camera, points_B=shaped.points_B, sigma_px=shaped.sigma_px, board=shaped.board, shape=shaped.shape)
