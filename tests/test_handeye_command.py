@@ -70,7 +70,7 @@ def test_both_streams(tmp_path, session, lpcal):
     poses = read_h_op(folder / "calib" / "H_OP.yaml")
     assert np.isfinite(poses.H_OP[0]).all()
     document = yaml.safe_load((folder / "calib" / "handeye.yaml").read_text())
-    assert set(document["views"][0]) == {"image", "used", "why", "residual_px", "residual_m", "residual_deg"}
+    assert set(document["views"][0]) == {"image", "used", "why", "residual_px", "residual_m", "residual_deg", "held_out_m"}
     code, out, _ = lpcal("check", cwd=folder)
     assert (code, "nothing wrong found" in out) == (0, True)
 

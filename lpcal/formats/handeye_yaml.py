@@ -4,7 +4,8 @@
   perturbation); ``H_PC`` takes camera coordinates to the body's, its last column is the camera's centre in the body's frame
 - ``clock_offset_s``, ``clock_offset_std_s``: t_camera = t_mocap + offset; null where the data do not show it
 - ``views``: ``image, used, why`` (null where used), ``residual_px`` (corners, rms a coordinate), ``residual_m``, ``residual_deg``
-  (the board seen through the measured body pose against H_OB)
+  (the board seen through the measured body pose against H_OB), ``held_out_m`` (the same against the H_OB of a solve without the view)
+- ``transforms``: H_PC, H_CP, H_OB, H_BO in the forms that other programs take
 """
 
 from __future__ import annotations
@@ -16,15 +17,16 @@ import numpy as np
 
 from lpcal.errors import InputError
 from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.pasted_transforms import both_ways
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye, ViewVerdict
 
 KIND = "handeye"
 
 
-def write_handeye(path: Path, found: HandEye, provenance: Provenance) -> None:
-    """Write handeye.yaml."""
-    body = {
+def write_handeye(path: Path, found: HandEye, provenance: Provenance, body: str = "panel") -> None:
+    """Write handeye.yaml; `body` is the tracked body's name."""
+    content = {
         "H_PC": found.H_PC,
         "H_PC_covariance": found.H_PC_covariance,
         "H_OB": found.H_OB,
@@ -32,10 +34,11 @@ def write_handeye(path: Path, found: HandEye, provenance: Provenance) -> None:
         "clock_offset_s": found.clock_offset_s,
         "clock_offset_std_s": found.clock_offset_std_s,
         "warnings": list(found.warnings),
+        "transforms": both_ways(found.H_PC, found.H_OB, body),
         "evidence": found.evidence,
         "views": [_view(view) for view in found.views],
     }
-    write_document(path, KIND, body, provenance)
+    write_document(path, KIND, content, provenance)
 
 
 def read_handeye(path: Path) -> HandEye:
@@ -80,6 +83,7 @@ def _view(view: ViewVerdict) -> dict[str, Any]:
         "residual_px": view.residual_px,
         "residual_m": view.residual_m,
         "residual_deg": None if view.residual_rad is None else float(np.degrees(view.residual_rad)),
+        "held_out_m": view.held_out_m,
     }
 
 
@@ -92,4 +96,5 @@ def _verdict(view: dict[str, Any]) -> ViewVerdict:
         view.get("residual_px"),
         view.get("residual_m"),
         None if degrees is None else float(np.radians(degrees)),
+        held_out_m=view.get("held_out_m"),
     )

@@ -12,9 +12,10 @@ from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
+from lpcal.formats.pasted_transforms import write_easy_handeye
 from lpcal.geometry.pose_track import poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
-from lpcal.pipeline.handeye_summary import summarise
+from lpcal.pipeline.handeye_summary import EASY_HANDEYE, body_name, summarise
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import HandEye, ViewVerdict
 from lpcal.records.outcome import Outcome, Progress
@@ -36,7 +37,8 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     handeye = _with_all_images(finding.handeye, given)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
     write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding), provenance)
-    write_handeye(workspace.calib("handeye.yaml"), handeye, provenance)
+    write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
+    write_easy_handeye(workspace.calib(EASY_HANDEYE), handeye.H_PC, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
 
 

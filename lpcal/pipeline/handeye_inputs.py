@@ -71,7 +71,7 @@ def with_recording(workspace: Workspace, recording: Path | None) -> Workspace:
     """
     if recording is None:
         return workspace
-    if not recording.is_file():
+    if not recording.exists():
         raise InputError("no such file", where=str(recording), needed="a motion-capture recording", todo="correct the name")
     rig = workspace.rig_file.rig
     section = (rig.mocap or MocapSection()).model_copy(update={"file": workspace.relative(recording), "poses": None})
@@ -84,7 +84,8 @@ def input_files(workspace: Workspace) -> list[Path]:
     tables = [name for name in section.images if name.lower().endswith(".csv")]
     poses = section.poses if section.poses is not None else section.file
     board_poses = section.board_poses.file if section.board_poses else None
-    found = [workspace.folder / name for name in [poses, board_poses, *tables] if name]
+    named = [workspace.folder / name for name in [poses, board_poses, *tables] if name]
+    found = [each for path in named for each in (sorted(path.iterdir()) if path.is_dir() else [path])]  # a ROS 2 bag is a folder
     return found if board_poses else [*found, workspace.calib("camera.yaml"), workspace.calib("H_CB.yaml")]
 
 

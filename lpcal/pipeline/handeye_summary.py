@@ -6,32 +6,41 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.pasted_transforms import CAMERA, both_ways, numbers, paste_lines
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array
 from lpcal.pipeline.handeye_inputs import HandEyeInputs
 from lpcal.records.calibration import HandEye
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
 NAMED_VIEWS = 6
+EASY_HANDEYE = "handeye.easy_handeye.yaml"
+
+
+def body_name(given: HandEyeInputs) -> str:
+    """The tracked body's name, ``panel`` where nothing names it."""
+    return (given.stream.body if given.stream is not None else "") or "panel"
 
 
 def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     """The outcome of the stage."""
     used = [view for view in handeye.views if view.used]
     sigma = np.sqrt(np.diag(handeye.H_PC_covariance))
-    body = (given.stream.body if given.stream is not None else "") or "panel"
+    body = body_name(given)
     lines = [
-        f"H_PC        camera coordinates to those of {body}; the camera's centre in it, and its axes:",
-        *paste(handeye.H_PC, body),
-        f"sigma       {_numbers(np.degrees(sigma[:3]), 3)} deg, {_numbers(1e3 * sigma[3:], 2)} mm, an axis",
-        f"H_OB        board in the room at {_numbers(handeye.H_OB[:3, 3], 4)} m",
+        f"H_PC        camera coordinates to those of {body}; position is the camera's centre in it:",
+        *paste_lines(handeye.H_PC, body, CAMERA),
+        f"H_CP        its inverse: coordinates of {body} to the camera's:",
+        *paste_lines(se3.inv(handeye.H_PC), CAMERA, body),
+        f"sigma       {numbers(np.degrees(sigma[:3]), 3)} deg, {numbers(1e3 * sigma[3:], 2)} mm, an axis",
+        f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m; all forms of it and of H_BO: handeye.yaml, transforms",
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}",
+        *_held_out(handeye),
         *_left_out(handeye),
         *_noise(handeye),
         *([f"mocap file  {'; '.join(given.stream.notes)}"] if given.stream is not None and given.stream.notes else []),
-        "written     calib/handeye.yaml, calib/H_OP.yaml",
+        f"written     calib/handeye.yaml, calib/H_OP.yaml, calib/{EASY_HANDEYE}",
     ]
     return Outcome(
         summary=lines,
@@ -39,25 +48,6 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         warnings=list(handeye.warnings),
         next_command="lpcal wings" if rig.lights else "lpcal report",
     )
-
-
-def paste(H_AB: Array, parent: str, child: str = "camera") -> list[str]:
-    """A transform in the forms that other programs take."""
-    x, q = H_AB[:3, 3], se3.quaternion(H_AB[:3, :3])
-    return [
-        f"  position        {_numbers(1e3 * x, 2)} mm",
-        f"  quaternion      {_numbers(q, 6)} (x, y, z, w)",
-        f'  URDF            xyz="{_numbers(x, 6, " ")}" rpy="{_numbers(rpy(H_AB), 6, " ")}"',
-        f"  ROS             static_transform_publisher --x {x[0]:.6f} --y {x[1]:.6f} --z {x[2]:.6f} --qx {q[0]:.6f} --qy {q[1]:.6f} "
-        f"--qz {q[2]:.6f} --qw {q[3]:.6f} --frame-id {parent} --child-frame-id {child}",
-    ]
-
-
-def rpy(H_AB: Array) -> Array:
-    """Roll, pitch, yaw (rad) about fixed axes x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll)."""
-    R = H_AB[:3, :3]
-    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
-    return np.array([np.arctan2(R[2, 1], R[2, 2]), pitch, np.arctan2(R[1, 0], R[0, 0])])
 
 
 def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
@@ -103,30 +93,24 @@ def _noise(handeye: HandEye) -> list[str]:
     return [f"noise       {found['board_sigma_deg']:.3f} deg, {across:.2f} mm across, {depth:.2f} mm in depth, both sensors together"]
 
 
-def _document(handeye: HandEye, body: str) -> dict[str, Any]:
-    def both(H_AB: Array) -> dict[str, Any]:
-        return {
-            "matrix": H_AB,
-            "translation_m": H_AB[:3, 3],
-            "quaternion_xyzw": se3.quaternion(H_AB[:3, :3]),
-            "rotation_vector_rad": se3.rotation_vector(H_AB[:3, :3]),
-            "rpy_rad": rpy(H_AB),
-        }
+def _held_out(handeye: HandEye) -> list[str]:
+    errors = [1e3 * view.held_out_m for view in handeye.views if view.held_out_m is not None]
+    if not errors:
+        return []
+    worst = max((view for view in handeye.views if view.held_out_m is not None), key=lambda view: view.held_out_m or 0.0)
+    return [f"left out    a view that the solve did not see: median {np.median(errors):.2f}, worst {max(errors):.2f} mm ({worst.image})"]
 
+
+def _document(handeye: HandEye, body: str) -> dict[str, Any]:
     return {
         "body": body,
-        "H_PC": both(handeye.H_PC),
-        "H_CP": both(se3.inv(handeye.H_PC)),
-        "H_OB": both(handeye.H_OB),
+        **both_ways(handeye.H_PC, handeye.H_OB, body),
         "H_PC_covariance": handeye.H_PC_covariance,
         "H_OB_covariance": handeye.H_OB_covariance,
         "clock_offset_s": handeye.clock_offset_s,
         "clock_offset_std_s": handeye.clock_offset_std_s,
         "views_used": sum(view.used for view in handeye.views),
         "views_left_out": {view.image: view.why for view in handeye.views if not view.used},
+        "held_out_m": {view.image: view.held_out_m for view in handeye.views if view.held_out_m is not None},
         "evidence": handeye.evidence,
     }
-
-
-def _numbers(values: Array, digits: int, between: str = ", ") -> str:
-    return between.join(f"{value:.{digits}f}" for value in values)

@@ -99,6 +99,8 @@ class ViewVerdict:
     corners: int = 0
     rejected: int = 0
     """Corners that did not fit."""
+    held_out_m: float | None = None
+    """What it misses a solve of the other views by."""
 
 
 @dataclass(frozen=True)

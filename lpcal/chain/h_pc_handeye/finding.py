@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import congruence, observability, variance
+from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
 from lpcal.chain.h_pc_handeye.state import State
 from lpcal.errors import ConvergenceError
@@ -70,6 +71,7 @@ def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], know
 def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
     whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
+    _, held_out_m = held_out(state)
     px = np.full(len(state.inliers), np.nan)
     residuals, view = found.corner_residuals()
     if len(residuals):
@@ -92,6 +94,7 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
                 residual_px=float(px[k]) if np.isfinite(px[k]) else None,
                 residual_m=float(distance[k]) if seen else None,
                 residual_rad=float(angle[k]) if seen else None,
+                held_out_m=float(held_out_m[k]) if np.isfinite(held_out_m[k]) else None,
             )
         )
     return tuple(verdicts)
