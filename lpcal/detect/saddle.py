@@ -3,11 +3,11 @@ r"""A chessboard corner to a few thousandths of a pixel: two blurred edges fitte
 Symbols: window of pixels p about a corner p0; edge k at the angle theta_k, blur s, light I::
 
     d_k = (-sin theta_k, cos theta_k) . (p - p0)
-    I(p) = a0 + a . p + (c0 + c . p) erf(d_1 / (sqrt(2) s)) erf(d_2 / (sqrt(2) s))
+    I(p) = (1 + g . p) [a + c erf(d_1 / (sqrt(2) s)) erf(d_2 / (sqrt(2) s))]
 
-All eleven numbers (p0, theta_1, theta_2, log s, a0, a, c0, c) are sought by Levenberg-Marquardt from the grid's own directions. Light and
-contrast that slope over the window are the model's own, where the saddle of the grey values (Forstner & Gulch) is drawn aside: on
-rendered boards the fit is five times nearer. Source: the chain rule; for such fits to corners, e.g. Mallon & Whelan 2007.
+All nine numbers (p0, theta_1, theta_2, log s, a, c, g) are sought by Levenberg-Marquardt from the grid's own directions. Light that slopes
+over the window is the model's own, where the saddle of the grey values (Forstner & Gulch) is drawn aside by it: on rendered boards the
+fit is five times nearer, on real ones its residual is a quarter less. Source: the chain rule; the image of an edge under a round blur.
 """
 
 from __future__ import annotations
@@ -28,19 +28,21 @@ LEAST_HALF_PX, MOST_HALF_PX = 3, 10
 """Half side of the window: below, there is too little to fit; above, there is nothing to gain."""
 BLUR_PX = (0.2, 6.0)
 STEP_LIMIT = 0.3
-STRAY_PX = 0.5
-"""A fit that leads further than this from the start is not believed, nor one of edges that nearly coincide."""
+STRAY = 0.3
+"""A fit that leads further than this from the start, in half windows, is not believed, nor one of edges that nearly coincide."""
 LEAST_ANGLE_SIN = 0.25
+RIM_PX = 2
+"""Corners closer to the image's edge than this are left as they are."""
 
 
 def fit_saddles(image: Image, grid: Array, half_px: int) -> tuple[Array, Array]:
     """Corners (ny, nx, 2) nearer to where the edges cross, and their sigmas (ny, nx) by the scatter of the fit.
 
-    Corners that are NaN, at the image's edge, or not believed stay as they are, sigma NaN.
+    Corners that are NaN, on the image's rim, or not believed stay as they are, sigma NaN.
     """
     found, sigma_px = grid.copy(), np.full(grid.shape[:2], np.nan)
     half = min(int(half_px), MOST_HALF_PX)
-    usable = np.isfinite(grid).all(axis=-1) & _inside(grid, image.shape, half)
+    usable = _inside(grid, image.shape)
     angles = _angles(grid)
     usable &= np.isfinite(angles).all(axis=-1)
     if half < LEAST_HALF_PX or not usable.any():
@@ -53,10 +55,10 @@ def fit_saddles(image: Image, grid: Array, half_px: int) -> tuple[Array, Array]:
 
 def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array, Array]:
     """Corners (n, 2) and their sigmas (n,) where the fit is believed; else as they were, NaN."""
-    offsets, light, middle = _windows(image, corners, half)
-    numbers, covariance = _levenberg_marquardt(np.concatenate([corners - middle, angles], axis=1), offsets, light)
+    offsets, light, weight, middle = _windows(image, corners, half)
+    numbers, covariance = _levenberg_marquardt(np.concatenate([corners - middle, angles], axis=1), offsets, light, weight)
     places = middle + numbers[:, :2]
-    believed = np.linalg.norm(places - corners, axis=1) < STRAY_PX
+    believed = np.linalg.norm(places - corners, axis=1) < STRAY * half
     believed &= np.abs(np.sin(numbers[:, 2] - numbers[:, 3])) > LEAST_ANGLE_SIN
     variance = np.trace(covariance[:, :2, :2], axis1=1, axis2=2) / 2
     believed &= variance > 0
@@ -64,9 +66,9 @@ def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array,
     return np.where(believed[:, None], places, corners), np.where(believed, sigma_px, np.nan)
 
 
-def _inside(grid: Array, shape: tuple[int, ...], half: int) -> Mask:
-    middle = np.nan_to_num(grid, nan=-1.0)
-    return np.asarray(np.all((middle > half + 1) & (middle < np.array(shape[1::-1]) - half - 2), axis=-1))
+def _inside(grid: Array, shape: tuple[int, ...]) -> Mask:
+    places = np.nan_to_num(grid, nan=-1.0)
+    return np.asarray(np.all((places > RIM_PX) & (places < np.array(shape[1::-1]) - 1 - RIM_PX), axis=-1))
 
 
 def _angles(grid: Array) -> Array:
@@ -84,23 +86,26 @@ def _angles(grid: Array) -> Array:
     return np.stack(angles, axis=-1)
 
 
-def _windows(image: Image, corners: Array, half: int) -> tuple[Array, Array, Array]:
-    """Offsets (P, 2) of a round window, its light (n, P), and the pixels (n, 2) that it is about."""
+def _windows(image: Image, corners: Array, half: int) -> tuple[Any, ...]:
+    """Offsets (P, 2) of a round window, its light (n, P), whether it is in the image (n, P), and the pixels (n, 2) that it is about."""
     y, x = (axis.ravel() for axis in np.mgrid[-half : half + 1, -half : half + 1])
     offsets = np.stack([x, y], axis=1)[x * x + y * y <= (half + 0.5) ** 2]
     middle = np.rint(corners).astype(int)
     places = middle[:, None] + offsets
+    last = np.array(image.shape[1::-1]) - 1
+    weight = np.all((places >= 0) & (places <= last), axis=-1).astype(np.float32)
+    places = np.clip(places, 0, last)
     light = np.asarray(image[places[..., 1], places[..., 0]], dtype=np.float32)
     scale = np.maximum(np.ptp(light, axis=1, keepdims=True), np.float32(1e-12))
-    return offsets.astype(np.float32), light / scale, middle
+    return offsets.astype(np.float32), light / scale, weight, middle
 
 
-def _levenberg_marquardt(start: Array, offsets: Array, light: Array) -> tuple[Array, Array]:
-    """Numbers (n, 11) from places and angles (n, 4), and their covariance (n, 11, 11) by the scatter; each corner has its own damping."""
-    numbers = np.concatenate([start, np.zeros((len(start), 7))], axis=1)
-    numbers[:, 5:] = _first_light(numbers, offsets, light)
+def _levenberg_marquardt(start: Array, offsets: Array, light: Array, weight: Array) -> tuple[Array, Array]:
+    """Numbers (n, 9) from places and angles (n, 4), and their covariance (n, 9, 9) by the scatter; each corner has its own damping."""
+    numbers = np.concatenate([start, np.zeros((len(start), 5))], axis=1)
+    numbers[:, 5:7] = _first_light(numbers, offsets, light, weight)
     damping, moving = np.full(len(start), 1e-3), np.ones(len(start), dtype=bool)
-    J, residual = _linearised(numbers, offsets, light)
+    J, residual = _linearised(numbers, offsets, light, weight)
     cost = np.sum(residual**2, axis=1)
     for _ in range(STEPS):
         rows = np.flatnonzero(moving)
@@ -108,19 +113,19 @@ def _levenberg_marquardt(start: Array, offsets: Array, light: Array) -> tuple[Ar
             break
         turned = np.swapaxes(J[rows], 1, 2)
         N, right = (turned @ J[rows]).astype(float), (turned @ residual[rows][..., None]).astype(float)
-        N += (damping[rows, None] * np.einsum("nii->ni", N) + TINY)[:, :, None] * np.eye(11)
+        N += (damping[rows, None] * np.einsum("nii->ni", N) + TINY)[:, :, None] * np.eye(9)
         step = np.clip(np.linalg.solve(N, right)[..., 0], -STEP_LIMIT, STEP_LIMIT)
         trial = numbers[rows] + step
         trial[:, 4] = np.clip(trial[:, 4], *np.log(BLUR_PX))
-        J_trial, residual_trial = _linearised(trial, offsets, light[rows])
+        J_trial, residual_trial = _linearised(trial, offsets, light[rows], weight[rows])
         cost_trial = np.sum(residual_trial**2, axis=1)
         better = cost_trial < cost[rows]
         taken = rows[better]
         numbers[taken], J[taken], residual[taken], cost[taken] = trial[better], J_trial[better], residual_trial[better], cost_trial[better]
         damping[rows] *= np.where(better, 0.2, 10.0)
         moving[rows] = (np.abs(step[:, :5]) > PRECISION).any(axis=1) & (damping[rows] < MOST_DAMPING)
-    N = (np.swapaxes(J, 1, 2) @ J).astype(float) + TINY * np.eye(11)
-    return numbers, np.linalg.inv(N) * (cost / max(len(offsets) - 11, 1))[:, None, None]
+    N = (np.swapaxes(J, 1, 2) @ J).astype(float) + TINY * np.eye(9)
+    return numbers, np.linalg.inv(N) * (cost / np.maximum(weight.sum(axis=1) - 9, 1))[:, None, None]
 
 
 def _edges(numbers: Array, offsets: Array) -> tuple[Any, ...]:
@@ -138,29 +143,30 @@ def _edges(numbers: Array, offsets: Array) -> tuple[Any, ...]:
     return cos, sin, across, cos * x + sin * y, erf(scaled), slope
 
 
-def _first_light(numbers: Array, offsets: Array, light: Array) -> Array:
-    """The light's numbers (n, 6) that fit best at the start."""
+def _first_light(numbers: Array, offsets: Array, light: Array, weight: Array) -> Array:
+    """Mean light and contrast (n, 2) that fit best at the start, without a slope."""
     profile = _edges(numbers, offsets)[4]
-    plane = np.concatenate([np.ones((len(offsets), 1), np.float32), offsets], axis=1)
-    design = np.concatenate([np.broadcast_to(plane, (len(numbers), *plane.shape)), (profile[0] * profile[1])[..., None] * plane], axis=-1)
-    turned = np.swapaxes(design, 1, 2)
-    return np.asarray(
-        np.linalg.solve((turned @ design).astype(float) + TINY * np.eye(6), (turned @ light[..., None]).astype(float))[..., 0]
-    )
-
-
-def _linearised(numbers: Array, offsets: Array, light: Array) -> tuple[Array, Array]:
-    """Derivative (n, P, 11) of the model by its numbers, and the residuals (n, P)."""
-    cos, sin, across, along, profile, slope = _edges(numbers, offsets)
-    plane = np.concatenate([np.ones((len(offsets), 1), np.float32), offsets], axis=1)
-    lit = numbers[:, 5:].astype(np.float32)
-    contrast = lit[:, 3:] @ plane.T
     pattern = profile[0] * profile[1]
+    mean = [np.sum(weight * one, axis=1) / weight.sum(axis=1) for one in (light, pattern)]
+    about = pattern - mean[1][:, None]
+    contrast = np.sum(weight * about * light, axis=1) / np.maximum(np.sum(weight * about**2, axis=1), TINY)
+    return np.stack([mean[0] - contrast * mean[1], contrast], axis=1)
+
+
+def _linearised(numbers: Array, offsets: Array, light: Array, weight: Array) -> tuple[Array, Array]:
+    """Derivative (n, P, 9) of the model by its numbers, and the residuals (n, P), each times its weight."""
+    cos, sin, across, along, profile, slope = _edges(numbers, offsets)
+    lit = numbers[:, 5:].astype(np.float32)
+    shade = (1 + lit[:, 2:] @ offsets.T) * weight
+    pattern = profile[0] * profile[1]
+    board = lit[:, :1] + lit[:, 1:2] * pattern
+    contrast = lit[:, 1:2] * shade
     first, second = contrast * slope[0] * profile[1], contrast * slope[1] * profile[0]
-    J = np.empty((*pattern.shape, 11), np.float32)
+    J = np.empty((*pattern.shape, 9), np.float32)
     J[..., 0] = first * sin[0] + second * sin[1]
     J[..., 1] = -first * cos[0] - second * cos[1]
     J[..., 2], J[..., 3] = -first * along[0], -second * along[1]
     J[..., 4] = -first * across[0] - second * across[1]
-    J[..., 5:8], J[..., 8:] = plane, pattern[..., None] * plane
-    return J, light - (lit[:, :3] @ plane.T + contrast * pattern)
+    J[..., 5], J[..., 6] = shade, shade * pattern
+    J[..., 7:] = (board * weight)[..., None] * offsets
+    return J, weight * light - board * shade
