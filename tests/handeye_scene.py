@@ -146,3 +146,25 @@ def _pose(corners, points_B, camera, start):
         r = camera.project(x_C) - corners[seen]
         H = se3.exp(-np.linalg.lstsq(J.reshape(-1, 6), r.ravel(), rcond=None)[0]) @ H
     return H
+
+
+def stop_and_shoot(rng, views=24, turn_deg=25.0, noise=TYPICAL, dwell_s=1.0, move_s=0.6, hz=MOCAP_HZ):
+    """A static session as a recording sees it: the panel rests, is moved on, rests; and the truth of each sample.
+
+    Returns the session with a stream and camera times (offset 0.07 s), and for every sample the view that it belongs to.
+    """
+    session = static_session(rng, views, turn_deg, noise)
+    true_OP = session.H_OP  # with an error of its own in each view, as where cameras of the mocap come and go
+    period = dwell_s + move_s
+    t = np.arange(0.0, views * period, 1 / hz)
+    view = np.minimum((t / period).astype(int), views - 1)
+    share = np.clip((t - view * period - dwell_s) / move_s, 0, 1)
+    share = share * share * (3 - 2 * share)
+    following = np.minimum(view + 1, views - 1)
+    step = se3.log(true_OP[following] @ se3.inv(true_OP[view]))
+    H_OP = _measured(rng, se3.exp(share[:, None] * step) @ true_OP[view], noise)
+    stream = PoseStream("Panel", t, H_OP, np.full(len(t), np.nan), rate_hz=hz)
+    middle = np.arange(views) * period + rng.uniform(0.35, 0.65, views) * dwell_s
+    offset = 0.07
+    boards = BoardPoses(session.boards.images, middle + offset, session.boards.H_CB, session.boards.corners_px, session.boards.points_B)
+    return Session(boards, session.camera, session.H_OP[:0], stream, session.H_PC, session.H_OB, offset, session.flipped), view

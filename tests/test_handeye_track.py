@@ -80,5 +80,7 @@ def test_many_short_flips_leave_the_rest_to_be_trusted():
     H_OP[flipped] = H_OP[flipped] @ FLIP
     asked = np.linspace(0.2, 9.8, 500)
     found = poses_at(clean(t, H_OP, np.full(len(t), np.nan)), asked)
-    assert np.linalg.norm((found.H - _motion(asked))[found.trusted].reshape(-1, 16), axis=1).max() < 2e-4
+    assert (
+        np.linalg.norm((found.H - _motion(asked))[found.trusted].reshape(-1, 16), axis=1).max() < 3e-4
+    )  # a straight line over a gap of three samples
     assert found.trusted.mean() > 0.2

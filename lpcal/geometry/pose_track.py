@@ -1,6 +1,6 @@
 """H_AB at any time: the tracked body's stream, freed of what tracking got wrong, and interpolated.
 
-Symbols: samples (t_n, H_AB,n); a run is a stretch of samples that follow one another without a gap or a jump; angular speed
+Symbols: samples (t_n, H_AB,n); a run is samples that follow one another without a gap or a jump; angular speed
 ``w_n = angle(R_n+1 R_n^T) / (t_n+1 - t_n)``. A body whose markers are swapped flips: at its edge the angular speed is beyond any hand's,
 and one flipped neighbour corrupts an interpolation. A flip that lasts shows in the system's own marker error, and in the hand-eye
 solve, not in the speed. Source: measured on real and rendered streams (30 ms of guard were too few, 50 ms are enough).
@@ -38,6 +38,8 @@ DRIFT_SIGMAS = 1.0
 """The most that the means of a dwell's halves may differ, in standard deviations of one sample; motion alone gives 3.5."""
 VELOCITY_SAMPLES = 3
 """Sampling intervals to either side over which a velocity is taken."""
+MOVED_SIGMAS = 6.0
+"""A difference of two samples up to so many times what noise makes of one coordinate is rest: the noise is no speed."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,15 @@ class PoseTrack:
     def centre(self) -> Array:
         """(12,) the mean of origin and rotation."""
         return np.concatenate([self.H[:, :3, 3].mean(axis=0), self.H[:, :3, :3].mean(axis=0).ravel()])
+
+    @cached_property
+    def sample_noise(self) -> tuple[float, float]:
+        """Standard deviation of a coordinate of the origin (m) and of the rotation (rad), by the second differences of the samples."""
+        second = self.rows[2:] - 2 * self.rows[1:-1] + self.rows[:-2]
+        if not len(second):
+            return 0.0, 0.0
+        noise = 1.4826 * np.median(np.abs(second), axis=0) / np.sqrt(6)
+        return float(np.sqrt(np.mean(noise[:3] ** 2))), float(np.sqrt(np.sum(noise[3:] ** 2) / 6))
 
     @cached_property
     def running_sums(self) -> tuple[Array, Array]:
@@ -108,15 +119,20 @@ def clean(t_s: Array, H_AB: Array, error_m: Array) -> PoseTrack:
     jump = (_neighbour_angle(R) > JUMP_RAD_S * dt) | (speed > max(JUMP_M_S, JUMP_RATIO * float(np.quantile(speed, 0.9))))
     run = np.concatenate([[0], np.cumsum(jump | (dt > GAP_SAMPLES * interval))])
     first, last = np.flatnonzero(np.diff(run, prepend=-1)), np.flatnonzero(np.diff(run, append=run[-1] + 1))
-    lasting = _lasting(_chains(t_s, H_AB, first, last), t_s[first], t_s[last])
-    kept = lasting & (last > first)
+    chain = _chains(t_s, H_AB, first, last)
+    stretch = _stretches(chain, t_s[first], t_s[last], GAP_SAMPLES * interval)
+    size = np.bincount(stretch, last - first + 1)[stretch]
+    kept = _lasting(chain, t_s[first], t_s[last]) & (size > 1)
     dropped["in stretches that jump away from the rest and back, or shorter than 0.3 s"] = int(np.sum((last - first + 1)[~kept]))
+    of_sample, number = kept[run], np.unique(stretch[kept], return_inverse=True)
+    begin, end = first[number[0]], np.zeros(len(number[0]), dtype=np.intp)
+    np.maximum.at(end, number[1], last[kept])
     guard = max(GUARD_S, 1.5 * interval)
-    starts_s = t_s[first] + guard * (first > 0)
-    ends_s = t_s[last] - guard * (last < len(t_s) - 1)
-    keep = kept[run]
-    number = np.cumsum(kept) - 1
-    return PoseTrack(t_s[keep], H_AB[keep], number[run[keep]], starts_s[kept], ends_s[kept], dropped)
+    starts_s = t_s[begin] + guard * (begin > 0)
+    ends_s = t_s[end] - guard * (end < len(t_s) - 1)
+    of_run = np.zeros(len(kept), dtype=np.intp)
+    of_run[kept] = number[1]
+    return PoseTrack(t_s[of_sample], H_AB[of_sample], of_run[run[of_sample]], starts_s, ends_s, dropped)
 
 
 def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
@@ -169,6 +185,18 @@ def _chains(t_s: Array, H_AB: Array, first: npt.NDArray[np.intp], last: npt.NDAr
     return chain
 
 
+def _stretches(chain: npt.NDArray[np.intp], start_s: Array, end_s: Array, reach_s: float) -> npt.NDArray[np.intp]:
+    """The first run (R,) of the stretch that each run belongs to: runs of a chain with a few samples between them are one stretch."""
+    stretch = np.arange(len(chain))
+    latest: dict[int, int] = {}
+    for run, of in enumerate(chain.tolist()):
+        before = latest.get(of)
+        if before is not None and start_s[run] - end_s[before] <= reach_s:
+            stretch[run] = stretch[before]
+        latest[of] = run
+    return stretch
+
+
 def _shift(H_AB: Array, i: int, j: int) -> float:
     return float(np.linalg.norm(H_AB[j, :3, 3] - H_AB[i, :3, 3]))
 
@@ -193,7 +221,7 @@ def _neighbour_angle(R: Array) -> Array:
 
 
 def _velocity(track: PoseTrack, t: Array) -> Array:
-    """Velocity (N, 6) over some sampling intervals to either side, never across a run's edge."""
+    """Velocity (N, 6) over some sampling intervals to either side, never across a run's edge; zero where it is within the noise."""
     at = np.clip(np.searchsorted(track.t_s, t), 1, len(track.t_s) - 1)
     low, high = np.maximum(at - VELOCITY_SAMPLES, 0), np.minimum(at + VELOCITY_SAMPLES - 1, len(track.t_s) - 1)
     for _ in range(VELOCITY_SAMPLES):
@@ -204,7 +232,10 @@ def _velocity(track: PoseTrack, t: Array) -> Array:
     dt = (track.t_s[high] - track.t_s[low])[:, None]
     R = track.H[:, :3, :3]
     turn = se3.rotation_vector(R[high] @ np.swapaxes(R[low], 1, 2))
-    return np.concatenate([turn, track.H[high, :3, 3] - track.H[low, :3, 3]], axis=1) / dt
+    shift = track.H[high, :3, 3] - track.H[low, :3, 3]
+    noise_m, noise_rad = track.sample_noise
+    moved = (np.linalg.norm(shift, axis=1) > MOVED_SIGMAS * noise_m) | (np.linalg.norm(turn, axis=1) > MOVED_SIGMAS * noise_rad)
+    return np.where(moved[:, None], np.concatenate([turn, shift], axis=1) / dt, 0.0)
 
 
 def _dwells(track: PoseTrack, t: Array, run: npt.NDArray[np.intp]) -> tuple[Array, Mask]:

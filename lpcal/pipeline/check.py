@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -68,9 +67,11 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
 
 
 def _boards(given: HandEyeInputs, findings: _Findings) -> None:
-    reasons = Counter((given.without_board | given.without_pose).values())
-    for why, count in reasons.items():
-        findings.say("", f"{count} without: {why}")
+    without = given.without_board | given.without_pose
+    for why in dict.fromkeys(without.values()):
+        images = [image for image, reason in without.items() if reason == why]
+        more = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""
+        findings.say("", f"{len(images)} without: {why}: {', '.join(images[:NAMED])}{more}")
 
 
 def _panel(workspace: Workspace, given: HandEyeInputs, findings: _Findings) -> tuple[Array, Mask] | None:

@@ -1,0 +1,338 @@
+"""What people do wrong: refused, repaired or warned of, by ``lpcal check`` and by ``lpcal handeye`` alike.
+
+``python tests/test_handeye_planted.py`` prints the table: mistake, exit codes, the message's first line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lpcal.formats.camera_yaml import write_camera
+from lpcal.formats.documents import Provenance
+from lpcal.formats.h_cb_yaml import write_h_cb
+from lpcal.formats.handeye_yaml import read_handeye
+from lpcal.geometry import se3
+from lpcal.records.calibration import CameraSolution
+
+from handeye_scene import TYPICAL, Session, moving_session, static_session, stop_and_shoot
+
+MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
+FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
+
+
+def poses_csv(path: Path, t_s, H, order="xyzw", scale=1.0) -> None:
+    q = se3.quaternion(H[:, :3, :3])
+    q = q[:, [3, 0, 1, 2]] if order == "wxyz" else q
+    rows = (f"{t:.7f}," + ",".join(f"{v:.9f}" for v in (*(scale * x), *each)) for t, x, each in zip(t_s, H[:, :3, 3], q, strict=True))
+    path.write_text("\n".join(rows) + "\n")
+
+
+def moving_rig(
+    folder: Path, session: Session, *, H_OP=None, H_CB=None, t_s=None, t_camera_s=None, mocap="", direction="H_CB", **kwargs
+) -> None:
+    """A rig folder of two streams: mocap, and board poses found elsewhere."""
+    stream, boards = session.stream, session.boards
+    poses_csv(folder / "mocap.csv", stream.t_s if t_s is None else t_s, stream.H_OP if H_OP is None else H_OP, **kwargs)
+    poses_csv(folder / "boards.csv", boards.t_camera_s if t_camera_s is None else t_camera_s, boards.H_CB if H_CB is None else H_CB)
+    (folder / "panel.yaml").write_text(
+        f"lpcal: 1\nmocap:\n  file: mocap.csv\n  board_poses: {{file: boards.csv, direction: {direction}}}\n{mocap}"
+    )
+
+
+def image_rig(folder: Path, session: Session, H_OP=None, *, names=None) -> None:
+    """A rig folder whose intrinsics stage has run: images, camera.yaml, H_CB.yaml; a recording with image times, or one pose an image."""
+    count = len(session.boards.images)
+    covariance, rms_px = np.tile(1e-8 * np.eye(6), (count, 1, 1)), np.full(count, TYPICAL.px)
+    boards = replace(session.boards, covariance=covariance, rms_px=rms_px, corner_sigma_px=TYPICAL.px)
+    for name in boards.images:
+        (folder / name).write_bytes(b"")
+    if H_OP is None:
+        poses_csv(folder / "mocap.csv", session.stream.t_s, session.stream.H_OP)
+        times = "\n".join(f"{name},{t:.7f}" for name, t in zip(boards.images, session.boards.t_camera_s, strict=True))
+        (folder / "times.csv").write_text(f"file,time_s\n{times}\n")
+        mocap = "{file: mocap.csv, images: times.csv}"
+    elif names is None:
+        np.savetxt(folder / "robot.txt", H_OP.reshape(-1, 16), fmt="%.10f")
+        mocap = "{poses: robot.txt}"
+    else:
+        q = se3.quaternion(H_OP[:, :3, :3])
+        rows = [f"{name}," + ",".join(f"{v:.9f}" for v in (*H_OP[k, :3, 3], *q[k])) for k, name in enumerate(names)]
+        (folder / "robot.csv").write_text("\n".join(["file,x_m,y_m,z_m,qx,qy,qz,qw", *rows]) + "\n")
+        mocap = "{poses: robot.csv}"
+    solution = CameraSolution(session.camera, boards.points_B, (), "mrcal", TYPICAL.px)
+    (folder / "panel.yaml").write_text(f"lpcal: 1\ncamera: {{images: view_*.png}}\nmocap: {mocap}\n")
+    write_camera(folder / "calib" / "camera.yaml", solution, Provenance())
+    write_h_cb(folder / "calib" / "H_CB.yaml", boards, {}, (9, 6), Provenance())
+
+
+def moving(views=60, seed=11) -> Session:
+    return moving_session(np.random.default_rng(seed), views)
+
+
+def static(views=24, seed=2, **kwargs) -> Session:
+    return static_session(np.random.default_rng(seed), views, **kwargs)
+
+
+def reordered(H):
+    H = H.copy()
+    H[:, :3, :3] = se3.rotation_from_quaternion(se3.quaternion(H[:, :3, :3])[:, [3, 0, 1, 2]])
+    return H
+
+
+def mirrored(H):
+    H = H.copy()
+    H[:, 1, 3] *= -1
+    return H
+
+
+def scaled(H, by):
+    H = H.copy()
+    H[:, :3, 3] *= by
+    return H
+
+
+def turned_about_one_axis(session: Session, reach: float) -> Session:
+    """The session with the panel turned about its z alone."""
+    count = len(session.boards.images)
+    turn = np.concatenate([np.zeros((count, 2)), np.linspace(-reach, reach, count)[:, None], np.zeros((count, 3))], axis=1)
+    H_OP = session.H_OP[:1] @ se3.exp(turn)
+    return replace(session, H_OP=H_OP, boards=replace(session.boards, H_CB=se3.inv(H_OP @ session.H_PC) @ session.H_OB))
+
+
+def cut_in_mid_line(folder: Path) -> None:
+    moving_rig(folder, moving())
+    text = (folder / "mocap.csv").read_text()
+    (folder / "mocap.csv").write_text(text[: len(text) // 2 - 12])
+
+
+def empty_stream(folder: Path, text: str = "") -> None:
+    moving_rig(folder, moving())
+    (folder / "mocap.csv").write_text(text)
+
+
+def motive_rig(folder: Path, body: str | None, *, lost: float = 0.0) -> Session:
+    """A rig whose recording is Motive's, of two bodies, with image times."""
+    from test_mocap_formats import motive
+
+    session, _ = stop_and_shoot(np.random.default_rng(3), 20)
+    image_rig(folder, session)
+    gone = set(np.flatnonzero(np.random.default_rng(4).random(len(session.stream.t_s)) < lost).tolist())
+    motive(folder / "mocap.csv", session.stream.t_s, session.stream.H_OP, bodies=("Wand", "Panel"), lost=gone)
+    text = (folder / "panel.yaml").read_text()
+    (folder / "panel.yaml").write_text(text.replace("mocap.csv,", f"mocap.csv, body: {body}," if body else "mocap.csv,"))
+    return session
+
+
+@dataclass(frozen=True)
+class Refused:
+    """What is planted, and what both commands answer."""
+
+    plant: Callable[[Path], object]
+    code: int
+    words: str
+    todo: str
+
+
+REFUSED = {
+    "mocap inverted": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=se3.inv(moving().stream.H_OP)), 6, "the mocap poses are inverted", "mocap.direction: H_PO"
+    ),
+    "board poses inverted": Refused(
+        lambda f: moving_rig(f, moving(), H_CB=se3.inv(moving().boards.H_CB)),
+        6,
+        "the board poses are inverted",
+        "mocap.board_poses.direction: H_BC",
+    ),
+    "wxyz for xyzw": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=reordered(moving().stream.H_OP)), 6, "they are w, x, y, z", "mocap.quaternion: wxyz"
+    ),
+    "mirrored y (positions)": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=mirrored(moving().stream.H_OP)), 6, "mirrored along y", "right-handed frame"
+    ),
+    "mirrored y (poses)": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=MIRROR @ moving().stream.H_OP @ MIRROR), 6, "left-handed", "right-handed frame"
+    ),
+    "mm for m": Refused(lambda f: moving_rig(f, moving(), scale=1000.0), 6, "in mm, not in metres", "mocap.units: mm"),
+    "board square 25.4 x too large": Refused(
+        lambda f: image_rig(f, static(), scaled(static().H_OP, 1 / 25.4)), 6, "the board's size is stated 25.4 times", "board.square"
+    ),
+    "board square 25.4 x too small": Refused(
+        lambda f: image_rig(f, static(), scaled(static().H_OP, 25.4)), 6, "25 times too small", "board.square"
+    ),
+    "pairing shifted by one": Refused(
+        lambda f: image_rig(f, static(), np.roll(static().H_OP, 1, axis=0)), 6, "the pairing is shifted by 1", "mocap.poses"
+    ),
+    "rotation about one axis only": Refused(
+        lambda f: image_rig(f, turned_about_one_axis(static(), 0.6), turned_about_one_axis(static(), 0.6).H_OP),
+        4,
+        "turned about one axis only, about its z",
+        "about the panel's x and y",
+    ),
+    "no rotation": Refused(
+        lambda f: image_rig(f, static(turn_deg=0.05), static(turn_deg=0.05).H_OP),
+        4,
+        "the panel hardly turned",
+        "turn the panel by 20 degrees",
+    ),
+    "three views": Refused(lambda f: image_rig(f, static(3), static(3).H_OP), 4, "3 views", "take more"),
+    "a csv cut in mid-line": Refused(cut_in_mid_line, 3, "cells", "is the file cut off? export it again"),
+    "a body that is not there": Refused(lambda f: motive_rig(f, "LightPanel"), 6, "no body LightPanel", "Wand, Panel"),
+    "two bodies, none named": Refused(lambda f: motive_rig(f, None), 3, "2 bodies: Wand, Panel", "mocap.body"),
+    "an empty file": Refused(empty_stream, 3, "empty", "export the recording again"),
+    "a stream without a pose": Refused(
+        lambda f: empty_stream(f, "t,x,y,z,qx,qy,qz,qw\n0,,,,,,,\n1,,,,,,,\n"), 4, "not one pose", "rows with position and rotation"
+    ),
+    "clocks a year apart": Refused(
+        lambda f: moving_rig(f, moving(), t_camera_s=moving().boards.t_camera_s + 3.15e7), 6, "the clocks do not meet", "mocap.clock_offset"
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize("command", ["handeye", "check"])
+def test_refused(tmp_path, lpcal, name, command):
+    case = REFUSED[name]
+    case.plant(tmp_path)
+    code, out, err = lpcal(command, cwd=tmp_path)
+    assert code == case.code, out + err
+    assert case.words in out + err
+    assert case.todo in out + err
+    assert not (tmp_path / "calib" / "handeye.yaml").exists()
+    assert not (tmp_path / "calib" / "H_OP.yaml").exists()
+
+
+def one_pose_missing(folder: Path) -> Session:
+    session = static()
+    keep = np.arange(24) != 7
+    image_rig(folder, session, session.H_OP[keep], names=[n for n, ok in zip(session.boards.images, keep, strict=True) if ok])
+    return session
+
+
+def flipped(folder: Path, how: str) -> Session:
+    """A fifth of the recording flipped: whole dwells, or single samples here and there."""
+    session, view = stop_and_shoot(np.random.default_rng(5), 25)
+    rng = np.random.default_rng(6)
+    wrong = np.isin(view, [3, 8, 9, 15, 22]) if how == "dwells" else rng.random(len(view)) < 0.2
+    H_OP = np.where(wrong[:, None, None], session.stream.H_OP @ FLIP, session.stream.H_OP)
+    session = replace(session, stream=replace(session.stream, H_OP=H_OP))
+    image_rig(folder, session)
+    return session
+
+
+def repeated_and_unsorted(folder: Path) -> Session:
+    session = moving()
+    t, H = session.stream.t_s, session.stream.H_OP
+    order = np.concatenate([np.random.default_rng(0).permutation(len(t)), np.arange(0, len(t), 9)])
+    moving_rig(folder, session, t_s=t[order], H_OP=H[order])
+    return session
+
+
+def gaps(folder: Path) -> Session:
+    session = moving(120)
+    keep = (session.stream.t_s % 2.0) > 0.3
+    moving_rig(folder, session, t_s=session.stream.t_s[keep], H_OP=session.stream.H_OP[keep])
+    return session
+
+
+REPAIRED = {
+    "one image's pose missing": (one_pose_missing, "no pose of it in mocap.poses", "view_007.png"),
+    "20 % flips, whole dwells": (lambda f: flipped(f, "dwells"), "view_003.png", "view_022.png"),
+    "20 % flips, single samples": (lambda f: flipped(f, "samples"), None, None),
+    "two bodies, one named": (lambda f: motive_rig(f, "Panel"), "Panel", None),
+    "lost samples": (lambda f: motive_rig(f, "Panel", lost=0.1), None, None),
+    "gaps of 0.3 s": (gaps, "the body was lost", None),
+    "repeated and unsorted stamps": (repeated_and_unsorted, "sorted", "repeated times"),
+}
+
+
+@pytest.mark.parametrize("name", REPAIRED)
+def test_repaired_and_said(tmp_path, lpcal, name):
+    plant, first, second = REPAIRED[name]
+    session = plant(tmp_path)
+    for command in ("check", "handeye"):
+        code, out, err = lpcal(command, cwd=tmp_path)
+        assert code == 0, out + err
+        for words in (first, second):
+            assert words is None or words in out + err, command
+    found = read_handeye(tmp_path / "calib" / "handeye.yaml")
+    xi = se3.log(session.H_PC @ se3.inv(found.H_PC))
+    assert xi @ np.linalg.solve(found.H_PC_covariance, xi) < 30
+    assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 4e-3
+    if "dwells" in name:
+        assert [k for k, view in enumerate(found.views) if not view.used] == [3, 8, 9, 15, 22]
+
+
+def both_inverted(folder: Path) -> Session:
+    session = moving(120)
+    far = session.H_OB.copy()
+    far[:3, 3] += [1.5, 1.0, 0.8]  # a room: the board is metres from its origin
+    H_OP = far @ se3.inv(session.H_OB) @ session.stream.H_OP
+    moving_rig(folder, session, H_OP=se3.inv(H_OP), H_CB=se3.inv(session.boards.H_CB))
+    return session
+
+
+WARNED = {
+    "a board 1 % off": (lambda f: image_rig(f, static(60, 3), scaled(static(60, 3).H_OP, 1.01)), "the mocap measures the board as 10"),
+    "both streams inverted": (both_inverted, "both streams are inverted"),
+    "rotations under 8 degrees": (
+        lambda f: image_rig(f, static(40, turn_deg=6.0), static(40, turn_deg=6.0).H_OP),
+        "turned little about a second axis",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WARNED)
+@pytest.mark.parametrize("command", ["handeye", "check"])
+def test_solved_but_warned_of(tmp_path, lpcal, name, command):
+    plant, words = WARNED[name]
+    plant(tmp_path)
+    code, out, err = lpcal(command, cwd=tmp_path)
+    assert code == 0, out + err
+    assert words in out + err
+
+
+def test_what_mends_it_mends_it(tmp_path, lpcal):
+    session = moving()
+    for keys, planted in (
+        ("  direction: H_PO\n", {"H_OP": se3.inv(session.stream.H_OP)}),
+        ("  quaternion: wxyz\n", {"order": "wxyz"}),
+        ("  units: mm\n", {"scale": 1000.0}),
+        ("", {"H_CB": se3.inv(session.boards.H_CB), "direction": "H_BC"}),
+    ):
+        moving_rig(tmp_path, session, mocap=keys, **planted)
+        code, out, err = lpcal("check", cwd=tmp_path)
+        assert code == 0, keys + out + err
+
+
+def _table() -> None:
+    """The table of the closing note."""
+    import contextlib
+    import io
+    import os
+    import sys
+    import tempfile
+
+    from lpcal.cli.main import main
+
+    plants = {name: case.plant for name, case in REFUSED.items()} | {name: case[0] for name, case in (REPAIRED | WARNED).items()}
+    for name, plant in plants.items():
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            plant(Path(folder))
+            said = {}
+            for command in ("check", "handeye"):
+                out, err = io.StringIO(), io.StringIO()
+                with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+                    code = main([command])
+                lines = (out.getvalue() + err.getvalue()).replace(folder + os.sep, "").splitlines()
+                telling = [line for line in lines if line.startswith(("WRONG", "warning", "lpcal", "error"))] or lines[-1:]
+                said[command] = (code, telling[0] if telling else "")
+            words = said["check"][1] if said["check"][0] else said["handeye"][1]
+            sys.stdout.write(f"| {name} | {said['check'][0]} | {said['handeye'][0]} | {words} |\n")
+
+
+if __name__ == "__main__":
+    _table()
