@@ -14,18 +14,21 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.detect.board_absent import any_grid, what_is_there
 from lpcal.detect.board_charuco import find_charuco, marker_free
-from lpcal.detect.board_grid import beyond, contrast, in_board_order, spacing_px
+from lpcal.detect.board_grid import beyond, in_board_order, spacing_px
 from lpcal.detect.saddle import fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 2
+DETECTOR_VERSION = 3
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
+SATURATED = 0.996
+"""Of full scale: as bright as an image gets."""
 SMALL_SPACING_PX = 5.0
 """Corners closer than this cannot be refined."""
 
@@ -40,23 +43,22 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     """
     grey = _stretched(image)
     rough = find_charuco(grey, board) if board.kind == "charuco" else _search(grey, board.corners)
-    return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _what_else(grey))
+    return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _absent(grey, board))
 
 
 def count_corners(image: Image | Labels) -> tuple[int, int] | None:
     """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows."""
-    import cv2
-
     grey = _stretched(image)
-    try:
-        found, _, squares = cv2.findChessboardCornersSBWithMeta(grey, (3, 3), cv2.CALIB_CB_LARGER | cv2.CALIB_CB_NORMALIZE_IMAGE)
-    except cv2.error:
-        return None
-    if not found or squares is None:
-        return None
-    short, long = sorted(squares.shape[:2])
-    rough = _search(grey, (long, short))
-    return None if rough is None or any(beyond(grey, rough)) else (long, short)
+    seen = any_grid(grey)
+    rough = None if seen is None else _search(grey, seen[0])
+    return None if seen is None or rough is None or any(beyond(grey, rough)) else seen[0]
+
+
+def _absent(grey: Labels, board: Board) -> str:
+    """Why there is no board, in words."""
+    if board.kind == "charuco":
+        return "no board found: fewer than eight of its corners have their markers in sight; see marker and dictionary"
+    return what_is_there(grey, board.corners, _search)
 
 
 def _stretched(image: Image | Labels) -> Labels:
@@ -107,12 +109,24 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
         )
     share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
     light = image.astype(np.float32)
-    refined, _ = fit_saddles(light, refine(light, rough, spacing, share), round(share * spacing))
+    saddles = fit_saddles(light, refine(light, rough, spacing, share), round(share * spacing))
+    refined, blur_px = saddles.corners_px, saddles.blur_px
+    glare = _glare(image, refined)
     if board.kind == "charuco":
-        return BoardView(name, refined.reshape(-1, 2))
+        return BoardView(name, refined.reshape(-1, 2), blur_px=blur_px, glare=glare)
     if any(beyond(grey, refined)):
         return BoardView(name, None, "the grid found goes on beyond its last corners: part of a larger board, or shifted by a square")
-    return BoardView(name, in_board_order(grey, refined).reshape(-1, 2))
+    return BoardView(name, in_board_order(grey, refined).reshape(-1, 2), blur_px=blur_px, glare=glare)
+
+
+def _glare(image: Image | Labels, grid: Array) -> float:
+    """Share of the board's corners' hull that is as bright as the image gets, where that is its scale's end."""
+    import cv2
+
+    full = {"uint8": 255.0, "uint16": 65535.0}.get(image.dtype.name, 1.0)
+    hull = cv2.convexHull(grid[np.isfinite(grid).all(axis=-1)].astype(np.float32).reshape(-1, 1, 2))
+    inside = cv2.fillConvexPoly(np.zeros(image.shape, np.uint8), np.rint(hull).astype(np.int32), 1) > 0
+    return float(np.mean(image[inside] >= SATURATED * full)) if inside.any() else 0.0
 
 
 def refine(image: Image | Labels, rough: Array, spacing: float, share: float = WINDOW_SHARE) -> Array:
@@ -129,16 +143,3 @@ def refine(image: Image | Labels, rough: Array, spacing: float, share: float = W
     refined = np.full(rough.shape, np.nan)
     refined[seen] = places.reshape(-1, 2)
     return refined
-
-
-def _what_else(grey: Labels) -> str:
-    """Why no board was found, as far as the image tells."""
-    import cv2
-
-    other = "no board found"
-    if contrast(grey) < 20:
-        return f"{other}: the image has hardly any contrast"
-    sharpness = float(np.percentile(np.abs(cv2.Laplacian(cv2.GaussianBlur(grey, (3, 3), 0), cv2.CV_32F)), 99.5))
-    if sharpness < 8:
-        return f"{other}: the image is blurred"
-    return f"{other}: it may be cut off, too small or hidden in part"

@@ -12,6 +12,7 @@ fit is five times nearer, on real ones its residual is a quarter less. Source: t
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -35,8 +36,20 @@ RIM_PX = 2
 """Corners closer to the image's edge than this are left as they are."""
 
 
-def fit_saddles(image: Image, grid: Array, half_px: int) -> tuple[Array, Array]:
-    """Corners (ny, nx, 2) nearer to where the edges cross, and their sigmas (ny, nx) by the scatter of the fit.
+@dataclass(frozen=True)
+class Saddles:
+    """What the fits found."""
+
+    corners_px: Array
+    """(ny, nx, 2)."""
+    sigma_px: Array
+    """(ny, nx) one standard deviation of a coordinate, by the scatter of the fit; NaN: left as it was."""
+    blur_px: float
+    """Median blur of the edges, one sigma; NaN where none was fitted."""
+
+
+def fit_saddles(image: Image, grid: Array, half_px: int) -> Saddles:
+    """Corners of a grid (ny, nx, 2) nearer to where the edges cross.
 
     Corners that are NaN, on the image's rim, or not believed stay as they are, sigma NaN.
     """
@@ -46,15 +59,19 @@ def fit_saddles(image: Image, grid: Array, half_px: int) -> tuple[Array, Array]:
     angles = _angles(grid)
     usable &= np.isfinite(angles).all(axis=-1)
     if half < LEAST_HALF_PX or not usable.any():
-        return found, sigma_px
+        return Saddles(found, sigma_px, float("nan"))
+    blur_px = []
     for row in range(0, int(usable.sum()), CHUNK):
         rows = np.flatnonzero(usable)[row : row + CHUNK]
-        found.reshape(-1, 2)[rows], sigma_px.reshape(-1)[rows] = _fit(image, grid.reshape(-1, 2)[rows], angles.reshape(-1, 2)[rows], half)
-    return found, sigma_px
+        places, sigma, blur = _fit(image, grid.reshape(-1, 2)[rows], angles.reshape(-1, 2)[rows], half)
+        found.reshape(-1, 2)[rows], sigma_px.reshape(-1)[rows] = places, sigma
+        blur_px.append(blur[np.isfinite(sigma)])
+    blurs = np.concatenate(blur_px)
+    return Saddles(found, sigma_px, float(np.median(blurs)) if blurs.size else float("nan"))
 
 
-def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array, Array]:
-    """Corners (n, 2) and their sigmas (n,) where the fit is believed; else as they were, NaN."""
+def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array, Array, Array]:
+    """Corners (n, 2) and their sigmas (n,) where the fit is believed; else as they were, NaN; and the edges' blur (n,)."""
     offsets, light, weight, middle = _windows(image, corners, half)
     numbers, covariance = _levenberg_marquardt(np.concatenate([corners - middle, angles], axis=1), offsets, light, weight)
     places = middle + numbers[:, :2]
@@ -63,7 +80,7 @@ def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array,
     variance = np.trace(covariance[:, :2, :2], axis1=1, axis2=2) / 2
     believed &= variance > 0
     sigma_px = np.sqrt(np.maximum(variance, 0.0))
-    return np.where(believed[:, None], places, corners), np.where(believed, sigma_px, np.nan)
+    return np.where(believed[:, None], places, corners), np.where(believed, sigma_px, np.nan), np.exp(numbers[:, 4])
 
 
 def _inside(grid: Array, shape: tuple[int, ...]) -> Mask:

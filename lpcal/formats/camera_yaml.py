@@ -122,4 +122,6 @@ def _view(view: ViewVerdict) -> dict[str, Any]:
         "corners": view.corners,
         "rejected": view.rejected,
         "rms_px": view.residual_px,
+        "blur_px": view.blur_px,
+        "glare": view.glare,
     }

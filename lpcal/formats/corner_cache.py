@@ -1,7 +1,7 @@
 """calib/.cache/corners.json: the corners already found, by the content of image, board and detector, so that a second run is instant.
 
-One entry a key: the image's ``size``, ``corners`` (M, 2) with null where not seen, or null and ``why``. A file that cannot be read
-counts as empty.
+One entry a key: the image's ``size``, ``corners`` (M, 2) with null where not seen, or null and ``why``; ``blur_px`` and ``glare``. A file
+that cannot be read counts as empty.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -41,18 +42,29 @@ def read_corner_cache(path: Path) -> dict[str, Sighting]:
     """Detections by key, their images unnamed."""
     try:
         entries = json.loads(path.read_text(encoding="utf-8"))
-        return {
-            key: Sighting((int(entry["size"][0]), int(entry["size"][1])), BoardView("", _corners(entry["corners"]), entry["why"]))
-            for key, entry in entries.items()
-        }
+        return {key: Sighting((int(entry["size"][0]), int(entry["size"][1])), _view(entry)) for key, entry in entries.items()}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
 
 
 def write_corner_cache(path: Path, sightings: Mapping[str, Sighting]) -> None:
     """Keep detections by key."""
-    entries = {key: {"size": s.size, "corners": plain(s.view.corners_px), "why": s.view.why} for key, s in sightings.items()}
+    entries = {
+        key: {
+            "size": s.size,
+            "corners": plain(s.view.corners_px),
+            "why": s.view.why,
+            "blur_px": plain(s.view.blur_px),
+            "glare": plain(s.view.glare),
+        }
+        for key, s in sightings.items()
+    }
     write_text(path, json.dumps(entries))
+
+
+def _view(entry: dict[str, Any]) -> BoardView:
+    blur_px, glare = (float("nan") if entry.get(key) is None else float(entry[key]) for key in ("blur_px", "glare"))
+    return BoardView("", _corners(entry["corners"]), entry["why"], blur_px, glare)
 
 
 def _corners(entry: list[list[float | None]] | None) -> Array | None:

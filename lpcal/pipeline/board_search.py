@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
@@ -13,11 +13,12 @@ import numpy as np
 from lpcal.detect.board import DETECTOR_VERSION, count_corners, find_board
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.corner_cache import Sighting, cache_key, read_corner_cache, write_corner_cache
+from lpcal.formats.corners_vnl import read_corners
 from lpcal.formats.image_checks import refuse_cut_or_turned
 from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Image
 from lpcal.pipeline.workspace import Workspace
-from lpcal.records.observations import Board, BoardViews
+from lpcal.records.observations import Board, BoardView, BoardViews
 from lpcal.records.outcome import Progress
 
 COUNTED_IMAGES = 6
@@ -26,8 +27,10 @@ FEW = 0.5
 """A board found in fewer images than this is suspected to be another one."""
 
 
-def search(workspace: Workspace, images: Sequence[Path], board: Board, progress: Progress) -> BoardViews:
-    """The board in each image, in the images' order.
+def search(
+    workspace: Workspace, images: Sequence[Path], board: Board, progress: Progress, known: Mapping[Path, BoardView] | None = None
+) -> BoardViews:
+    """The board in each image, in the images' order; images whose corners are known are read for their size only.
 
     Raises
     ------
@@ -38,11 +41,13 @@ def search(workspace: Workspace, images: Sequence[Path], board: Board, progress:
     DegenerateError
         No board in any image.
     """
+    known = known or {}
     store = workspace.calib(".cache/corners.json")
     kept = read_corner_cache(store)
     keys = [cache_key(image, board, DETECTOR_VERSION) for image in images]
-    new = [row for row, key in enumerate(keys) if key not in kept]
     found: dict[str, Sighting] = {key: kept[key] for key in keys if key in kept}
+    given = {image: Sighting(read_image(image).size, view) for image, view in known.items()}
+    new = [row for row, (key, image) in enumerate(zip(keys, images, strict=True)) if key not in kept and image not in given]
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         # threads, not processes: OpenCV gives up the interpreter's lock while it searches
         tasks = {pool.submit(_look, images[row], board): keys[row] for row in new}
@@ -55,9 +60,36 @@ def search(workspace: Workspace, images: Sequence[Path], board: Board, progress:
             raise
     if new:
         write_corner_cache(store, found)
-    sizes = [found[key].size for key in keys]
+    sightings = [given[image] if image in given else found[key] for key, image in zip(keys, images, strict=True)]
+    sizes = [sighting.size for sighting in sightings]
     refuse_two_sizes([workspace.relative(path) for path in images], sizes)
-    return BoardViews(sizes[0], tuple(found[key].named(workspace.relative(path)) for key, path in zip(keys, images, strict=True)))
+    return BoardViews(sizes[0], tuple(one.named(workspace.relative(path)) for one, path in zip(sightings, images, strict=True)))
+
+
+def recall(workspace: Workspace, corners: Path, images: Sequence[Path], board: Board) -> dict[Path, BoardView]:
+    """The corners of images as a vnlog has them, by path: named there as here, by the whole path, or by the file's name alone.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        The file cannot be read, has another count of corners, or names none of the images.
+    """
+    listed = read_corners(corners, board.corners[0] * board.corners[1])
+    by_name = {Path(name).name: name for name in listed}
+    found: dict[Path, BoardView] = {}
+    for image in images:
+        name = next((one for one in (workspace.relative(image), str(image)) if one in listed), by_name.get(image.name))
+        if name is not None:
+            why = None if listed[name] is not None else f"no board, says {corners.name}"
+            found[image] = BoardView(workspace.relative(image), listed[name], why)
+    if not found:
+        raise DisagreementError(
+            f"none of the {len(images)} images is named in it",
+            where=str(corners),
+            needed="corners of these images",
+            todo="name another file; one that is not there yet is written",
+        )
+    return found
 
 
 def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board) -> None:

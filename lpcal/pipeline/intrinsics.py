@@ -19,12 +19,13 @@ from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
 from lpcal.formats.cameramodel import cameramodel_text
+from lpcal.formats.corners_vnl import write_corners
 from lpcal.formats.documents import Provenance, write_text
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Array
-from lpcal.pipeline.board_search import refuse_another_board, refuse_two_sizes, search
+from lpcal.pipeline.board_search import recall, refuse_another_board, refuse_two_sizes, search
 from lpcal.pipeline.intrinsics_summary import summarise
 from lpcal.pipeline.sensor import has_lens
 from lpcal.pipeline.workspace import Stage, Workspace
@@ -37,10 +38,10 @@ ASSUMED_SIGMA_PX = 0.1
 """Of a corner coordinate, where the camera was not solved here."""
 
 
-def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None = None) -> Outcome:
+def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None = None, corners: Path | None = None) -> Outcome:
     """Solve the camera, or take it from ``camera.cameramodel``, and find the board in every image.
 
-    `images` stand in for ``camera.images``.
+    `images` stand in for ``camera.images``; `corners` is a vnlog to read their corners from, or to write them to where it is not there.
 
     Raises
     ------
@@ -55,7 +56,10 @@ def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None 
         _refuse_nothing(workspace, own, board)
     views = BoardViews((0, 0), ())
     if board is not None and (own or others):
-        views = search(workspace, [*own, *others], board, progress)
+        known = recall(workspace, corners, own, board) if corners is not None and corners.is_file() else {}
+        views = search(workspace, [*own, *others], board, progress, known)
+        if corners is not None and not known:
+            write_corners(corners, views.views[: len(own)])
         refuse_another_board([*own, *others][: len(own) or None], replace(views, views=views.views[: len(own) or None]), board)
     solution = _solution(workspace, section, board, replace(views, views=views.views[: len(own)]), progress)
     solution = replace(solution, camera=_with_radiometry(workspace, section, solution))

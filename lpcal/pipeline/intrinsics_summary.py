@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -49,9 +50,43 @@ def _figures(solution: CameraSolution) -> list[str]:
         values = (camera.K[0, 0], camera.K[1, 1]) if label == "f" else (camera.K[0, 2], camera.K[1, 2])
         sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
         lines.append(f"{label}           {values[0]:.2f} +- {sigma[0]:.2f}, {values[1]:.2f} +- {sigma[1]:.2f} px")
-    warp = evidence.get("board_warp_m")
-    shape = "taken as flat" if not isinstance(warp, list) else f"bowed by {1e3 * warp[0]:.2f} mm along x, {1e3 * warp[1]:.2f} mm along y"
-    return [*lines, f"board       {shape}", f"model       {camera.model}: {chosen.get('why', 'as asked')}"]
+    return [*lines, f"board       {_board(evidence)}", f"model       {camera.model}: {chosen.get('why', 'as asked')}", *_sureness(evidence)]
+
+
+def _board(evidence: Mapping[str, Any]) -> str:
+    """The board's shape in words."""
+    shape = {name: entry["value"] for name, entry in evidence.get("board_shape", {}).items()}
+    if not shape:
+        return "taken as flat"
+    words = f"bowed by {1e3 * shape['bow_x_m']:.2f} mm along x, {1e3 * shape['bow_y_m']:.2f} mm along y"
+    if "twist_m" in shape:
+        cubic = max(abs(value) for name, value in shape.items() if name.startswith("cubic"))
+        words += f", twisted by {1e3 * shape['twist_m']:.3f} mm, bent otherwise by up to {1e3 * cubic:.3f} mm"
+    if "stretch" in shape:
+        words += (
+            f"; its squares are {1e2 * shape['stretch']:.3f} % longer along x than along y, and {np.degrees(shape['shear']):.3f} deg askew"
+        )
+    return words
+
+
+def _sureness(evidence: Mapping[str, Any]) -> list[str]:
+    """How sure, where, by which views, and what to do next."""
+    sure, lines = evidence.get("projection_uncertainty"), []
+    if sure:
+        lines += [
+            f"sure to     {sure['rms_px']:.3f} px rms over the imager, {sure['most_px']:.3f} px at most "
+            f"({sure['most_where_corners_are_px']:.3f} px where corners are)",
+            f"            to be trusted over {100 * sure['trusted_share']:.0f} % of the imager",
+        ]
+    if "coverage" in evidence:
+        lines.append(f"coverage    {evidence['coverage']['in_words']}")
+    if evidence.get("views_that_matter"):
+        first = evidence["views_that_matter"][:3]
+        lines.append("views       that matter most: " + ", ".join(f"{v['image']} ({100 * (v['without_it'] - 1):.0f} %)" for v in first))
+    if evidence.get("next_view"):
+        view = evidence["next_view"]
+        lines.append(f"next view   {view['hold_the_board']}: {view['std_now_px']:.4f} px would become {view['std_then_px']:.4f} px")
+    return lines
 
 
 def _grouped(left_out: dict[str, str]) -> list[tuple[str, str]]:

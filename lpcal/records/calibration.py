@@ -99,6 +99,10 @@ class ViewVerdict:
     corners: int = 0
     rejected: int = 0
     """Corners that did not fit."""
+    blur_px: float | None = None
+    """Blur of a board's edges, one sigma."""
+    glare: float | None = None
+    """Share of a board that is as bright as the image gets."""
     held_out_m: float | None = None
     """What it misses a solve of the other views by."""
 

@@ -43,6 +43,10 @@ class BoardView:
     """Corners (ny*nx, 2), in the order of `Board.points_B`, NaN where a corner was not seen; None: no board."""
     why: str | None = None
     """Why there is no board, in words."""
+    blur_px: float = float("nan")
+    """Blur of the board's edges, one sigma."""
+    glare: float = float("nan")
+    """Share of the board that is as bright as the image gets."""
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from lpcal.chain.k_camera.choice import Candidate, choose
+from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
 from lpcal.chain.k_camera.refit import find_shape, refit
 from lpcal.chain.k_camera.settle import FEWEST_VIEWS, settle
@@ -66,14 +67,16 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     fit, left_out = settle(problem, solve, chosen)
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     doubts = refuse_degenerate(fit)
+    kept = problem.part(np.array([row not in left_out for row in range(len(corners_px))]))
+    figures, unmodelled = findings(kept, fit, [views.views[index].image for index in found])
     return CameraSolution(
         camera=fit.camera,
         points_B=fit.points_B,
         views=_verdicts(views, found, misfits, fit),
         solver=name,
         corner_sigma_px=fit.sigma_px,
-        evidence=_evidence(chosen, tried, fit, board),
-        warnings=(*((missing,) if missing else ()), *doubts),
+        evidence=_evidence(chosen, tried, fit, board) | figures,
+        warnings=(*((missing,) if missing else ()), *doubts, *unmodelled, *blurred_or_glaring(views.views)),
         cameramodel=fit.cameramodel() if fit.cameramodel else "",
     )
 
@@ -138,10 +141,13 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
         if index not in rows:
             verdicts.append(ViewVerdict(view.image, used=False, why=misfits.get(index, view.why)))
             continue
+        seen = {"blur_px": view.blur_px, "glare": view.glare}
         inlier, residual_px = fit.inlier[rows[index]], fit.residual_px[rows[index]]
         used = int(inlier.sum())
         rejected = int(np.isfinite(residual_px).all(axis=-1).sum()) - used
-        verdicts.append(ViewVerdict(view.image, used=True, why=None, residual_px=rms(residual_px, inlier), corners=used, rejected=rejected))
+        verdicts.append(
+            ViewVerdict(view.image, used=True, why=None, residual_px=rms(residual_px, inlier), corners=used, rejected=rejected, **seen)
+        )
     return tuple(verdicts)
 
 

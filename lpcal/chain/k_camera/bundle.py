@@ -207,3 +207,14 @@ def _covariance(system: _System) -> Array:
     reduced = shared - (coupling @ np.linalg.solve(poses, np.swapaxes(coupling, 1, 2))).sum(axis=0)
     scale = 1 / np.sqrt(np.diag(reduced))
     return np.asarray(np.linalg.pinv(reduced * scale[:, None] * scale, hermitian=True) * scale[:, None] * scale)
+
+
+def view_information(bundle: Bundle, state: Unknowns, inlier: Mask) -> tuple[Array, Array]:
+    """What each view knows of the shared unknowns (N, S, S), its pose eliminated, and the weights (S,) of the priors; for unit sigma."""
+    A, B = bundle.jacobians(state)
+    A, B = (J * inlier[..., None, None] for J in (A, B))
+    A, B = A.reshape(len(A), -1, A.shape[-1]), B.reshape(len(B), -1, 6)
+    coupling = np.swapaxes(A, 1, 2) @ B
+    poses = np.swapaxes(B, 1, 2) @ B + EMPTY * np.eye(6)
+    own = np.swapaxes(A, 1, 2) @ A - coupling @ np.linalg.solve(poses, np.swapaxes(coupling, 1, 2))
+    return np.asarray(own), _prior(bundle, state)[0]

@@ -1,0 +1,120 @@
+"""How sure the camera is over the imager, which views make it so, and where the board should be held next.
+
+Symbols: s the shared unknowns (lens, board's shape); S_k the information that view k has of them, its pose eliminated; C the lens' block of
+the covariance; J(p) the derivative of the projection at pixel p by the lens, R(p) by a turn of the camera, which means nothing::
+
+    C = sigma^2 [(sum S_k + prior)^-1]_lens        J'(p) = J(p) - R(p) R^+ J        U(p) = J'(p) C J'(p)'
+
+R^+ over the whole imager. The worst direction's sigma is the root of U's greater eigenvalue. Without view k: sum less S_k; with another
+view: plus S of a board put there. Source: projection uncertainty as in mrcal's documentation, here at infinity; Pukelsheim 1993 (design).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.chain.k_camera.bundle import Bundle, Unknowns, lens_jacobian, view_information
+from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
+from lpcal.chain.k_camera.shape import shape_terms
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.camera_difference import pixel_grid
+
+COLUMNS, ROWS = 12, 8
+"""Of the grid over the imager."""
+TRUSTED = 3.0
+"""A place is trusted where the worst direction's sigma is under so many times the median of what corners cover."""
+
+
+@dataclass(frozen=True)
+class Sureness:
+    """Worst direction's sigma (ROWS, COLUMNS) over the imager, in px, and what follows from it."""
+
+    pixels: Array
+    """(ROWS, COLUMNS, 2)."""
+    worst_px: Array
+    covered: Mask
+    """Inside the hull of all corners."""
+    trusted: Mask
+    gain: Array
+    """(N,) how much worse the mean over the covered part becomes without each view, as a ratio."""
+
+
+@dataclass(frozen=True)
+class Information:
+    """What the views know: S_k (N, S, S), the prior (S,), the lens' count, sigma, and the state that it was made at."""
+
+    views: Array
+    prior: Array
+    lens: int
+    sigma_px: float
+    bundle: Bundle
+    state: Unknowns
+
+    def covariance(self, total: Array) -> Array:
+        """Of the lens (P, P), from the sum of the views' information."""
+        total = total + np.diag(self.prior)
+        scale = 1 / np.sqrt(np.maximum(np.diag(total), 1e-300))
+        inverse = np.linalg.pinv(total * scale[:, None] * scale, hermitian=True) * scale[:, None] * scale
+        return np.asarray(self.sigma_px**2 * inverse[: self.lens, : self.lens])
+
+
+def information(problem: CornerProblem, fit: CameraFit) -> Information:
+    """Of each view, at the fit."""
+    terms = shape_terms(problem.board, fit.board)
+    bundle = Bundle(problem.corners_px, problem.board.points_B(), terms, free_lens=True, sigma_px=fit.sigma_px)
+    state = Unknowns(fit.camera.K, fit.camera.distortion, fit.H_CB, np.array([fit.shape[name][0] for name in terms.names]))
+    views, prior = view_information(bundle, state, fit.inlier)
+    return Information(views, prior, 4 + state.distortion.size, fit.sigma_px, bundle, state)
+
+
+def assess(known: Information, fit: CameraFit) -> Sureness:
+    """Sureness over the imager, and what each view is worth."""
+    pixels = pixel_grid(fit.camera.image_size, COLUMNS, ROWS)
+    slope = ray_slope(known, pixels, fit)
+    total = known.views.sum(axis=0)
+    worst = worst_direction(slope, known.covariance(total))
+    covered = _in_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
+    judged = covered if covered.any() else np.ones(len(pixels), dtype=bool)
+    usual = float(np.median(worst[judged]))
+    mean = mean_sigma(slope[judged], known.covariance(total))
+    without = [mean_sigma(slope[judged], known.covariance(total - one)) for one in known.views]
+    shape = (ROWS, COLUMNS)
+    return Sureness(
+        pixels=pixels.reshape(*shape, 2),
+        worst_px=worst.reshape(shape),
+        covered=covered.reshape(shape),
+        trusted=(worst < TRUSTED * usual).reshape(shape),
+        gain=np.array(without) / mean,
+    )
+
+
+def ray_slope(known: Information, pixels: Array, fit: CameraFit) -> Array:
+    """J' (N, 2, P): how pixels of fixed rays move with the lens, a turn of the camera taken out."""
+    rays_C = fit.camera.unproject(pixels)
+    J = lens_jacobian(rays_C, known.state.K, known.state.distortion)
+    turn = -fit.camera.projection_jacobian(rays_C) @ se3.hat(rays_C)
+    flat_turn, flat_J = turn.reshape(-1, 3), J.reshape(-1, J.shape[-1])
+    return np.asarray((flat_J - flat_turn @ np.linalg.lstsq(flat_turn, flat_J, rcond=None)[0]).reshape(J.shape))
+
+
+def worst_direction(slope: Array, covariance: Array) -> Array:
+    """The worst direction's sigma (N,) in px."""
+    return np.asarray(np.sqrt(np.maximum(np.linalg.eigvalsh(slope @ covariance @ np.swapaxes(slope, 1, 2))[:, -1], 0.0)))
+
+
+def mean_sigma(slope: Array, covariance: Array) -> float:
+    """Root of the mean variance over the pixels, both directions added."""
+    return float(np.sqrt(np.mean(np.trace(slope @ covariance @ np.swapaxes(slope, 1, 2), axis1=1, axis2=2))))
+
+
+def _in_hull(pixels: Array, corners_px: Array) -> Mask:
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        sides = ConvexHull(corners_px).equations
+    except (QhullError, ValueError):
+        return np.zeros(len(pixels), dtype=bool)
+    return np.asarray(np.all(pixels @ sides[:, :2].T + sides[:, 2] <= 0, axis=1))

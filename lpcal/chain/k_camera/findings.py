@@ -1,0 +1,138 @@
+"""What is worth knowing of a camera that was solved, in figures for camera.yaml and in words.
+
+How sure it is where, what the views cover, which of them matter, where to hold the board next, and what the residuals show that is not
+modelled. See `assess`, `next_view`, `patterns`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.k_camera import patterns
+from lpcal.chain.k_camera.assess import Sureness, assess, information
+from lpcal.chain.k_camera.next_view import WORTH_SAYING, advise
+from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
+from lpcal.geometry import se3
+from lpcal.records.observations import BoardView
+
+CELLS = (6, 4)
+"""Of the image, in which corners are counted."""
+MOST_NAMED = 5
+MUCH_BLUR, LEAST_BLUR_PX, MUCH_GLARE = 2.0, 1.5, 0.03
+"""A view is blurred over so many times the usual blur and so many px; it shines where more than this share of the board is white."""
+FLAT_TILT_DEG = 15.0
+"""Boards tilted less than this about an axis leave the focal length to chance."""
+
+
+def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tuple[dict[str, Any], list[str]]:
+    """Figures for camera.yaml, and warnings; `names` are those of the problem's views."""
+    left = {"board": patterns.on_board(fit), "image": patterns.on_image(fit)}
+    figures: dict[str, Any] = {
+        "coverage": _coverage(fit),
+        "residual_pattern": {where: {"size_px": one.size_px, "z": one.z} for where, one in left.items()},
+    }
+    warnings = _unmodelled(left, fit)
+    if fit.camera.spline is not None or fit.camera.covariance is None:
+        return figures | {"projection_uncertainty": None}, warnings
+    known = information(problem, fit)
+    sure = assess(known, fit)
+    figures["projection_uncertainty"] = _uncertainty(sure)
+    order = np.argsort(-sure.gain)[:MOST_NAMED]
+    figures["views_that_matter"] = [{"image": names[row], "without_it": float(sure.gain[row])} for row in order]
+    advice = advise(known, fit)
+    if advice is not None and advice.after_px < WORTH_SAYING * advice.before_px:
+        figures["next_view"] = {"hold_the_board": advice.words, "std_now_px": advice.before_px, "std_then_px": advice.after_px}
+    return figures, warnings
+
+
+def _uncertainty(sure: Sureness) -> dict[str, Any]:
+    inside = sure.worst_px[sure.covered] if sure.covered.any() else sure.worst_px
+    return {
+        "of": "one standard deviation in its worst direction, at infinity, a turn of the camera taken out",
+        "columns_px": sure.pixels[0, :, 0],
+        "rows_px": sure.pixels[:, 0, 1],
+        "worst_direction_std_px": np.round(sure.worst_px, 5),
+        "rms_px": float(np.sqrt(np.mean(sure.worst_px**2))),
+        "most_px": float(sure.worst_px.max()),
+        "most_where_corners_are_px": float(inside.max()),
+        "covered": sure.covered,
+        "trusted": sure.trusted,
+        "trusted_share": float(sure.trusted.mean()),
+    }
+
+
+def _coverage(fit: CameraFit) -> dict[str, Any]:
+    """Corners in each cell of the image, and the boards' tilts, rolls and distances."""
+    places = fit.camera.project(se3.apply(fit.H_CB, fit.points_B))[fit.inlier]
+    size = fit.camera.image_size
+    counts = np.histogram2d(places[:, 1], places[:, 0], bins=CELLS[::-1], range=[[0, size[1]], [0, size[0]]])[0].astype(int)
+    normal = fit.H_CB[:, :3, 2]
+    towards = normal * np.sign(normal[:, 2:])
+    about_x, about_y = np.degrees(np.arctan2(-towards[:, 1], towards[:, 2])), np.degrees(np.arctan2(towards[:, 0], towards[:, 2]))
+    roll = np.degrees(np.arctan2(fit.H_CB[:, 1, 0], fit.H_CB[:, 0, 0]))
+    middle = se3.apply(fit.H_CB, np.broadcast_to(fit.points_B.mean(axis=0), (len(fit.H_CB), 1, 3)))[:, 0]
+    distance = np.linalg.norm(middle, axis=-1)
+    return {
+        "corners_in_cells": counts,
+        "empty_cells": int((counts == 0).sum()),
+        "tilt_about_x_deg": [float(about_x.min()), float(about_x.max())],
+        "tilt_about_y_deg": [float(about_y.min()), float(about_y.max())],
+        "roll_deg": [float(roll.min()), float(roll.max())],
+        "distance_m": [float(distance.min()), float(distance.max())],
+        "in_words": _in_words(counts, about_x, about_y),
+    }
+
+
+def _in_words(counts: Any, about_x: Any, about_y: Any) -> str:
+    parts = []
+    empty = counts == 0
+    if empty.any():
+        rows = np.array_split(np.arange(counts.shape[0]), 2)
+        columns = np.array_split(np.arange(counts.shape[1]), 2)
+        quarters = {
+            f"{v} {h}": empty[np.ix_(r, c)].mean()
+            for v, r in zip(("top", "bottom"), rows, strict=True)
+            for h, c in zip(("left", "right"), columns, strict=True)
+        }
+        bare = max(quarters, key=lambda name: float(quarters[name]))
+        parts.append(f"no corner in {int(empty.sum())} of {empty.size} parts of the image, most of them at the {bare}")
+    else:
+        parts.append("corners in every part of the image")
+    for axis, angles in (("its horizontal axis", about_x), ("its vertical axis", about_y)):
+        if np.abs(angles).max() < FLAT_TILT_DEG:
+            parts.append(f"the board was never tilted by more than {np.abs(angles).max():.0f} degrees about {axis}")
+    return "; ".join(parts)
+
+
+def _unmodelled(left: dict[str, patterns.Pattern], fit: CameraFit) -> list[str]:
+    said = []
+    if left["board"].seen(fit.sigma_px):
+        allowed = "its bow, twist and cubic terms" if fit.board not in {"flat", "bowed"} else f"a {fit.board} board"
+        said.append(
+            f"the residuals keep a pattern of {left['board'].size_px:.3f} px on the board that {allowed} cannot explain: "
+            "it is bent in another way, or printed unevenly; a stiffer board (glass, aluminium) would help"
+        )
+    if left["image"].seen(fit.sigma_px):
+        said.append(
+            f"the residuals keep a pattern of {left['image'].size_px:.3f} px in the image that {fit.camera.model} cannot explain: "
+            "a richer lens (model: opencv8 or splined) may"
+        )
+    return said
+
+
+def blurred_or_glaring(views: Sequence[BoardView]) -> list[str]:
+    """A word on the views whose board is much more blurred than usual, or shines."""
+    found = [view for view in views if view.corners_px is not None and np.isfinite(view.blur_px)]
+    usual = float(np.median([view.blur_px for view in found])) if found else float("nan")
+    blurred = [view.image for view in found if view.blur_px > max(MUCH_BLUR * usual, LEAST_BLUR_PX)]
+    glaring = [view.image for view in found if view.glare > MUCH_GLARE]
+    said = [f"blurred more than the others (usually {usual:.1f} px): {_named(blurred)}"] if blurred else []
+    return said + ([f"the board shines, over {100 * MUCH_GLARE:.0f} % of it is at white: {_named(glaring)}"] if glaring else [])
+
+
+def _named(images: Sequence[str]) -> str:
+    more = f" and {len(images) - MOST_NAMED} more" if len(images) > MOST_NAMED else ""
+    return ", ".join(images[:MOST_NAMED]) + more
