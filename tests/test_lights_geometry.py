@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
 from lpcal.chain.refine_lights import as_designed, refine
+from lpcal.chain.refine_lights.clicks import fit_with_clicks
 from lpcal.chain.refine_lights.geometry_fit import fit_geometry
 from lpcal.chain.refine_lights.measure import measure_centre
 from lpcal.errors import DegenerateError
@@ -97,10 +98,12 @@ def test_led_sum_reaches_the_papers_half_power_angles() -> None:
 class Scene:
     """Chrome spheres under blobs of 19 scattered LEDs: outlines with a rim's bias, highlights at the centroid of the LEDs' images."""
 
-    def __init__(self, seed: int, spheres: int = 4) -> None:
+    def __init__(self, seed: int, spheres: int = 4, clicked: dict[int, int] | None = None) -> None:
         rng = np.random.default_rng(seed)
         H_CD_true = se3.exp(np.array([0.006, -0.006, 0.004, -0.001, 0.001, 0.0035]))
         settings = np.array([[w.azimuth_rad, w.joint_angle_rad, w.d1_m, w.d2_m] for w in DRAWN])
+        for row, clicks in (clicked or {}).items():
+            settings[row, 1] += clicks * np.radians(10)
         self.H_CL = H_CD_true @ wing_transform(settings + rng.normal(size=settings.shape) * SETTING_SIGMA)
         H_CD_drawn = se3.exp(rng.normal(size=6) * DISC_SIGMA) @ H_CD_true
         self.wings: Wings = design_lights(DRAWN, H_CD_drawn, np.diag(DISC_SIGMA**2), SETTING_SIGMA, "test")
@@ -197,3 +200,28 @@ def test_without_spheres_the_lights_are_as_designed() -> None:
     truth /= np.linalg.norm(truth, axis=1, keepdims=True)
     error = np.array([np.arccos(np.clip(light.direction_C @ d, -1, 1)) for light, d in zip(found.lights, truth, strict=True)])
     assert np.sqrt(np.mean(error**2)) < 2.5 * np.sqrt(2) * np.mean([light.direction_std_rad for light in found.lights])
+
+
+@pytest.mark.parametrize("spheres", [2, 4])
+def test_a_joint_one_click_off_is_named_and_none_falsely(spheres: int) -> None:
+    named = [w.name for w in DRAWN]
+    for seed in range(12):
+        row, step = seed % 6, 1 if seed % 2 else -1
+        scene = Scene(200 + seed, spheres, {row: step} if seed % 3 else None)
+        measured = [measure_centre(v, CAMERA) for v in scene.views]
+        _, wings, clicks = fit_with_clicks(named, scene.views, measured, CAMERA, scene.wings)
+        expected = [(f"L{row}", 30 + 10 * step)] if seed % 3 else []
+        assert [(c.name, round(float(np.degrees(c.found_rad)))) for c in clicks] == expected
+        assert [round(float(np.degrees(w.joint_angle_rad))) for w in wings.wings] == [
+            30 + (10 * step if expected and k == row else 0) for k in range(6)
+        ]
+
+
+def test_a_clicked_wing_does_not_pull_the_others() -> None:
+    errors = []
+    for seed in range(6):
+        scene = Scene(300 + seed, 3, {2: 1})
+        found = refine(scene.views, [w.name for w in DRAWN], CAMERA, scene.wings)
+        assert any("L2: joint at 40 deg, not 30" in warning for warning in found.warnings)
+        errors.append(np.array([light.source_C for light in found.lights]) - scene.source_C)
+    assert np.sqrt(np.mean(np.square(errors))) < 2.5e-3

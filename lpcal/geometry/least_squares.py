@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -98,6 +98,7 @@ class Model:
         return residual, jacobian
 
 
+@lru_cache(maxsize=64)
 def compile_residual(residual: Callable[..., Any], sizes: tuple[int, ...], data: int) -> Model:
     """Compile a residual and its exact derivative.
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lpcal.chain.refine_lights.clicks import Click, fit_with_clicks
 from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
@@ -51,9 +52,13 @@ def refine(
     used, refused = _measured(views, camera)
     fit, used, more = _fit_without_outliers(lights, used, camera, wings)
     refused |= more
+    clicks: list[Click] = []
+    if wings is not None and any(view.highlights_px for view, _ in used):
+        fit, wings, clicks = fit_with_clicks(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     focus_C = _focus(fit, wings)
     kept = [view for view, _ in used]
     found, warnings = _near_lights(fit, lights, wings, focus_C)
+    warnings = [*(click.message() for click in clicks), *warnings]
     samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
     if samples is None:
         return _solution(found, focus_C, fit, None, views, kept, refused, warnings, camera, wings)
