@@ -6,6 +6,8 @@ import numpy as np
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import clean, poses_at
 
+from handeye_scene import Noise, moving_session, stop_and_shoot
+
 FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
 
 
@@ -84,3 +86,20 @@ def test_many_short_flips_leave_the_rest_to_be_trusted():
         np.linalg.norm((found.H - _motion(asked))[found.trusted].reshape(-1, 16), axis=1).max() < 3e-4
     )  # a straight line over a gap of three samples
     assert found.trusted.mean() > 0.2
+
+
+def test_a_moving_body_is_never_taken_for_resting():
+    for seed in range(12):
+        session = moving_session(np.random.default_rng(seed), 30)
+        found = poses_at(
+            clean(session.stream.t_s, session.stream.H_OP, session.stream.error_m), session.boards.t_camera_s - session.offset_s
+        )
+        assert not found.steady.any()
+        assert np.all(np.any(found.velocity != 0, axis=1))
+
+
+def test_a_resting_body_rests_and_has_no_speed():
+    session, _ = stop_and_shoot(np.random.default_rng(0), 20, noise=Noise(drift=0.3))
+    found = poses_at(clean(session.stream.t_s, session.stream.H_OP, session.stream.error_m), session.boards.t_camera_s - session.offset_s)
+    assert found.steady.mean() > 0.9
+    assert np.mean(np.any(found.velocity != 0, axis=1)) < 0.1

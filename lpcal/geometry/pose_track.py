@@ -35,7 +35,9 @@ DWELL_S = 0.2
 DWELL_SAMPLES = 6
 """The least in each half of a dwell."""
 DRIFT_SIGMAS = 1.0
-"""The most that the means of a dwell's halves may differ, in standard deviations of one sample; motion alone gives 3.5."""
+"""The most that the means of a dwell's halves, or of its inner and outer quarters, may differ, in standard deviations of one sample.
+
+Even motion gives 3.5, a turning point 1.7."""
 VELOCITY_SAMPLES = 3
 """Sampling intervals to either side over which a velocity is taken."""
 MOVED_SIGMAS = 6.0
@@ -241,23 +243,27 @@ def _velocity(track: PoseTrack, t: Array) -> Array:
 def _dwells(track: PoseTrack, t: Array, run: npt.NDArray[np.intp]) -> tuple[Array, Mask]:
     """Mean poses (M, 4, 4) over the dwells around times (M,) in runs (M,), and (M,) whether the body stood still there.
 
-    It did where the means of the halves before and after the time differ by no more than one sample scatters.
+    It did where the means of the halves before and after the time differ by no more than one sample scatters, and so do those of the
+    inner and the outer quarters: a body that turns back has halves alike.
     """
     inside = run >= 0
     low, high = np.maximum(t - DWELL_S, track.starts_s[run]), np.minimum(t + DWELL_S, track.ends_s[run])
     half = np.minimum(t - low, high - t)
-    edges = np.searchsorted(track.t_s, np.stack([t - half, t, t + half]))
+    edges = np.searchsorted(track.t_s, t + np.array([-1.0, -0.5, 0.0, 0.5, 1.0])[:, None] * half)
     counts = np.diff(edges, axis=0)
-    enough = inside & (counts.min(axis=0) >= DWELL_SAMPLES)
-    sums, squares = track.running_sums
+    enough = inside & ((counts[:2].sum(axis=0) >= DWELL_SAMPLES) & (counts[2:].sum(axis=0) >= DWELL_SAMPLES)) & (counts.min(axis=0) > 0)
+    sums, squares = (np.diff(running[edges], axis=0) for running in track.running_sums)
     counts = np.maximum(counts, 1)[..., None]
-    means = np.diff(sums[edges], axis=0) / counts
-    variance = np.mean(np.maximum(np.diff(squares[edges], axis=0) / counts - means**2, 0), axis=0)
-    drift = (means[1] - means[0]) ** 2
+    quarter = sums / counts
+    in_half = counts.reshape(2, 2, -1, 1).sum(axis=1)
+    means = sums.reshape(2, 2, *sums.shape[1:]).sum(axis=1) / in_half
+    scatter = np.mean(np.maximum(squares.reshape(2, 2, *sums.shape[1:]).sum(axis=1) / in_half - means**2, 0), axis=0)
+    drift, turning = means[1] - means[0], (quarter[0] - quarter[1] - quarter[2] + quarter[3]) / 2
     steady = enough.copy()
     for part in (slice(0, 3), slice(3, 12)):
-        steady &= drift[:, part].sum(axis=1) <= DRIFT_SIGMAS**2 * variance[:, part].sum(axis=1)
-    mean = track.centre + (means * counts).sum(axis=0) / counts.sum(axis=0)
+        limit = DRIFT_SIGMAS**2 * scatter[:, part].sum(axis=1)
+        steady &= ((drift[:, part] ** 2).sum(axis=1) <= limit) & ((turning[:, part] ** 2).sum(axis=1) <= limit)
+    mean = track.centre + sums.sum(axis=0) / counts.sum(axis=0)
     return se3.transform(se3.nearest_rotation(mean[:, 3:].reshape(-1, 3, 3)), mean[:, :3]), steady
 
 

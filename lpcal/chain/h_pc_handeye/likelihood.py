@@ -133,8 +133,9 @@ def estimate(
     *,
     clock: bool,
     options: Options | None = None,
+    start_OP: Array | None = None,
 ) -> Estimate:
-    """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB).
+    """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB); `start_OP` (N, 4, 4) is that of the latent poses.
 
     Raises
     ------
@@ -147,8 +148,9 @@ def estimate(
         found = solve(blocks, [_board_term(views, sigmas)], options=options)
         return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",), sigmas)
     earlier = start if isinstance(start, Estimate) else None
-    same = earlier is not None and len(earlier.solution["H_OP"]) == views.count
-    blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same else views.H_OP)
+    if start_OP is None and earlier is not None and len(earlier.solution["H_OP"]) == views.count:
+        start_OP = earlier.solution["H_OP"]
+    blocks["H_OP"] = Block(views.H_OP if start_OP is None else start_OP)
     blocks["camera"] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
     terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas)], ["mocap", "corners"]
     if camera.free.any():
