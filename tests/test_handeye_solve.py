@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye.advice import _turned, advise
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.records.calibration import Camera
 
-from handeye_scene import K_TRUE, Noise, moving_session, static_session
+from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, static_session
 
 
 def _nees(H_true, H, covariance):
@@ -157,3 +158,53 @@ def test_refusals():
     late = replace(moving.boards, t_camera_s=moving.boards.t_camera_s + 3.15e7)
     with pytest.raises(DisagreementError, match="the clocks do not meet"):
         solve_moving(late, track_of(moving.stream), moving.camera, Options())
+
+
+def test_what_more_views_would_do_is_what_they_do():
+    told, done = [], []
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        session = static_session(rng, 30, 25.0)
+        few = about_one_axis_mostly(session)
+        found = _static(few)
+        advised = advise(few.H_OP, few.boards.H_CB, found.H_PC, found.H_OB, found.H_PC_covariance)
+        assert advised.turn_about in {"x", "y"}
+        turned = _turned(few.H_OP, few.boards.H_CB, found.H_PC, "xyz".index(advised.turn_about))
+        H_OP = np.concatenate([few.H_OP, turned])
+        after = _static(seen_from(session, H_OP))
+        told.append([advised.sigma_m, advised.sigma_m_after])
+        done.append([_worst_m(found), _worst_m(after)])
+    told, done = np.mean(told, axis=0), np.mean(done, axis=0)
+    assert told[0] == pytest.approx(done[0], rel=1e-6)
+    assert told[1] < 0.7 * told[0]
+    assert told[1] == pytest.approx(done[1], rel=0.4)
+
+
+def about_one_axis_mostly(session):
+    """The session with the panel turned by much about its z, by little about the rest."""
+    rng = np.random.default_rng(1)
+    turn = np.concatenate(
+        [rng.normal(0, np.radians(4), (30, 2)), np.linspace(-0.6, 0.6, 30)[:, None], rng.normal(0, 0.02, (30, 3))], axis=1
+    )
+    return seen_from(session, session.H_OP[:1] @ se3.exp(turn))
+
+
+def seen_from(session, H_OP):
+    """The session from other panel poses."""
+    rng = np.random.default_rng(2)
+    H_CB = se3.inv(H_OP @ session.H_PC) @ session.H_OB
+    points_B = session.boards.points_B
+    true = Camera((752, 480), "opencv5", K_TRUE, LENS_TRUE)
+    corners = np.array([true.project(se3.apply(H, points_B)) for H in H_CB]) + rng.normal(0, 0.15, (len(H_CB), len(points_B), 2))
+    boards = replace(session.boards, images=tuple(f"{k}" for k in range(len(H_CB))), H_CB=H_CB, corners_px=corners)
+    noise = np.concatenate([rng.normal(0, TYPICAL.mocap_rad, (len(H_OP), 3)), np.zeros((len(H_OP), 3))], axis=1)
+    measured = H_OP.copy()
+    measured[:, :3, :3] = se3.rotation(noise[:, :3]) @ H_OP[:, :3, :3]
+    measured[:, :3, 3] += rng.normal(0, TYPICAL.mocap_m, (len(H_OP), 3))
+    return replace(session, boards=boards, H_OP=measured)
+
+
+def _worst_m(found):
+    T = np.eye(6)
+    T[3:, :3] = -se3.hat(found.H_PC[:3, 3])
+    return float(np.sqrt(np.linalg.eigvalsh((T @ found.H_PC_covariance @ T.T)[3:, 3:])[-1]))

@@ -10,6 +10,7 @@ import numpy as np
 
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock, congruence, observability
+from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.errors import DegenerateError, DisagreementError, LpcalError
 from lpcal.geometry import park
 from lpcal.geometry.arrays import Array, Mask
@@ -170,5 +171,7 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
     size = congruence.board_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
     roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
+    advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
+    findings.say("expected", f"by a solve of these views, H_PC is known {advised.words()}")
     findings.warnings += [each for each in (size, roles) if each is not None]
-    findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off}
+    findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off, "expected_sigma_m": advised.sigma_m}

@@ -33,6 +33,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         f"H_CP        its inverse: coordinates of {body} to the camera's:",
         *paste_lines(se3.inv(handeye.H_PC), CAMERA, body),
         f"sigma       {numbers(np.degrees(sigma[:3]), 3)} deg, {numbers(1e3 * sigma[3:], 2)} mm, an axis",
+        f"            {handeye.evidence['weakest']}",
         f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m; all forms of it and of H_BO: handeye.yaml, transforms",
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import congruence, observability, variance
+from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
 from lpcal.chain.h_pc_handeye.state import State
@@ -51,7 +52,8 @@ def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], know
         )
     size = congruence.board_size_warning(views.H_OP, views.H_CB, found.H_PC[:3, :3])
     roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
-    warnings += [each for each in (size, roles) if each is not None]
+    advised = advise(views.H_OP, views.H_CB, found.H_PC, found.H_OB, covariance[:6, :6])
+    warnings += [each for each in (size, roles, advised.warning()) if each is not None]
     clocked = state.clock and t_camera_s is not None
     offset = state.offset_s if clocked else known_offset_s
     handeye = HandEye(
@@ -63,7 +65,7 @@ def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], know
         clock_offset_std_s=float(np.sqrt(covariance[12, 12])) if clocked else (0.0 if offset is not None else None),
         views=_verdicts(state, found),
         warnings=(*warnings, *more),
-        evidence=_evidence(state, found, spread, factor),
+        evidence=_evidence(state, found, spread, factor) | {"weakest": advised.words()},
     )
     return HandEyeFinding(handeye, state.panel, state.offset_s)
 
