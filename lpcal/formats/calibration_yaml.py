@@ -7,9 +7,11 @@ see `records.calibration.FlatField`), and for a splined camera ``camera.lensmode
 - ``{kind: cosine, exponent: m}``: cos(angle)^m
 - ``{kind: leds, exponent: m, position_m: [[..]], axis: [[..]], power: [..], angle_deg: [..], value: [..]}``: the sum of
   LEDs in the frame L, each power cos(angle)^m / r^2; the table is its mean over the roll
-- ``{kind: table, angle_deg: [...], value: [...]}``: monotone cubic through the table, 1 on the axis, 0 beyond its last angle
+- ``{kind: table, angle_deg: [...], value: [...], node_deg: [...], factor: [[...]]}``: monotone cubic through the table, 1 on the axis, 0
+  beyond its last angle
 
-with the angle between the light's axis and the ray from its source.
+with the angle t between the light's axis and the ray from its source. `factor`, if there, multiplies it: bilinear between nodes at
+(t sin f, t cos f), f the angle about the axis from the x of the light's frame.
 """
 
 from __future__ import annotations
@@ -89,7 +91,9 @@ def lobe_document(lobe: Lobe) -> dict[str, Any]:
     if lobe.kind == "cosine":
         return {"kind": "cosine", "exponent": lobe.exponent}
     if lobe.kind == "table":
-        return {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
+        table = {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
+        factor = {"node_deg": np.degrees(lobe.node_rad).round(4), "factor": lobe.factor.round(5)} if lobe.node_rad.size else {}
+        return table | factor
     if lobe.leds is not None:
         leds = {"exponent": lobe.leds.exponent, "position_m": lobe.leds.position_L.round(7), "axis": lobe.leds.axis_L.round(7)}
         table = {"angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
@@ -101,6 +105,9 @@ def lobe_from_document(entry: dict[str, Any]) -> Lobe:
     """A lobe as it was written."""
     if entry["kind"] in {"table", "leds"}:
         lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"))
+        if entry.get("node_deg"):
+            nodes = np.radians(_numbers(entry, "node_deg"))
+            return replace(lobe, node_rad=nodes, factor=_numbers(entry, "factor", nodes.size, nodes.size))
         if entry["kind"] == "table":
             return lobe
         power = _numbers(entry, "power")

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry import camera as central
-from lpcal.geometry import led_cluster, light_field, se3, splined
+from lpcal.geometry import led_cluster, light_field, lobe_map, se3, splined
 from lpcal.geometry.arrays import Array, Image, Mask
 
 
@@ -192,7 +192,8 @@ class Lobe:
     """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
 
     kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. ``table``: cubic through (angle_rad, value), 0 beyond the last.
-    ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the roll.
+    ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the roll. A table may carry a smooth factor over the
+    directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in the light's frame.
     """
 
     kind: str = "isotropic"
@@ -200,6 +201,8 @@ class Lobe:
     angle_rad: Array = field(default_factory=lambda: np.zeros(0))
     value: Array = field(default_factory=lambda: np.zeros(0))
     leds: LedCluster | None = None
+    node_rad: Array = field(default_factory=lambda: np.zeros(0))
+    factor: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     def __call__(self, angle_rad: Array) -> Array:
         """Relative intensity (...) at angles (...) from the axis."""
@@ -241,7 +244,11 @@ class Light:
             d_L, irradiance = led_cluster.cluster_field(se3.apply(H_LC, x_C), leds.position_L, leds.axis_L, leds.power, leds.exponent)
             return se3.rotate(self.H_CL, d_L), irradiance[..., None] * self.intensity
         d, r, angle = light_field.near_light(x_C, self.source_C, self.axis_C)
-        return d, (self.lobe(angle) / r**2)[..., None] * self.intensity
+        emission = self.lobe(angle)
+        if self.lobe.node_rad.size and self.H_CL is not None:
+            ray_L = se3.rotate(se3.inv(self.H_CL), -d)
+            emission = emission * lobe_map.evaluate(angle, np.arctan2(ray_L[..., 1], ray_L[..., 0]), self.lobe.node_rad, self.lobe.factor)
+        return d, (emission / r**2)[..., None] * self.intensity
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,20 @@ Symbols: light k, sphere s, block b of pixels, shading averaged over the block's
     log mean(data) = log I_k + log rho_s + delta_b + log lobe(theta) + log mean(max(n . d, 0) / r^2)
 
 ``delta_b`` (sd 2 %) takes the sphere's texture away, as every light sees the same block. The lobe is a known shape (the sum of the
-blob's LEDs, else a cosine power) times the exponential of a smooth function of the angle, a Gaussian process that is 0 on the axis.
+blob's LEDs, else a cosine power) times the exponential of a smooth function of the angle, a Gaussian process that is 0 on the axis, times
+one of the direction, a light its own, for what is not round.
 Sources: Lambert's law with raw ambient light subtracted; Gaussian-process regression (Rasmussen, Williams 2006).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lpcal.chain.refine_lights.samples import Samples
-from lpcal.geometry import led_cluster
+from lpcal.geometry import led_cluster, lobe_map
 from lpcal.geometry.arrays import Array, Index
 from lpcal.records.calibration import Lobe
 
@@ -25,6 +26,7 @@ TEXTURE_SD, MODEL_SD = 0.02, 0.003
 KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
 LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
 UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
+MAP_SD, MAP_LENGTH_RAD, MAP_SPACING_RAD = 0.03, float(np.radians(5)), float(np.radians(2.5))
 ROBUST = 3.0
 ROUNDS = 8
 
@@ -72,7 +74,7 @@ def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names:
     return ShadingFit(
         intensity=intensity,
         intensity_std=std,
-        lobes=tuple(lobes[m] for m in layout.mode_of_light),
+        lobes=tuple(layout.with_map(lobes[m], k, found) for k, m in enumerate(layout.mode_of_light)),
         residual={names[s]: float(np.sqrt(np.mean(residual[samples.sphere == s] ** 2))) for s in layout.spheres},
         log_lobe=layout.known + layout.design[:, rows] @ found[rows] + residual,
         log_intensity=found[:count],
@@ -105,13 +107,31 @@ class _Layout:
                 *(log_cosine * own[self.modes.index(mode)] for mode in self.unknown),
             ]
         )
+        self.node_rad = lobe_map.nodes(float(samples.angle_rad.max()) + MAP_SPACING_RAD, MAP_SPACING_RAD)
+        self.map_start, self.map_size = self.design.shape[1], len(self.node_rad) ** 2
+        self.design = np.hstack([self.design, self._map_columns(count)])
         self.prior = np.zeros((self.design.shape[1],) * 2)
+        map_precision = np.linalg.inv(lobe_map.smooth_covariance(self.node_rad, MAP_SD, MAP_LENGTH_RAD))
+        for k in range(count):
+            rows = slice(self.map_start + k * self.map_size, self.map_start + (k + 1) * self.map_size)
+            self.prior[rows, rows] += map_precision
         self.prior[:count, :count] += np.eye(count) / intensity_sd**2
         for m, mode in enumerate(self.modes):
             sd = LOBE_SD if mode in led_cluster.RINGS else UNKNOWN_LOBE_SD
             self.prior[self._lobe_rows(m), self._lobe_rows(m)] += np.linalg.inv(_smooth_covariance(sd))
-        for row in range(self.design.shape[1] - len(self.unknown), self.design.shape[1]):
+        for row in range(self.map_start - len(self.unknown), self.map_start):
             self.prior[row, row] += 1 / EXPONENT_SD**2
+
+    def _map_columns(self, count: int) -> Array:
+        index, weight = lobe_map.corners(self.samples.angle_rad, self.samples.around_rad, self.node_rad)
+        columns = np.zeros((len(index), count * self.map_size))
+        np.add.at(columns, (np.arange(len(index))[:, None], self.samples.light[:, None] * self.map_size + index), weight)
+        return columns
+
+    def with_map(self, lobe: Lobe, k: int, found: Array) -> Lobe:
+        """The lobe with the factor over the directions of a light."""
+        own = found[self.map_start + k * self.map_size : self.map_start + (k + 1) * self.map_size]
+        return replace(lobe, node_rad=self.node_rad, factor=np.exp(own).reshape(len(self.node_rad), -1))
 
     def _lobe_rows(self, m: int) -> slice:
         width = len(KNOTS_RAD) - 1
@@ -125,7 +145,7 @@ class _Layout:
         if mode in led_cluster.RINGS:
             base = led_cluster.mean_lobe(KNOTS_RAD, mode)
         else:
-            exponent = found[len(found) - len(self.unknown) + self.unknown.index(mode)]
+            exponent = found[self.map_start - len(self.unknown) + self.unknown.index(mode)]
             base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(float(exponent), 0.0)
         return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))
 
@@ -167,20 +187,20 @@ def _smooth_covariance(sd: float) -> Array:
 
 def _solve_with_blocks(design: Array, target: Array, sigma: Array, block: Index, prior: Array) -> tuple[Array, Array, Array]:
     """Robust least squares with one more unknown a block (sd TEXTURE_SD), eliminated: estimate, covariance, residual."""
+    from scipy.sparse import csr_array
+
+    D = csr_array(design)
+    members = csr_array((np.ones(block.size), (block, np.arange(block.size))))
     weight = 1 / sigma**2
-    count = int(block.max()) + 1
-    found, residual = np.zeros(design.shape[1]), target
-    N = prior
+    found, residual, N = np.zeros(design.shape[1]), target, prior
     for _ in range(ROUNDS):
-        own = np.bincount(block, weights=weight, minlength=count) + 1 / TEXTURE_SD**2
-        mixed = np.zeros((count, design.shape[1]))
-        np.add.at(mixed, block, design * weight[:, None])
-        N = design.T @ (design * weight[:, None]) - mixed.T @ (mixed / own[:, None]) + prior
-        y = design.T @ (weight * target) - mixed.T @ (np.bincount(block, weights=weight * target, minlength=count) / own)
-        found = np.linalg.solve(N, y)
-        left = target - design @ found
-        delta = np.bincount(block, weights=weight * left, minlength=count) / own
-        residual = left - delta[block]
+        WD = D.multiply(weight[:, None]).tocsr()
+        own = members @ weight + 1 / TEXTURE_SD**2
+        mixed = members @ WD
+        N = (D.T @ WD - mixed.T @ mixed.multiply(1 / own[:, None]).tocsr()).toarray() + prior
+        found = np.linalg.solve(N, WD.T @ target - mixed.T @ ((members @ (weight * target)) / own))
+        left = target - D @ found
+        residual = left - ((members @ (weight * left)) / own)[block]
         scale = np.maximum(1.4826 * np.median(np.abs(residual / sigma)), 1.0)
         weight = 1 / (sigma * scale) ** 2 / (1 + (residual / (ROBUST * sigma * scale)) ** 2)
     return found, np.linalg.inv(N), residual

@@ -1,0 +1,93 @@
+"""``lpcal design``: wing settings for a working distance."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from lpcal.errors import DegenerateError, UsageError
+from lpcal.records.outcome import Outcome, Progress
+
+if TYPE_CHECKING:
+    from lpcal.geometry.wing_design import WingSetting
+
+SPACERS = "0mm,5mm,10mm,15mm,20mm,25mm,30mm,35mm,40mm,50mm,60mm,80mm,100mm"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument(
+        "--distance", required=True, metavar="350mm", help="working distance, from the plane of the joints along the disc axis"
+    )
+    parser.add_argument("--disc-radius", default="60mm", metavar="L", help="disc axis to rim (default 60mm)")
+    parser.add_argument("--joint", default="15mm", metavar="L", help="half a joint (default 15mm)")
+    parser.add_argument("--blob", default="30mm", metavar="L", help="end of the spacer to the middle of the blob (default 30mm)")
+    parser.add_argument("--spacers", default=SPACERS, metavar="L,L,...", help="lengths that a spacer can have (default 0 to 100 mm)")
+    parser.add_argument("--leds", type=int, default=19, choices=(1, 7, 19), help="LEDs lit in a blob (default 19)")
+    parser.add_argument("--object", default="100mm", metavar="L", help="side of the object (default 100mm)")
+    parser.add_argument("--slack", default="10mm", metavar="L", help="how far from the distance the axes may meet (default 10mm)")
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
+    """List the settings, one a click."""
+    import numpy as np
+
+    from lpcal.geometry.wing_design import settings_for
+    from lpcal.records.quantities import parse
+    from lpcal.records.rig import Tolerance
+
+    def length(text: str, name: str) -> float:
+        try:
+            return parse(text, "length")
+        except ValueError as error:
+            raise UsageError(str(error), where=f"--{name}", needed="a length with its unit") from error
+
+    distance_m = length(options.distance, "distance")
+    if distance_m <= 0:
+        raise UsageError(f"--distance {options.distance}", needed="a length over zero")
+    sigma = Tolerance()
+    found = settings_for(
+        distance_m,
+        (length(options.disc_radius, "disc-radius"), length(options.joint, "joint"), length(options.blob, "blob")),
+        sorted({length(text, "spacers") for text in options.spacers.split(",")}),
+        np.array([sigma.azimuth, sigma.joint_angle, sigma.length, sigma.length]),
+        leds=options.leds,
+        object_m=length(options.object, "object"),
+        slack_m=length(options.slack, "slack"),
+    )
+    if not found:
+        raise DegenerateError(
+            f"no click of the joints meets the axis within {options.slack} of {options.distance}",
+            needed="spacers that reach it",
+            todo="allow more with --slack, or longer --spacers",
+        )
+    columns = (("g", 5), ("spacers disc, blob", 20), ("meets at", 10), ("light angle", 12), ("away", 8), ("lux", 7), ("evenness", 9))
+    head = " ".join(f"{name:>{width}}" for name, width in (*columns, ("turns by", 9), ("sigma", 8)))
+    return Outcome(
+        [
+            f"{options.leds} LEDs a blob, working distance {1e3 * distance_m:.0f} mm, object {options.object}:",
+            head,
+            *(_line(setting) for setting in found),
+            "light angle: from the disc axis, seen from the object; 20 to 30 deg give the least error of the normals",
+        ],
+        {"settings": [vars(setting) for setting in found]},
+        next_command="lpcal new my_rig, and write the spacers and joint_angle into panel.yaml",
+    )
+
+
+def _line(s: WingSetting) -> str:
+    from math import degrees
+
+    spacers = f"{1e3 * s.disc_spacer_m:.0f}, {1e3 * s.blob_spacer_m:.0f} mm"
+    cells = (
+        f"{degrees(s.joint_angle_rad):5.0f}",
+        f"{spacers:>20}",
+        f"{1e3 * s.d_object_m:7.0f} mm",
+        f"{degrees(s.light_angle_rad):8.1f} deg",
+        f"{1e3 * s.light_distance_m:5.0f} mm",
+        f"{s.lux:7.0f}",
+        f"{100 * s.evenness:7.0f} %",
+        f"{degrees(s.turn_rad):5.1f} deg",
+        f"{degrees(s.direction_std_rad):4.2f} deg",
+    )
+    return " ".join(cells)

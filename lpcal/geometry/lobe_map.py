@@ -1,0 +1,45 @@
+"""A smooth factor over the directions that a light emits into, on a square grid, for lobes that are not round.
+
+Symbols: direction at angle t from the axis and f about it has plane coordinates ``(t cos f, t sin f)`` (azimuthal equidistant); the factor
+is bilinear between the grid's nodes and stays what it is at the edge beyond them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Index
+
+
+def nodes(reach_rad: float, spacing_rad: float) -> Array:
+    """Coordinates (n,) of the grid's nodes along either axis, from -reach to reach at least, symmetric."""
+    count = int(np.ceil(reach_rad / spacing_rad))
+    return np.asarray(spacing_rad * np.arange(-count, count + 1), dtype=float)
+
+
+def corners(angle_rad: Array, around_rad: Array, node_rad: Array) -> tuple[Index, Array]:
+    """The four nodes (..., 4), numbered by rows, about each direction, and their bilinear weights (..., 4)."""
+    step, last = node_rad[1] - node_rad[0], len(node_rad) - 1
+    places, shares = [], []
+    for coordinate in (angle_rad * np.sin(around_rad), angle_rad * np.cos(around_rad)):
+        at = np.clip((coordinate - node_rad[0]) / step, 0, last)
+        low = np.minimum(at.astype(np.intp), last - 1)
+        places.append(low)
+        shares.append(at - low)
+    (row, column), (v, u) = places, shares
+    first = row * (last + 1) + column
+    index = np.stack([first, first + 1, first + last + 1, first + last + 2], axis=-1)
+    weight = np.stack([(1 - v) * (1 - u), (1 - v) * u, v * (1 - u), v * u], axis=-1)
+    return index, weight
+
+
+def evaluate(angle_rad: Array, around_rad: Array, node_rad: Array, value: Array) -> Array:
+    """Factor (...) of directions, from values (n, n) at the nodes, rows along sin."""
+    index, weight = corners(angle_rad, around_rad, node_rad)
+    return np.asarray(np.sum(np.ravel(value)[index] * weight, axis=-1))
+
+
+def smooth_covariance(node_rad: Array, sd: float, length_rad: float) -> Array:
+    """Covariance (n*n, n*n) of a Gaussian process over the nodes: standard deviation sd, correlation exp(-distance^2 / 2 length^2)."""
+    one = np.exp(-0.5 * ((node_rad[:, None] - node_rad) / length_rad) ** 2)
+    return sd**2 * np.kron(one, one) + (1e-3 * sd) ** 2 * np.eye(len(node_rad) ** 2)
