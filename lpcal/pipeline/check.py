@@ -80,6 +80,8 @@ def _panel(workspace: Workspace, given: HandEyeInputs, findings: _Findings) -> t
     if given.stream is None:
         assert given.H_OP is not None
         findings.say("poses", f"{len(given.H_OP)}, one a view, no clock")
+        for note in given.notes:
+            findings.say("", note)
         return given.H_OP, np.ones(len(given.H_OP), dtype=bool)
     track = track_of(given.stream)
     _stream(given.stream, track, findings)

@@ -66,7 +66,6 @@ def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
 
 def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> ImagePanelPoses:
     """The body's pose at every image, those without a board too."""
-    body = given.stream.body if given.stream is not None else ""
     if given.stream is not None and given.t_camera_s is not None:
         offset = finding.offset_s
         panel = poses_at(track_of(given.stream), given.t_camera_s - offset)
@@ -81,7 +80,7 @@ def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> Image
         steady = np.zeros(len(given.images), dtype=bool)
     refused = {view.image: view.why for view in finding.handeye.views if not view.used}
     verdict = tuple(each if each is not None else refused.get(image) for image, each in zip(given.images, why, strict=True))
-    return ImagePanelPoses(body, given.images, given.t_camera_s, H_OP, verdict, steady, finding.handeye.clock_offset_s)
+    return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, finding.handeye.clock_offset_s)
 
 
 STAGE = Stage(

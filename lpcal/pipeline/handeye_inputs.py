@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.chain.h_op_body import body_of
+from lpcal.chain.h_op_dwells import match_rests, rests_of
+from lpcal.chain.h_op_panel import track_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
@@ -41,7 +43,11 @@ class HandEyeInputs:
     t_camera_s: Array | None
     """Times of all images."""
     without_pose: dict[str, str]
-    """Images with a board that `mocap.poses` does not name."""
+    """Images with a board that `mocap.poses` does not name, or that match no rest of the recording, and why."""
+    body: str = ""
+    """The tracked body's name."""
+    notes: tuple[str, ...] = ()
+    """What was repaired or matched in the recording, in words."""
 
 
 def section_of(workspace: Workspace) -> MocapSection:
@@ -56,7 +62,8 @@ def section_of(workspace: Workspace) -> MocapSection:
     where = workspace.rig_file.where("mocap")
     if section.poses is None and section.file is None:
         raise InputError("neither file nor poses", where=where, needed="mocap.file: a recording, or mocap.poses", todo="name one")
-    if section.poses is None and not section.images and section.board_poses is None:
+    camera = workspace.rig_file.rig.camera
+    if section.poses is None and not section.images and section.board_poses is None and not (camera and camera.images):
         raise InputError("no images", where=where, needed="mocap.images: csv files of file,time_s; or mocap.board_poses", todo="name them")
     return section
 
@@ -107,12 +114,15 @@ def gather(workspace: Workspace, progress: Progress) -> HandEyeInputs:
     known, camera = read_h_cb(workspace.calib("H_CB.yaml")), read_camera(workspace.calib("camera.yaml"))
     if section.poses is not None:
         return _from_poses(workspace, section, known, camera)
+    if not any(name.lower().endswith(".csv") for name in section.images):
+        return _from_rests(workspace, section, known, camera)
     listed = _timed_images(workspace, section)
     stream = recording(workspace, section)
     boards, without = _chosen(known, list(listed))
     boards = replace(boards, t_camera_s=np.array([listed[image] for image in boards.images]))
     times = np.array(list(listed.values()))
-    return HandEyeInputs(boards, camera, _share(workspace, boards), stream, None, without, tuple(listed), times, {})
+    share = _share(workspace, boards)
+    return HandEyeInputs(boards, camera, share, stream, None, without, tuple(listed), times, {}, stream.body, stream.notes)
 
 
 def recording(workspace: Workspace, section: MocapSection) -> PoseStream:
@@ -179,6 +189,26 @@ def _from_poses(workspace: Workspace, section: MocapSection, known: BoardPoses, 
     return HandEyeInputs(boards, camera, _share(workspace, boards), None, H_OP, without, tuple(images), None, unposed)
 
 
+def _from_rests(workspace: Workspace, section: MocapSection, known: BoardPoses, camera: Camera) -> HandEyeInputs:
+    """A recording and images without times: the body's rests matched to the images in order."""
+    from lpcal.pipeline.intrinsics import camera_images, mocap_images
+
+    stream = recording(workspace, section)
+    images = [workspace.relative(image) for image in (mocap_images(workspace) or camera_images(workspace))]
+    boards, without = _chosen(known, images)
+    rests = rests_of(track_of(stream))
+    match = match_rests(rests, boards.H_CB)
+    rows = np.flatnonzero(match >= 0)
+    unposed = {boards.images[k]: "matches no rest of the body in the recording" for k in np.flatnonzero(match < 0)}
+    notes = (
+        *stream.notes,
+        f"no images' times: {len(rows)} of {len(match)} views matched to the body's rests, in order, of {len(rests.t_s)}; the angles agree",
+    )
+    H_OP = rests.H_OP[match[rows]]
+    boards = boards.of(rows)
+    return HandEyeInputs(boards, camera, _share(workspace, boards), None, H_OP, without, tuple(images), None, unposed, stream.body, notes)
+
+
 def _paired(poses: ImagePoses, images: list[str], path: Path) -> dict[str, Array]:
     """Pose by image: by name where the file has names (whole, or the last part), else by order, which needs as many."""
     if poses.files is None:
@@ -205,4 +235,5 @@ def _from_board_poses(workspace: Workspace, section: MocapSection) -> HandEyeInp
     found = BoardPoses(names, rows.t_s, rows.H)
     if section.file is None:
         raise InputError("no file", where=workspace.rig_file.where("mocap"), needed="mocap.file: a recording", todo="name it")
-    return HandEyeInputs(found, None, 0.0, recording(workspace, section), None, {}, names, rows.t_s, {})
+    stream = recording(workspace, section)
+    return HandEyeInputs(found, None, 0.0, stream, None, {}, names, rows.t_s, {}, stream.body, stream.notes)

@@ -19,7 +19,7 @@ EASY_HANDEYE = "handeye.easy_handeye.yaml"
 
 def body_name(given: HandEyeInputs) -> str:
     """The tracked body's name, ``panel`` where nothing names it."""
-    return (given.stream.body if given.stream is not None else "") or "panel"
+    return given.body or "panel"
 
 
 def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
@@ -40,7 +40,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         *_held_out(handeye),
         *_left_out(handeye),
         *_noise(handeye),
-        *([f"mocap file  {'; '.join(given.stream.notes)}"] if given.stream is not None and given.stream.notes else []),
+        *([f"mocap file  {'; '.join(given.notes)}"] if given.notes else []),
         f"written     calib/handeye.yaml, calib/H_OP.yaml, calib/{EASY_HANDEYE}",
     ]
     return Outcome(
