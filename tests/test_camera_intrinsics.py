@@ -193,13 +193,14 @@ def test_rig_a(data: Callable[[str], Path], lpcal: Run, tmp_path: Path) -> None:
     found = read_camera(rig / "calib" / "camera.yaml")
     pixels = pixel_grid(found.image_size)
     error, _ = projection_difference(pixels, central.unproject(pixels, np.array(truth["K"]), np.array(truth["distortion"])), found.project)
-    assert np.sqrt(np.mean(np.sum(error**2, axis=1))) < 0.05
+    assert np.sqrt(np.mean(np.sum(error**2, axis=1))) < 0.01
+    assert np.linalg.norm(error, axis=1).max() < 0.02
     assert len(read_h_cb(rig / "calib" / "H_CB.yaml").images) == 160
 
 
 @pytest.mark.slow
 def test_bouguet_example_1(data: Callable[[str], Path], lpcal: Run, tmp_path: Path) -> None:
-    """Published: a flat board, k3 = 0; its errors are three sigmas."""
+    """Published: a flat board, k3 = 0; its errors are three sigmas. Its corners are saddles, which lie 0.2 px from the edges' crossings."""
     folder = data("intrinsics/bouguet_ex1")
     images = ", ".join(str(folder / f"Image{k}.tif") for k in range(1, 21))
     board = "board: {corners: [13, 12], square: 30 mm, warp: none}"
@@ -207,4 +208,138 @@ def test_bouguet_example_1(data: Callable[[str], Path], lpcal: Run, tmp_path: Pa
     assert lpcal("intrinsics", "--rig", tmp_path)[0] == 0
     K_found = read_camera(tmp_path / "calib" / "camera.yaml").K
     published, sigma = np.array([657.644, 658.041, 303.192, 242.556]), np.array([0.40, 0.43, 0.82, 0.75]) / 3
-    assert np.all(np.abs(K_found[[0, 1, 0, 1], [0, 1, 2, 2]] - published) < 1.5 * sigma)
+    assert np.all(np.abs(K_found[[0, 1, 0, 1], [0, 1, 2, 2]] - published) < 2.5 * sigma)
+
+
+def solved(lpcal: Run, rig: Path) -> None:
+    code, _, err = lpcal("intrinsics", "--rig", rig)
+    assert code == 0, err
+
+
+def test_how_sure_it_is_stands_in_camera_yaml(lpcal: Run, rig: Path) -> None:
+    code, out, err = lpcal("intrinsics", "--rig", rig)
+    assert code == 0, err
+    assert "sure to" in out
+    assert "next view" in out
+    document = yaml.safe_load((rig / "calib" / "camera.yaml").read_text())
+    sure = document["evidence"]["projection_uncertainty"]
+    worst = np.array(sure["worst_direction_std_px"], dtype=float)
+    assert worst.shape == (len(sure["rows_px"]), len(sure["columns_px"]))
+    assert np.isfinite(worst).all()
+    assert np.array(sure["trusted"]).shape == worst.shape
+    view = document["evidence"]["next_view"]
+    assert view["std_then_px"] < view["std_now_px"]
+    assert {"image", "without_it"} == document["evidence"]["views_that_matter"][0].keys()
+    assert 0.4 < document["views"][0]["blur_px"] < 1.2
+    assert document["views"][0]["glare"] == 0
+
+
+def test_two_calibrations_are_compared(lpcal: Run, rig: Path) -> None:
+    solved(lpcal, rig)
+    other = rig / "other.yaml"
+    camera = read_camera(rig / "calib" / "camera.yaml")
+    focal, coefficients = 1.01 * camera.K[0, 0], ", ".join(str(float(one)) for one in camera.distortion[:4])
+    other.write_text(
+        f"cam0:\n  camera_model: pinhole\n  distortion_model: radtan\n  distortion_coeffs: [{coefficients}]\n"
+        f"  intrinsics: [{focal}, {1.01 * camera.K[1, 1]}, {camera.K[0, 2]}, {camera.K[1, 2]}]\n  resolution: [640, 480]\n"
+    )
+    code, out, err = lpcal("intrinsics", "--rig", rig, "--compare", rig / "calib" / "camera.cameramodel")
+    assert code == 0, err
+    assert "0.0000 px rms" in out
+    code, out, err = lpcal("intrinsics", "--json", "--rig", rig, "--compare", other)
+    assert code == 0, err
+    found = json.loads(out)
+    assert 1 < found["imager"]["rms_px"] < found["imager"]["worst_px"] < 6
+    assert found["imager"]["rms_px"] <= found["imager"]["rms_without_turn_px"] + 1e-9
+    assert found["where_corners_are"]["rms_px"] < found["imager"]["rms_px"]
+    assert found["expected_px"] < 0.5
+
+
+def test_what_cannot_be_compared(lpcal: Run, rig: Path) -> None:
+    assert lpcal("intrinsics", "--rig", rig, "--compare", rig / "panel.yaml")[0] == 3
+    solved(lpcal, rig)
+    code, _, err = lpcal("intrinsics", "--rig", rig, "--compare", rig / "none.yaml")
+    assert (code, "no such camera file" in err) == (3, True)
+    (rig / "big.cameramodel").write_text("{'lensmodel': 'LENSMODEL_PINHOLE', 'intrinsics': [9, 9, 5, 3], 'imagersize': [1024, 768]}")
+    code, _, err = lpcal("intrinsics", "--rig", rig, "--compare", rig / "big.cameramodel")
+    assert (code, "1024x768" in err) == (6, True)
+    assert lpcal("intrinsics", "one.png", "--rig", rig, "--compare", rig / "big.cameramodel")[0] == 2
+
+
+def test_corners_are_kept_as_mrcal_keeps_them(lpcal: Run, rig: Path) -> None:
+    cache = rig / "corners.vnl"
+    code, _, err = lpcal("intrinsics", "--rig", rig, "--corners-cache", cache)
+    assert code == 0, err
+    assert cache.read_text().startswith("# filename x y level\nboards/view_0.png ")
+    first = read_camera(rig / "calib" / "camera.yaml")
+    text = cache.read_text().replace("boards/view_3.png", "elsewhere/view_3.png")
+    cache.write_text("\n".join(line for line in text.splitlines() if "view_5" not in line) + "\nboards/view_5.png - - -\n")
+    code, out, err = lpcal("intrinsics", "--rig", rig, "--corners-cache", cache)
+    assert code == 0, err
+    assert "found in 9 of 10" in out
+    again = read_camera(rig / "calib" / "camera.yaml")
+    assert first.covariance is not None
+    assert abs(again.K[0, 0] - first.K[0, 0]) < 4 * np.sqrt(first.covariance[0, 0])
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "word"),
+    [
+        ("boards/view_0.png 1 2 0\n", 3, "no line that names the columns"),
+        ("# filename x y level\nboards/view_0.png 1\n", 3, "corners.vnl:2"),
+        ("# filename x y level\nboards/view_0.png 1 2 0\nboards/view_0.png 3 4 0\n", 6, "2 corners"),
+        ("# filename x y level\nother.png - - -\n", 6, "none of the 10 images"),
+    ],
+)
+def test_corners_that_are_none(lpcal: Run, rig: Path, text: str, code: int, word: str) -> None:
+    (rig / "corners.vnl").write_text(text)
+    refused(lpcal, rig, code, word, options=("--corners-cache", rig / "corners.vnl"))
+
+
+def test_rows_and_columns_swapped_give_the_same_lens(lpcal: Run, rig: Path) -> None:
+    solved(lpcal, rig)
+    usual = read_camera(rig / "calib" / "camera.yaml")
+    (rig / "panel.yaml").write_text(PANEL.replace("[9, 6]", "[6, 9]"))
+    solved(lpcal, rig)
+    assert usual.covariance is not None
+    sigma = np.sqrt(np.diag(usual.covariance))[:4]
+    core = [0, 1, 0, 1], [0, 1, 2, 2]
+    assert np.all(np.abs(read_camera(rig / "calib" / "camera.yaml").K[core] - usual.K[core]) < 2 * sigma)
+
+
+def test_three_views_are_enough_to_start_and_said_to_be_few(lpcal: Run, rig: Path) -> None:
+    code, out, err = lpcal("intrinsics", *sorted((rig / "boards").glob("*.png"))[:3], "--rig", rig)
+    assert code in {0, 4}, err
+    if code == 0:
+        assert "too few views to cross-validate" in out
+    else:
+        assert "cannot tell" in err
+
+
+def test_a_square_in_inches_is_asked_about(lpcal: Run, rig: Path) -> None:
+    (rig / "panel.yaml").write_text(PANEL.replace("25 mm", "635 mm"))
+    code, out, err = lpcal("intrinsics", "--rig", rig)
+    assert code == 0, err
+    assert "25.4" in out + err
+
+
+def test_pictures_of_16_bit_tell_the_same(lpcal: Run, rig: Path) -> None:
+    solved(lpcal, rig)
+    before = read_camera(rig / "calib" / "camera.yaml")
+    for path in (rig / "boards").glob("*.png"):
+        cv2.imwrite(str(path), cv2.imread(str(path), cv2.IMREAD_GRAYSCALE).astype(np.uint16) * 16)
+    solved(lpcal, rig)
+    np.testing.assert_allclose(read_camera(rig / "calib" / "camera.yaml").K, before.K, atol=0.02)
+
+
+def test_a_jpeg_cut_in_half_and_a_turned_one(lpcal: Run, rig: Path) -> None:
+    (rig / "panel.yaml").write_text(PANEL.replace("boards/*.png", "boards/*"))
+    path = rig / "boards" / "view_4.jpg"
+    cv2.imwrite(str(path), cv2.imread(str(rig / "boards" / "view_4.png"), cv2.IMREAD_GRAYSCALE))
+    (rig / "boards" / "view_4.png").unlink()
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    refused(lpcal, rig, 3, "view_4.jpg", "cut off")
+    tag = b"Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0"
+    path.write_bytes(whole[:2] + b"\xff\xe1" + (len(tag) + 2).to_bytes(2, "big") + tag + whole[2:])
+    refused(lpcal, rig, 3, "view_4.jpg", "orientation 6")

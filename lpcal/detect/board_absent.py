@@ -1,7 +1,7 @@
 """Why no board was found in an image, and what is there instead, in words.
 
-Looked for in turn: light at all, the board as a negative, edges that are sharp somewhere, any grid of corners (its count, and whether it
-runs into the image's edge), a board too fine to be seen. Symbols: blur s of an edge of contrast c whose steepest step is g::
+Looked for in turn: light at all, edges that are sharp somewhere, any grid of corners (its count, and whether it runs into the image's
+edge), the board as a negative, a board too fine to be seen. Symbols: blur s of an edge of contrast c whose steepest step is g::
 
     s = c / (g sqrt(2 pi))
 """
@@ -18,6 +18,8 @@ from lpcal.geometry.arrays import Array, Labels
 LEAST_CONTRAST = 20
 BLURRED_PX = 3.0
 """A picture whose steepest edge has more blur than this is blurred."""
+FINE_PX = 8.0
+"""Corners closer than this are seen in part only."""
 EDGE_SQUARES = 1.5
 """A grid whose last corner is closer to the image's edge than so many squares runs out of it."""
 
@@ -46,14 +48,14 @@ def what_is_there(grey: Labels, corners: tuple[int, int], search: Search) -> str
     none = "no board found"
     if contrast(grey) < LEAST_CONTRAST:
         return f"{none}: the image has hardly any contrast"
-    if search(np.asarray(255 - grey, dtype=np.uint8), corners) is not None:
-        return f"{none}: it is there in the negative, white for black; its outer squares need a white margin"
     blur_px = edge_blur(grey)
     if blur_px > BLURRED_PX:
         return f"{none}: the image is blurred, its sharpest edge by {blur_px:.0f} px"
     seen = any_grid(grey)
     if seen is not None:
         return f"{none}: {_instead(*seen, corners, grey.shape)}"
+    if search(np.asarray(255 - grey, dtype=np.uint8), corners) is not None:
+        return f"{none}: it is there in the negative, white for black; its outer squares need a white margin"
     larger = cv2.resize(grey, None, fx=3, fy=3, interpolation=cv2.INTER_CUBIC) if max(grey.shape) < 1500 else None
     rough = search(np.asarray(larger, dtype=np.uint8), corners) if larger is not None else None
     if rough is not None:
@@ -74,6 +76,9 @@ def _instead(count: tuple[int, int], grid: Array, corners: tuple[int, int], shap
     """What a grid is, if it is not the board."""
     long, short = sorted(corners)[::-1]
     size = f"a grid of {count[0]}x{count[1]} inner corners"
+    spacing = spacing_px(grid)
+    if spacing < FINE_PX:
+        return f"it is too small: {size} is there, {spacing:.1f} px apart; come closer"
     if count == (long, short):
         return f"{size} is there, but its corners are not clear enough"
     sides = _sides(grid, shape)

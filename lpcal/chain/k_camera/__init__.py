@@ -13,6 +13,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
+from lpcal.chain.k_camera.choice import FEWEST_VIEWS as FEWEST_TO_CHOOSE
 from lpcal.chain.k_camera.choice import Candidate, choose
 from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
@@ -154,7 +155,7 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
 def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, board: Board) -> dict[str, object]:
     """How the choice was made, in figures and in words."""
     scores = [{"model": c.model, "board": c.board, "cross_validation_px": c.score_px, "expected_error_px": c.expected_px} for c in tried]
-    if len(tried) == 1:
+    if len(tried) == 1 and (len(fit.H_CB) >= FEWEST_TO_CHOOSE or not board.warp):
         why = "as asked"
     elif np.isnan(chosen.score_px):
         why = "too few views to cross-validate: the simplest"

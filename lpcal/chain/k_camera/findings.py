@@ -23,6 +23,7 @@ CELLS = (6, 4)
 MOST_NAMED = 5
 MUCH_BLUR, LEAST_BLUR_PX, MUCH_GLARE = 2.0, 1.5, 0.03
 """A view is blurred over so many times the usual blur and so many px; it shines where more than this share of the board is white."""
+USUAL_SQUARE_M = (0.002, 0.25)
 FLAT_TILT_DEG = 15.0
 """Boards tilted less than this about an axis leave the focal length to chance."""
 
@@ -34,7 +35,7 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
         "coverage": _coverage(fit),
         "residual_pattern": {where: {"size_px": one.size_px, "z": one.z} for where, one in left.items()},
     }
-    warnings = _unmodelled(left, fit)
+    warnings = [*_unmodelled(left, fit), *_odd_size(problem, fit)]
     if fit.camera.spline is not None or fit.camera.covariance is None:
         return figures | {"projection_uncertainty": None}, warnings
     known = information(problem, fit)
@@ -46,6 +47,19 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
     if advice is not None and advice.after_px < WORTH_SAYING * advice.before_px:
         figures["next_view"] = {"hold_the_board": advice.words, "std_now_px": advice.before_px, "std_then_px": advice.after_px}
     return figures, warnings
+
+
+def _odd_size(problem: CornerProblem, fit: CameraFit) -> list[str]:
+    """A word on a board of a size that none is made in: the images alone cannot tell it."""
+    square_m = float(np.mean(problem.board.square_m))
+    if USUAL_SQUARE_M[0] <= square_m <= USUAL_SQUARE_M[1]:
+        return []
+    distance_m = float(np.median(np.linalg.norm(fit.H_CB[:, :3, 3], axis=-1)))
+    return [
+        f"squares of {1e3 * square_m:.4g} mm put the board {distance_m:.3g} m away: is board.square right? "
+        f"Off by 25.4 (inches for millimetres) they would be {1e3 * square_m / 25.4:.3g} or {1e3 * square_m * 25.4:.3g} mm. "
+        "The lens does not depend on it, every length does"
+    ]
 
 
 def _uncertainty(sure: Sureness) -> dict[str, Any]:

@@ -1,11 +1,12 @@
 """What the residuals still know: a pattern that stays with the board, or with the image, is a shape or a lens that was not modelled.
 
-Symbols: residual r_km of corner m of view k, its noise sigma a coordinate; mean a_m over the views, turned to the board's own axes; mean
-b_c over the corners in cell c of the image; n of them each::
+Symbols: residual r_km of corner m of view k, its noise sigma a coordinate; G_km (2, 3) the derivative of its pixel by a displacement of the
+board's point; N_m the sum of G'G over the views, g_m of G'r; in the image, n_c residuals in cell c and their mean b_c::
 
-    pattern^2 = mean over m of (|a_m|^2 / 2 - sigma^2 / n_m)       z = (sum n_m |a_m|^2 / sigma^2 - 2 M) / sqrt(4 M)
+    board:  q_m = g_m' N_m^-1 g_m / sigma^2, chi-square of 3 where nothing is left        image:  q_c = n_c |b_c|^2 / sigma^2, of 2
+    z = (sum q - dof) / sqrt(2 dof)        size^2 = sigma^2 max(0, sum q - dof) / (2 n)
 
-z is about normal where nothing is left. Source: chi-square of independent means.
+z is about normal where nothing is left; size is rms a coordinate. Source: chi-square of independent means.
 """
 
 from __future__ import annotations
@@ -16,12 +17,12 @@ import numpy as np
 
 from lpcal.chain.k_camera.problem import CameraFit
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array, Index
+from lpcal.geometry.arrays import Array
 
 CELLS = (8, 6)
 FEWEST = 4
 """A mean of fewer residuals than this says nothing."""
-SEEN_Z, SEEN_SHARE = 5.0, 0.35
+SEEN_Z, SEEN_SHARE = 6.0, 0.25
 """A pattern is said where z is over the one, and its size over this share of a corner's sigma."""
 
 
@@ -38,32 +39,30 @@ class Pattern:
 
 
 def on_board(fit: CameraFit) -> Pattern:
-    """What the views have in common at each corner of the board."""
-    along = fit.camera.project(se3.apply(fit.H_CB, fit.points_B)) - fit.camera.project(
-        se3.apply(fit.H_CB, fit.points_B - np.array([1e-4, 0.0, 0.0]))
-    )
-    x = along / np.linalg.norm(along, axis=-1, keepdims=True)
-    turned = np.stack(
-        [np.sum(fit.residual_px * x, axis=-1), fit.residual_px[..., 1] * x[..., 0] - fit.residual_px[..., 0] * x[..., 1]], axis=-1
-    )
-    number = np.broadcast_to(np.arange(len(fit.points_B)), fit.inlier.shape)
-    return _pattern(turned[fit.inlier], number[fit.inlier], fit.sigma_px)
+    """What displaced points of the board would explain, the same in all views."""
+    G = fit.camera.projection_jacobian(se3.apply(fit.H_CB, fit.points_B)) @ fit.H_CB[:, None, :3, :3]
+    G = G * fit.inlier[..., None, None]
+    residual_px = np.where(fit.inlier[..., None], fit.residual_px, 0.0)
+    N, g = np.einsum("kmia,kmib->mab", G, G), np.einsum("kmia,kmi->ma", G, residual_px)
+    kept = fit.inlier.sum(axis=0) >= FEWEST
+    explained = np.einsum("ma,mab,mb->m", g, np.linalg.pinv(N, hermitian=True), g)[kept]
+    return _pattern(explained, 3, int(fit.inlier[:, kept].sum()), fit.sigma_px)
 
 
 def on_image(fit: CameraFit) -> Pattern:
     """What corners in the same part of the image have in common."""
     places = fit.camera.project(se3.apply(fit.H_CB, fit.points_B))
     cell = np.clip((places / fit.camera.image_size * CELLS).astype(int), 0, np.array(CELLS) - 1)
-    return _pattern(fit.residual_px[fit.inlier], (cell[..., 1] * CELLS[0] + cell[..., 0])[fit.inlier], fit.sigma_px)
-
-
-def _pattern(residual_px: Array, group: Index, sigma_px: float) -> Pattern:
+    group, residual_px = (cell[..., 1] * CELLS[0] + cell[..., 0])[fit.inlier], fit.residual_px[fit.inlier]
     count = np.bincount(group)
     kept = count >= FEWEST
-    if not kept.any() or not sigma_px > 0:
+    sums = np.stack([np.bincount(group, residual_px[:, axis]) for axis in (0, 1)], axis=1)[kept]
+    return _pattern(np.sum(sums**2, axis=1) / count[kept], 2, int(count[kept].sum()), fit.sigma_px)
+
+
+def _pattern(explained: Array, freedom: int, count: int, sigma_px: float) -> Pattern:
+    """From the squares that each group explains, and the number of residuals in all."""
+    if not explained.size or not sigma_px > 0:
         return Pattern(0.0, 0.0)
-    means = np.stack([np.bincount(group, residual_px[:, axis]) for axis in (0, 1)], axis=1)[kept] / count[kept, None]
-    squares = np.sum(means**2, axis=1)
-    excess = float(np.mean(squares / 2 - sigma_px**2 / count[kept]))
-    z = float((np.sum(count[kept] * squares) / sigma_px**2 - 2 * kept.sum()) / np.sqrt(4 * kept.sum()))
-    return Pattern(float(np.sqrt(max(excess, 0.0))), z)
+    excess = float(np.sum(explained) / sigma_px**2 - freedom * explained.size)
+    return Pattern(float(sigma_px * np.sqrt(max(excess, 0.0) / (2 * count))), excess / float(np.sqrt(2 * freedom * explained.size)))
