@@ -1,0 +1,75 @@
+"""Real chrome and matte spheres under distant lights: PSBox's probes and the University of Washington's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from lpcal.chain.refine_lights import refine
+from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.detect.spheres import Expected, observe_sphere
+from lpcal.formats.capture import read_capture
+from lpcal.records.calibration import LightsSolution
+
+Data = Callable[[str], Path]
+IMAGES = [f"Image_{k:02d}" for k in range(1, 13)]
+FLIP = np.array([1.0, -1.0, -1.0])  # published: x right, y up, z to the camera
+
+
+def published(folder: Path) -> np.ndarray:
+    directions = np.loadtxt(folder / "light_directions.txt").T
+    return directions / np.linalg.norm(directions, axis=1, keepdims=True)
+
+
+def twin(folder: Path) -> np.ndarray:
+    """The published recipe: grey of 250 and more, its median, a circle with y counted from the bottom, both from 1."""
+    x0, y0, radius = np.loadtxt(folder / "circle_data.txt")
+    found = []
+    for name in IMAGES:
+        blue, green, red = cv2.split(cv2.imread(str(folder / f"{name}.JPG")).astype(float))
+        grey = np.rint(0.2989 * red + 0.5870 * green + 0.1140 * blue)
+        rows, columns = np.nonzero(grey >= 250)
+        n = np.array([np.median(columns) + 1 - x0, len(grey) - np.median(rows) - y0, 0.0]) / radius
+        n[2] = np.sqrt(1 - n @ n)
+        found.append(2 * n[2] * n - [0, 0, 1])
+    return np.array(found)
+
+
+def apart_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.degrees(np.arccos(np.clip(np.sum(a * b, axis=1), -1, 1)))
+
+
+def solved(folders: dict[str, tuple[str, Path]], lights: list[str]) -> LightsSolution:
+    views = []
+    for name, (kind, folder) in folders.items():
+        radiance = to_radiance(read_capture(folder, lights, name=name), Sensor())
+        views.append(observe_sphere(radiance, Expected(kind, None), None))
+    return refine(views, lights, None, None)
+
+
+def test_the_published_recipe_is_read_right(data: Data) -> None:
+    for probe in ("LightProbe-1", "LightProbe-2"):
+        folder = data("lights/psbox") / probe
+        assert apart_deg(twin(folder), published(folder)).max() < 0.1
+
+
+@pytest.mark.slow
+def test_own_directions_agree_with_the_published_and_better_with_each_other(data: Data) -> None:
+    folders = {probe: ("chrome", data("lights/psbox") / probe) for probe in ("LightProbe-1", "LightProbe-2")}
+    solution = solved(folders, IMAGES)
+    own = [np.array([sphere.directions_C[light] for light in IMAGES]) for sphere in solution.spheres]
+    said = [published(folder) * FLIP for _, folder in folders.values()]
+    for found, reference in zip(own, said, strict=True):
+        assert np.median(apart_deg(found, reference)) < 1.0
+    assert np.median(apart_deg(*own)) < np.median(apart_deg(*said))
+
+
+def test_chrome_and_matte_agree(data: Data) -> None:
+    lights = [f"light_{k:02d}" for k in range(12)]
+    folder = data("lights/uw_psm")
+    solution = solved({"chrome": ("chrome", folder / "chrome"), "gray": ("matte", folder / "gray")}, lights)
+    chrome, matte = (np.array([sphere.directions_C[light] for light in lights]) for sphere in solution.spheres)
+    assert np.median(apart_deg(chrome, matte)) < 1.7
