@@ -62,12 +62,12 @@ def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0) -> Se
     return Session(boards, camera, H_OP, None, H_PC, H_OB, 0.0, flipped)
 
 
-def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0) -> Session:
+def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every_s=1 / FRAME_HZ) -> Session:
     """The panel waved by hand before the board, camera and mocap each on its own clock."""
     H_PC, H_OB, H_0 = _scene(rng, 1, 0.05)
     motion = _motion(rng, np.radians(turn_deg))
     offset = float(rng.uniform(0.03, 0.08)) * rng.choice([-1, 1])
-    t_image = 1.0 + np.arange(views) / FRAME_HZ + rng.normal(0, 2e-4, views)  # on the mocap's clock
+    t_image = 1.0 + np.arange(views) * every_s + rng.normal(0, 2e-4, views)  # on the mocap's clock
     t_mocap = np.arange(0.0, t_image[-1] + 1.0, 1 / MOCAP_HZ)
     H_CB = motion(t_image) @ H_0[0]
     stream_true = H_OB @ se3.inv(H_PC @ (motion(t_mocap) @ H_0[0]))

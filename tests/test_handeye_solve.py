@@ -208,3 +208,21 @@ def _worst_m(found):
     T = np.eye(6)
     T[3:, :3] = -se3.hat(found.H_PC[:3, 3])
     return float(np.sqrt(np.linalg.eigvalsh((T @ found.H_PC_covariance @ T.T)[3:, 3:])[-1]))
+
+
+@pytest.mark.parametrize(("ppm", "every_s"), [(80.0, 1.0), pytest.param(-25.0, 4.0, marks=pytest.mark.slow)])
+def test_a_clock_that_runs_fast_is_found(ppm, every_s):
+    session = moving_session(np.random.default_rng(1), 80, every_s=every_s)
+    t = session.boards.t_camera_s
+    drifting = replace(session, boards=replace(session.boards, t_camera_s=t + 1e-6 * ppm * (t - t.mean())))
+    found = solve_moving(drifting.boards, track_of(drifting.stream), session.camera, Options())
+    assert 1e6 * found.handeye.clock_drift == pytest.approx(ppm, abs=15 / every_s)
+    assert any("ppm fast" in warning for warning in found.handeye.warnings)
+    assert np.abs(found.mocap_times(drifting.boards.t_camera_s) - (t - session.offset_s)).max() < 1.5e-3
+    assert _nees(session.H_PC, found.handeye.H_PC, found.handeye.H_PC_covariance) < 22
+    assert all(view.used for view in found.handeye.views)
+
+
+def test_no_drift_is_seen_where_there_is_none():
+    rates = [_moving(moving_session(np.random.default_rng(seed), 60)).clock_drift for seed in range(3)]
+    assert rates == [0.0] * 3

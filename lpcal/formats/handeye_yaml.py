@@ -3,6 +3,7 @@
 - ``H_PC``, ``H_OB`` (4x4) and ``H_PC_covariance``, ``H_OB_covariance`` (6x6, rotation in rad then translation in m, of the left
   perturbation); ``H_PC`` takes camera coordinates to the body's, its last column is the camera's centre in the body's frame
 - ``clock_offset_s``, ``clock_offset_std_s``: t_camera = t_mocap + offset; null where the data do not show it
+- ``clock_drift_ppm``, ``clock_middle_s``: t_camera = t_mocap + offset + 1e-6 drift (t_camera - middle); 0 where the data show no drift
 - ``views``: ``image, used, why`` (null where used), ``residual_px`` (corners, rms a coordinate), ``residual_m``, ``residual_deg``
   (the board seen through the measured body pose against H_OB), ``held_out_m`` (the same against the H_OB of a solve without the view)
 - ``transforms``: H_PC, H_CP, H_OB, H_BO in the forms that other programs take
@@ -33,6 +34,8 @@ def write_handeye(path: Path, found: HandEye, provenance: Provenance, body: str 
         "H_OB_covariance": found.H_OB_covariance,
         "clock_offset_s": found.clock_offset_s,
         "clock_offset_std_s": found.clock_offset_std_s,
+        "clock_drift_ppm": 1e6 * found.clock_drift,
+        "clock_middle_s": found.clock_middle_s,
         "warnings": list(found.warnings),
         "transforms": both_ways(found.H_PC, found.H_OB, body),
         "evidence": found.evidence,
@@ -59,6 +62,8 @@ def read_handeye(path: Path) -> HandEye:
             clock_offset_s=document["clock_offset_s"],
             clock_offset_std_s=document["clock_offset_std_s"],
             views=tuple(_verdict(view) for view in document["views"]),
+            clock_drift=1e-6 * (document.get("clock_drift_ppm") or 0.0),
+            clock_middle_s=document.get("clock_middle_s") or 0.0,
             warnings=tuple(document.get("warnings") or ()),
             evidence=document.get("evidence") or {},
         )

@@ -174,6 +174,6 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     size = congruence.board_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
     roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
     advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
-    findings.say("expected", f"by a solve of these views, H_PC is known {advised.words()}")
+    findings.say("expected", f"by the scatter of these views H_PC is known {advised.words()}")
     findings.warnings += [each for each in (size, roles) if each is not None]
     findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off, "expected_sigma_m": advised.sigma_m}

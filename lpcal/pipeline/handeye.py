@@ -67,8 +67,7 @@ def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
 def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> ImagePanelPoses:
     """The body's pose at every image, those without a board too."""
     if given.stream is not None and given.t_camera_s is not None:
-        offset = finding.offset_s
-        panel = poses_at(track_of(given.stream), given.t_camera_s - offset)
+        panel = poses_at(track_of(given.stream), finding.mocap_times(given.t_camera_s))
         H_OP = np.where(panel.trusted[:, None, None], panel.H, np.nan)
         why, steady = panel.why, panel.steady
     else:

@@ -58,7 +58,8 @@ def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
         return "clock       the offset does not show in these data"
     if not handeye.clock_offset_std_s:
         return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} ms, as given"
-    return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} +- {1e3 * handeye.clock_offset_std_s:.2f} ms"
+    drift = f" {1e6 * handeye.clock_drift:+.0f} ppm (t_camera - {handeye.clock_middle_s:.1f} s)" if handeye.clock_drift else ""
+    return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} +- {1e3 * handeye.clock_offset_std_s:.2f} ms{drift}"
 
 
 def _rms_words(handeye: HandEye) -> str:
@@ -110,6 +111,7 @@ def _document(handeye: HandEye, body: str) -> dict[str, Any]:
         "H_OB_covariance": handeye.H_OB_covariance,
         "clock_offset_s": handeye.clock_offset_s,
         "clock_offset_std_s": handeye.clock_offset_std_s,
+        "clock_drift_ppm": 1e6 * handeye.clock_drift,
         "views_used": sum(view.used for view in handeye.views),
         "views_left_out": {view.image: view.why for view in handeye.views if not view.used},
         "held_out_m": {view.image: view.held_out_m for view in handeye.views if view.held_out_m is not None},

@@ -138,6 +138,9 @@ class HandEye:
     """None: the data cannot show it, or there are no clocks."""
     clock_offset_std_s: float | None
     views: tuple[ViewVerdict, ...]
+    clock_drift: float = 0.0
+    """By how much the camera's clock runs faster, s/s; the offset holds at the camera's time `clock_middle_s`. 0: no drift shows."""
+    clock_middle_s: float = 0.0
     warnings: tuple[str, ...] = ()
     evidence: dict[str, object] = field(default_factory=dict)
 

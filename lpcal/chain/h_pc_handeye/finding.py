@@ -8,6 +8,7 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye import congruence, observability, variance
 from lpcal.chain.h_pc_handeye.advice import advise
+from lpcal.chain.h_pc_handeye.drift import Drift
 from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
 from lpcal.chain.h_pc_handeye.state import State
@@ -29,10 +30,18 @@ class HandEyeFinding:
     panel: TrackPoses
     offset_s: float
     """The clock offset at which they were taken, known or not."""
+    drift: Drift | None = None
+    """The clocks' drift, where it shows."""
+
+    def mocap_times(self, t_camera_s: Array) -> Array:
+        """Times of the mocap's clock (N,) of camera times (N,)."""
+        return (t_camera_s if self.drift is None else self.drift.corrected(t_camera_s)) - self.offset_s
 
 
-def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], known_offset_s: float | None) -> HandEyeFinding:
-    """The record of a settled solve.
+def finding_of(
+    state: State, t_camera_s: Array | None, warnings: list[str], known_offset_s: float | None, drift: Drift | None = None
+) -> HandEyeFinding:
+    """The record of a settled solve; `t_camera_s` are the views' times, freed of the `drift` that shows.
 
     Raises
     ------
@@ -64,10 +73,12 @@ def finding_of(state: State, t_camera_s: Array | None, warnings: list[str], know
         clock_offset_s=offset,
         clock_offset_std_s=float(np.sqrt(covariance[12, 12])) if clocked else (0.0 if offset is not None else None),
         views=_verdicts(state, found),
+        clock_drift=drift.rate if drift is not None else 0.0,
+        clock_middle_s=drift.middle_s if drift is not None else 0.0,
         warnings=(*warnings, *more),
         evidence=_evidence(state, found, spread, factor) | {"weakest": advised.words()},
     )
-    return HandEyeFinding(handeye, state.panel, state.offset_s)
+    return HandEyeFinding(handeye, state.panel, state.offset_s, drift)
 
 
 def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:

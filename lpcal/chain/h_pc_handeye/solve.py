@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import observability, variance
+from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, estimate, misfit
 from lpcal.chain.h_pc_handeye.start import start_moving, start_paired
@@ -36,6 +37,7 @@ OUTLIER_CHI2 = 33.0
 CORNER_SIGMAS = 6.0
 READMIT = 5.0
 """Times the rms misfit of the chosen views, less a margin, up to which a view is taken in again."""
+ROUNDS_OF_DRIFT = 4
 CLOCK_UNSEEN_S = 0.02
 """An offset less certain than this is not one that the data show."""
 
@@ -57,10 +59,15 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
     t_camera_s = np.asarray(boards.t_camera_s)
     state = start_moving(boards, track, t_camera_s, camera, options)
     state = _refine(state, t_camera_s)
+    state, t_camera_s, drift = _without_drift(state, t_camera_s)
     warnings: list[str] = []
+    if drift is not None:
+        warnings.append(
+            f"the camera's clock runs {1e6 * drift.rate:+.0f} +- {1e6 * drift.std:.0f} ppm fast: its times are corrected for it"
+        )
     if options.clock_offset_s is None and not state.clock:
         warnings.append("the panel stood still in every view that was used: the data do not show the clock offset, it is left out")
-    return finding_of(state, t_camera_s, warnings, options.clock_offset_s)
+    return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift)
 
 
 def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
@@ -87,6 +94,20 @@ def _refine(state: State, t_camera_s: Array | None) -> State:
             break
         state = _settle(replace(state, deflation=factor), t_camera_s)
     return state
+
+
+def _without_drift(state: State, t_camera_s: Array) -> tuple[State, Array, Drift | None]:
+    """The solve and its times freed of the clocks' drift, where it shows."""
+    total, t_s = None, t_camera_s
+    for _ in range(ROUNDS_OF_DRIFT):
+        found = drift_of(state, t_s) if state.clock and state.track is not None else None
+        if found is None or not found.shown:
+            break
+        total = found if total is None else replace(total, rate=total.rate + found.rate, std=found.std)
+        t_s = total.corrected(t_camera_s)
+        panel = poses_at(state.track, t_s - state.offset_s) if state.track is not None else state.panel
+        state = _refine(replace(state, panel=panel, inliers=state.inliers & panel.trusted), t_s)
+    return state, t_s, total
 
 
 def _settle(state: State, t_camera_s: Array | None) -> State:
