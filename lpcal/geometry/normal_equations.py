@@ -10,24 +10,18 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from lpcal.errors import DegenerateError
-from lpcal.geometry.arrays import Array
-
-if TYPE_CHECKING:
-    from lpcal.geometry.least_squares import Block, Term
+from lpcal.geometry.arrays import Array, Index
+from lpcal.geometry.residual_terms import Block, Term
 
 SINGULAR = 1e-13
 """Least eigenvalue of the information, its diagonal scaled to 1, below which it counts as singular."""
 
 FEW = 4
 """Observations a group, from which on a product a group is faster than one an observation."""
-
-type Index = npt.NDArray[np.intp]
 
 
 @dataclass
