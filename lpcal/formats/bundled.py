@@ -44,8 +44,8 @@ def rig_file(name: str | None) -> Path:
         return bundled
     if not Path(name).exists():
         raise InputError(
-            f"no rig called {name}",
-            where="--rig" if "/" not in name else name,
+            "no bundled rig, and no file or folder",
+            where=name,
             needed=f"one of {', '.join(rig_names())}, or the path of a panel.yaml",
             todo="correct the name",
         )

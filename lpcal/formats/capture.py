@@ -31,12 +31,12 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     InputError
         The folder or an image is not there or cannot be read.
     DisagreementError
-        A light has no image, a name in `use` is no light, or images differ in size or channels.
+        A light has no image, or two of one name; a name in `use` is no light; or images differ in size or channels.
     """
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a capture folder: one image a light, named after it")
     section = read_capture_section(folder / "capture.yaml")
-    files = {path.stem: path for path in sorted(folder.iterdir()) if path.suffix.lower() in ENDINGS}
+    files = _by_name(folder)
     chosen = _chosen(folder, lights, use or section.lights, files)
     reader = _SameSize()
     images = np.stack([reader.read(files[light]).pixels for light in chosen])
@@ -92,6 +92,23 @@ class _SameSize:
 
 def _kind(pixels: Image) -> str:
     return f"{pixels.shape[1]}x{pixels.shape[0]} {'grey' if pixels.ndim == 2 else 'RGB'}"
+
+
+def _by_name(folder: Path) -> dict[str, Path]:
+    """The folder's images by their names without the ending."""
+    files: dict[str, Path] = {}
+    for path in sorted(folder.iterdir()):
+        if path.suffix.lower() not in ENDINGS:
+            continue
+        if path.stem in files:
+            raise DisagreementError(
+                f"{files[path.stem].name} and {path.name}: two images of one name",
+                where=str(folder),
+                needed=f"one image called {path.stem}",
+                todo="remove or rename one of them",
+            )
+        files[path.stem] = path
+    return files
 
 
 def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, files: dict[str, Path]) -> list[str]:

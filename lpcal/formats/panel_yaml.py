@@ -59,15 +59,17 @@ def read_rig(path: Path) -> RigFile:
         Not YAML, an unknown key, a bare number for a length, or a value of the wrong form; with file:line.
     """
     document, lines = _load(path)
+    if document is None:
+        raise InputError("empty", where=str(path), needed="key: value lines")
     return RigFile(rig=_checked(Rig, document, path, lines), file=path, lines=lines)
 
 
 def read_capture_section(path: Path) -> CaptureSection:
-    """Read a capture.yaml; an absent file states nothing."""
+    """Read a capture.yaml; an absent file, or one of comments alone, states nothing."""
     if not path.is_file():
         return CaptureSection()
     document, lines = _load(path)
-    return _checked(CaptureSection, document, path, lines)
+    return CaptureSection() if document is None else _checked(CaptureSection, document, path, lines)
 
 
 class _AsWritten(yaml.SafeLoader):
@@ -92,8 +94,6 @@ def _load(path: Path) -> tuple[Any, dict[str, int]]:
         document = yaml.load(text, Loader=_AsWritten)
     except yaml.YAMLError as error:
         raise _not_yaml(error, text, path) from error
-    if document is None:
-        raise InputError("empty", where=str(path), needed="key: value lines")
     return document, lines
 
 

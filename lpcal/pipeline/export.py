@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from lpcal.chain.refine_lights import as_designed
-from lpcal.errors import DegenerateError
+from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import KIND, write_calibration
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.handeye_yaml import read_handeye
@@ -46,7 +46,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     progress("export", 0, 1)
     rig = workspace.rig_file.rig
     if not wanted(workspace):
-        raise DegenerateError(
+        raise InputError(
             "nothing says where the lights are",
             where=str(workspace.rig_file.file),
             needed="lights: with spheres:, or lights: with their wings' settings and panel:",

@@ -65,11 +65,12 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     wings = read_wings(workspace.calib(wings_stage.FILE)) if wings_stage.wanted(workspace) else None
     sensor = sensor_of_camera(camera) if camera else sensor_of_panel(workspace)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
-    views, warnings = [], []
+    views: list[SphereView] = []
+    warnings: list[str] = []
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
         try:
-            views.append(_observe(workspace, name, section, lights, sensor, camera, distance_m))
+            views.append(_observe(workspace, name, section, lights, sensor, camera, distance_m, warnings))
         except DegenerateError as error:
             if len(spheres) == 1:
                 raise
@@ -79,7 +80,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5)
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
-        summary=summary_of(solution),
+        summary=summary_of(solution, among=len(spheres)),
         document={
             "file": str(workspace.calib(FILE)),
             "lights": {light.name: light.direction_C for light in solution.lights},
@@ -90,10 +91,10 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
 
 
-def summary_of(solution: LightsSolution) -> list[str]:
-    """A line a light, and what it rests on."""
+def summary_of(solution: LightsSolution, *, among: int | None = None) -> list[str]:
+    """A line a light, and what it rests on; `among`: the spheres of the rig, those that could not be read included."""
     used = [sphere for sphere in solution.spheres if sphere.used]
-    lines = [f"{len(solution.lights)} lights from {len(used)} of {len(solution.spheres)} spheres"]
+    lines = [f"{len(solution.lights)} lights from {len(used)} of {among or len(solution.spheres)} spheres"]
     for light in solution.lights:
         intensity = " ".join(f"{value:.3f}" for value in light.intensity)
         turn = f"direction +- {np.degrees(light.direction_std_rad):.2f} deg  intensity {intensity}"
@@ -114,13 +115,16 @@ def _observe(
     sensor: Sensor,
     camera: Camera | None,
     distance_m: tuple[float, float] | None,
+    warnings: list[str],
 ) -> SphereView:
     if camera is not None and section.radius is None:
         raise InputError(
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
     folder = workspace.path(section.images, f"spheres.{name}.images")
-    radiance = to_radiance(read_capture(folder, lights, name=name), sensor)
+    raw = read_capture(folder, lights, name=name)
+    warnings += [f"{name}: left out: {image} is no light's" for image in raw.left_out]
+    radiance = to_radiance(raw, sensor)
     hint = None if section.hint is None else np.array(section.hint)
     return observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
 

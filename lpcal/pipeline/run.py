@@ -48,8 +48,11 @@ def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Pr
 
 
 def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome:
-    """Run one stage after whatever it rests on; what comes before it and was out of date is told on top."""
-    earlier = bring_up_to_date(workspace, before(stage), progress)
+    """Run one stage after whatever it rests on; what comes before it and was out of date is told on top.
+
+    A stage that the rig has not the sections for says so at once.
+    """
+    earlier = bring_up_to_date(workspace, before(stage) if stage.wanted(workspace) else (), progress)
     outcome = stage.run(workspace, progress)
     told = [line for line in earlier.summary if not line.endswith(": up to date")]
     return Outcome(
