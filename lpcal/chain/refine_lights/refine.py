@@ -14,6 +14,7 @@ from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
 from lpcal.chain.refine_lights.samples import sample_blocks
 from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, nominal_lobe
+from lpcal.chain.refine_lights.swaps import refuse_swapped
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
@@ -50,6 +51,8 @@ def refine(
     if camera is None:
         return refine_distant(views, lights)
     used, refused = _measured(views, camera)
+    if wings is not None:
+        refuse_swapped(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     fit, used, more = _fit_without_outliers(lights, used, camera, wings)
     refused |= more
     clicks: list[Click] = []
@@ -57,7 +60,7 @@ def refine(
         fit, wings, clicks = fit_with_clicks(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     focus_C = _focus(fit, wings)
     kept = [view for view, _ in used]
-    found, warnings = _near_lights(fit, lights, wings, focus_C)
+    found, warnings = _near_lights(fit, lights, wings, focus_C, intensity_sd)
     warnings = [*(click.message() for click in clicks), *warnings]
     samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
     if samples is None:
@@ -133,7 +136,9 @@ def _fit_without_outliers(
         used = [(view, m) for view, m in used if view.name != worst]
 
 
-def _near_lights(fit: GeometryFit, lights: Sequence[str], wings: Wings | None, focus_C: Array) -> tuple[list[Light], list[str]]:
+def _near_lights(
+    fit: GeometryFit, lights: Sequence[str], wings: Wings | None, focus_C: Array, intensity_sd: float
+) -> tuple[list[Light], list[str]]:
     """The lights as the geometry alone has them, each with its nominal lobe; and warnings."""
     found, warnings = [], []
     axes = _axes(fit, focus_C)
@@ -150,6 +155,7 @@ def _near_lights(fit: GeometryFit, lights: Sequence[str], wings: Wings | None, f
             lobe=nominal_lobe(leds),
             position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
             direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
+            intensity_std=intensity_sd,
         )
         distance_std = float(np.sqrt(_unit(away) @ covariance @ _unit(away))) / float(np.linalg.norm(away))
         if row is None and distance_std > UNSURE:
