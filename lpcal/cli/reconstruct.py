@@ -32,7 +32,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
     wishes = Wishes(
         near=options.lights == "near",
-        distance_m=_length(options.distance),
+        distance_m=length(options.distance),
         mask=options.mask,
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
     )
@@ -55,7 +55,8 @@ def _rig_if_any(options: argparse.Namespace) -> Workspace | None:
         return None
 
 
-def _length(text: str | None) -> float | None:
+def length(text: str | None) -> float | None:
+    """Metres of a word such as 352mm; None where there is none."""
     from lpcal.records.quantities import parse
 
     if text is None:

@@ -161,8 +161,14 @@ def line_of(document: dict[str, Any], target: Path) -> str:
     return (
         f"{document['name']}: {figures['pixels']} px in {len(pieces)} piece{'s' * (len(pieces) != 1)}"
         + (f" at {where}" if document["units"] == "metres" else "")
-        + f", {document['times_s']['solving']:.1f} s -> {target}"
+        + f", {document['times_s']['solving']:.1f} s -> {from_here(target)}"
     )
+
+
+def from_here(target: Path) -> Path:
+    """The path as it is seen from the current folder, where it lies in it."""
+    here = Path.cwd()
+    return target.resolve().relative_to(here) if target.resolve().is_relative_to(here) else target
 
 
 @dataclass(frozen=True)

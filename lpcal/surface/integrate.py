@@ -88,7 +88,7 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
     strengths = GRADUATION if graduated else AGAIN
     weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
     for k, strength in enumerate(strengths):
-        A, right = _system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
+        A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
         u = multigrid.solve(A, right, u, grid.prolongations, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
         weight = _weight(grid, u, step, sigma)
     return u, weight
@@ -96,7 +96,7 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
 
 def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
     """u (P,) with the weights (edges,) as they are."""
-    A, right = _system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
     return multigrid.solve(A, right, start, grid.prolongations, precision=FINELY)
 
 
@@ -107,7 +107,7 @@ def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)
 
 
-def _system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:
+def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:
     """Matrix and right side of the normal equations."""
     from scipy import sparse
 
