@@ -24,7 +24,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera import project, projection_jacobian
 
 STEPS = 60
-PRECISION = 1e-9
+PRECISION = 1e-7
 """Relative fall of the cost that ends the search."""
 PRIOR_COEFFICIENT = 1.0
 """One standard deviation of k3 to k6, in units in which a corner's is PRIOR_PX."""

@@ -77,7 +77,8 @@ class _Trial:
         score = float("inf")
         try:
             self.fit = solver(problem, model, board)
-            known = replace(problem, camera=self.fit.camera, H_CB=self.fit.H_CB)
+            fitting = np.where(self.fit.inlier[..., None], problem.corners_px, np.nan)
+            known = replace(problem, corners_px=fitting, camera=self.fit.camera, H_CB=self.fit.H_CB)
             score = cross_validate(known, solver, model, board, pixels)
         except (LpcalError, np.linalg.LinAlgError):
             pass

@@ -13,6 +13,7 @@ import numpy as np
 
 from lpcal.chain.k_camera import patterns
 from lpcal.chain.k_camera.assess import Sureness, assess, information
+from lpcal.chain.k_camera.independent import check
 from lpcal.chain.k_camera.next_view import WORTH_SAYING, advise
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
 from lpcal.geometry import se3
@@ -41,6 +42,7 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
     known = information(problem, fit)
     sure = assess(known, fit)
     figures["projection_uncertainty"] = _uncertainty(sure)
+    figures["independent_check"] = check(problem, fit)
     order = np.argsort(-sure.gain)[:MOST_NAMED]
     figures["views_that_matter"] = [{"image": names[row], "without_it": float(sure.gain[row])} for row in order]
     advice = advise(known, fit)

@@ -1,0 +1,48 @@
+"""The same corners by another's adjustment: OpenCV's calibrateCamera, from lpcal's solution, on lpcal's board and inliers.
+
+It shares neither code nor priors with mrcal or with `bundle`; what it is apart from them, against the uncertainty that is said, is the
+check. Source: OpenCV, calib3d; the difference: `geometry.camera_difference`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem
+from lpcal.geometry.camera_difference import pixel_grid, projection_difference
+from lpcal.records.calibration import Camera
+
+STOP = (30, 1e-9)
+
+
+def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
+    """How far OpenCV's camera projects from the fit's, over the imager; None for lenses that it does not know."""
+    import cv2
+
+    if fit.camera.model not in DISTORTIONS:
+        return None
+    flags = cv2.CALIB_USE_INTRINSIC_GUESS
+    flags |= {"opencv4": cv2.CALIB_FIX_K3, "opencv8": cv2.CALIB_RATIONAL_MODEL}.get(fit.camera.model, 0)
+    points = [fit.points_B[used].astype(np.float32) for used in fit.inlier if used.any()]
+    corners = [px[used].astype(np.float32) for px, used in zip(problem.corners_px, fit.inlier, strict=True) if used.any()]
+    start = np.zeros(max(5, fit.camera.distortion.size))
+    start[: fit.camera.distortion.size] = fit.camera.distortion
+    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, *STOP)
+    try:
+        _, K, distortion, *_ = cv2.calibrateCamera(
+            points, corners, problem.image_size, fit.camera.K.copy(), start, flags=flags, criteria=criteria
+        )
+    except cv2.error as error:
+        return {"by": "OpenCV calibrateCamera", "failed": str(error).strip().splitlines()[-1]}
+    other = Camera(problem.image_size, fit.camera.model, np.asarray(K, dtype=float), np.ravel(distortion)[: fit.camera.distortion.size])
+    pixels = pixel_grid(problem.image_size)
+    apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), other.project)[0], axis=1)
+    return {
+        "by": "OpenCV calibrateCamera",
+        "f_px": [float(K[0, 0]), float(K[1, 1])],
+        "c_px": [float(K[0, 2]), float(K[1, 2])],
+        "difference_rms_px": float(np.sqrt(np.mean(apart**2))),
+        "difference_worst_px": float(apart.max()),
+    }
