@@ -169,7 +169,7 @@ def test_what_more_views_would_do_is_what_they_do():
         found = _static(few)
         advised = advise(few.H_OP, few.boards.H_CB, found.H_PC, found.H_OB, found.H_PC_covariance)
         assert advised.turn_about in {"x", "y"}
-        turned = _turned(few.H_OP, few.boards.H_CB, found.H_PC, "xyz".index(advised.turn_about))
+        turned = _turned(few.H_OP, few.boards.H_CB, found.H_PC, "xyz".index(advised.turn_about), advised.more)
         H_OP = np.concatenate([few.H_OP, turned])
         after = _static(seen_from(session, H_OP))
         told.append([advised.sigma_m, advised.sigma_m_after])

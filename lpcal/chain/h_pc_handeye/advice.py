@@ -20,7 +20,10 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
 TURN_DEG = 20.0
-MORE_VIEWS = 6
+FEWEST_MORE, MORE_SHARE = 6, 0.2
+"""So many more views are tried: a fifth of those there are, six at least."""
+WORTH = 0.9
+"""Turns that leave more of the sigma than this mend nothing."""
 TARGET_M, TARGET_RAD = 1e-3, np.deg2rad(0.1)
 """A worst standard deviation beyond these is warned of."""
 NAMED = 0.9
@@ -39,15 +42,18 @@ class Advice:
     turn_about: str
     """x | y | z of the panel."""
     sigma_m_after: float
-    """What the worst sigma of the centre becomes with `MORE_VIEWS` turned so."""
+    """What the worst sigma of the centre becomes with `more` views turned so."""
     sigma_rad_after: float
+    more: int
 
     def words(self) -> str:
         """In one sentence."""
-        turn = f"{MORE_VIEWS} more views with the panel turned by {TURN_DEG:.0f} deg either way about its {self.turn_about}"
+        now = f"worst along {_named(self.direction_P)} of the panel, {1e3 * self.sigma_m:.2f} mm, and {np.degrees(self.sigma_rad):.3f} deg"
+        if self.sigma_m_after > WORTH * self.sigma_m and self.sigma_rad_after > WORTH * self.sigma_rad:
+            return f"{now}; no turn about one axis mends that, four times as many views like these halve it"
         return (
-            f"worst along {_named(self.direction_P)} of the panel, {1e3 * self.sigma_m:.2f} mm, and {np.degrees(self.sigma_rad):.3f} deg; "
-            f"{turn}, the board kept in sight, make that {1e3 * self.sigma_m_after:.2f} mm and {np.degrees(self.sigma_rad_after):.3f} deg"
+            f"{now}; {self.more} more views with the panel turned by up to {TURN_DEG:.0f} deg either way about its {self.turn_about}, the "
+            f"board kept in sight, make that {1e3 * self.sigma_m_after:.2f} mm and {np.degrees(self.sigma_rad_after):.3f} deg"
         )
 
     def warning(self) -> str | None:
@@ -71,13 +77,14 @@ def advise(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array, covariance: Array
         scale = float(np.trace(_centred(covariance, H_PC)[3:, 3:]) / np.trace(_centred(_covariance(N), H_PC)[3:, 3:]))
     now = _centred(covariance if covariance is not None else _covariance(N), H_PC)
     _, vectors = np.linalg.eigh(now[3:, 3:])
+    more_views = max(FEWEST_MORE, round(MORE_SHARE * len(H_OP)))
     after = {}
     for axis in range(3):
-        more = _information(_turned(H_OP, H_CB, H_PC, axis), H_OB, weight)
+        more = _information(_turned(H_OP, H_CB, H_PC, axis, more_views), H_OB, weight)
         after["xyz"[axis]] = _worst(scale * _centred(_covariance(N + more), H_PC))
     best = min(after, key=lambda axis: after[axis][1] / TARGET_M + after[axis][0] / TARGET_RAD)
     sigma_rad, sigma_m = _worst(now)
-    return Advice(sigma_m, vectors[:, -1], sigma_rad, best, min(after[best][1], sigma_m), min(after[best][0], sigma_rad))
+    return Advice(sigma_m, vectors[:, -1], sigma_rad, best, min(after[best][1], sigma_m), min(after[best][0], sigma_rad), more_views)
 
 
 def _worst(covariance: Array) -> tuple[float, float]:
@@ -124,12 +131,12 @@ def _centred(covariance: Array, H_PC: Array) -> Array:
     return np.asarray(T @ covariance @ T.T)
 
 
-def _turned(H_OP: Array, H_CB: Array, H_PC: Array, axis: int) -> Array:
-    """Panel poses (MORE_VIEWS, 4, 4) of the usual view turned about one of the panel's axes, about the board's place in sight."""
+def _turned(H_OP: Array, H_CB: Array, H_PC: Array, axis: int, count: int) -> Array:
+    """Panel poses (count, 4, 4) of the usual view turned about one of the panel's axes, about the board's place in sight."""
     R_mean = se3.nearest_rotation(H_OP[:, :3, :3].mean(axis=0))
     usual = int(np.argmin(se3.angle_rad(H_OP[:, :3, :3] @ R_mean.T)))
     pivot = (H_OP[usual] @ H_PC @ H_CB[usual])[:3, 3]
-    angle = np.deg2rad(TURN_DEG) * np.linspace(-1, 1, MORE_VIEWS)
+    angle = np.deg2rad(TURN_DEG) * np.linspace(-1, 1, count)
     turn = se3.rotation(angle[:, None] * H_OP[usual, :3, axis])
     H_about = se3.transform(turn, pivot - turn @ pivot)
     return np.asarray(H_about @ H_OP[usual])
