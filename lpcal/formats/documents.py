@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import shutil
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
@@ -132,6 +132,23 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     if not isinstance(provenance, dict) or any(provenance.get(entry.name) is None for entry in fields(Provenance)):
         raise InputError("ends before its provenance does: the file is cut off", where=str(path), needed=f"a whole {kind} file", todo=todo)
     return document
+
+
+def read_record[Record](path: Path, kind: str, command: str, record_of: Callable[[dict[str, Any]], Record]) -> Record:
+    """What a document of a kind holds, by `record_of`; `command` writes it anew.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or a key that is lacking or holds something else.
+    """
+    document = read_document(path, kind)
+    try:
+        return record_of(document)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{error} is lacking or garbled", where=str(path), needed=f"a whole {kind} file", todo=f"write it anew with {command}"
+        ) from error
 
 
 def plain(value: Any) -> Any:

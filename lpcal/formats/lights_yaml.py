@@ -7,11 +7,12 @@ warnings, evidence``; a sphere's residual is the rms of its highlights in px (ch
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from lpcal.formats.calibration_yaml import light_document, light_from_document
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.records.calibration import LightsSolution, SphereFinding
 
 KIND = "lights"
@@ -44,8 +45,17 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
 
 
 def read_lights(path: Path) -> LightsSolution:
-    """Read lights.yaml."""
-    document = read_document(path, KIND)
+    """Read lights.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or garbled.
+    """
+    return read_record(path, KIND, "lpcal refine", _record_of)
+
+
+def _record_of(document: dict[str, Any]) -> LightsSolution:
     return LightsSolution(
         lights=tuple(light_from_document(entry) for entry in document["lights"]),
         focus_C=np.array(document["focus_m"]),

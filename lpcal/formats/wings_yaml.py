@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.records.calibration import Wing, Wings
 
 KIND = "wings"
@@ -37,8 +37,17 @@ def write_wings(path: Path, wings: Wings, provenance: Provenance) -> None:
 
 
 def read_wings(path: Path) -> Wings:
-    """Read wings.yaml."""
-    document = read_document(path, KIND)
+    """Read wings.yaml.
+
+    Raises
+    ------
+    InputError
+        Not there, cut off, of another kind, or garbled.
+    """
+    return read_record(path, KIND, "lpcal wings", _record_of)
+
+
+def _record_of(document: dict[str, Any]) -> Wings:
     lights, std = document["lights"], document["setting_std"]
     return Wings(
         wings=tuple(
