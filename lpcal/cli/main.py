@@ -32,6 +32,7 @@ COMMANDS = {
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
+    "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
     "run": "every stage that is out of date, in order",
 }

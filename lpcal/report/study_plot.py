@@ -1,0 +1,38 @@
+"""The plot of a study: error of the normals against what was varied."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lpcal.geometry.arrays import Array
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One line of the plot."""
+
+    name: str
+    x: Array
+    y: Array
+    """Mean relative error, per cent."""
+
+
+def plot_png(curves: Sequence[Curve], across: str) -> bytes:
+    """The curves as a PNG, error on a logarithmic axis."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    for curve in curves:
+        axes.semilogy(curve.x, curve.y, marker=".", label=curve.name)
+    axes.set_xlabel(across)
+    axes.set_ylabel("mean relative error of the normals, %")
+    axes.grid(visible=True, which="both", alpha=0.25)
+    axes.legend(frameon=False, fontsize="small")
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=130)
+    return data.getvalue()
