@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lpcal import __version__
+from lpcal.detect.exposures import ambient_notes, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
@@ -22,6 +23,7 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface import mesh
+from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
@@ -103,7 +105,9 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
     camera = calibration.camera
     sensor = Sensor(camera.black_level, camera.white_level, camera.gamma, camera.flat_field) if camera else Sensor()
-    radiance = to_radiance(raw, sensor)
+    plain = to_radiance(raw, sensor)
+    radiance = with_short_exposures(plain, raw, sensor)
+    radiance = replace(radiance, notes=(*radiance.notes, *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in {"auto", "none"} else None
     options = Options(near=wishes.near, distance_m=wishes.distance_m, mask=given, automatic_mask=wishes.mask == "auto")
     if wishes.mask == "none":
@@ -127,6 +131,7 @@ def document_of(
         "units": "metres" if surface.rays_C[..., :2].any() else "pixels",
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
+        "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},

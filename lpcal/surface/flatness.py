@@ -1,0 +1,39 @@
+"""How far a nearly flat surface strays from a plane: what a flat card shows of a wrong light model.
+
+Plane by total least squares on the points of the largest piece, its outermost pixels left out; deviations along its normal.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lpcal.records.surface import Surface
+
+NEARLY = 0.2
+"""Of its extent: a piece whose points stray more from a plane is not meant to be flat."""
+RIM_PX = 3
+FEWEST = 100
+
+
+def flatness(surface: Surface) -> dict[str, Any] | None:
+    """Deviation from a plane of the largest piece, in mm, and its extent; None where it is not nearly flat, or depth is in pixels."""
+    from scipy import ndimage
+
+    inside = ndimage.binary_erosion(surface.component == 1, iterations=RIM_PX)
+    if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
+        return None
+    points = (surface.rays_C * surface.depth[..., None])[inside].astype(float)
+    centred = points - points.mean(axis=0)
+    along = np.linalg.svd(centred.T @ centred)[0]
+    deviation = centred @ along[:, 2]
+    extent = float(np.ptp(centred @ along[:, 0]))
+    low, high = np.percentile(deviation, [0.5, 99.5])
+    if high - low > NEARLY * extent:
+        return None
+    return {
+        "plane_rms_mm": float(1e3 * deviation.std()),
+        "plane_peak_to_valley_mm": float(1e3 * (high - low)),
+        "extent_mm": 1e3 * extent,
+    }
