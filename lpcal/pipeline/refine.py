@@ -96,8 +96,9 @@ def summary_of(solution: LightsSolution, *, among: int | None = None) -> list[st
     used = [sphere for sphere in solution.spheres if sphere.used]
     lines = [f"{len(solution.lights)} lights from {len(used)} of {among or len(solution.spheres)} spheres"]
     for light in solution.lights:
-        intensity = " ".join(f"{value:.3f}" for value in light.intensity)
-        turn = f"direction +- {np.degrees(light.direction_std_rad):.2f} deg  intensity {intensity}"
+        seen = any(sphere.used and sphere.kind == "matte" for sphere in solution.spheres)
+        intensity = "intensity " + " ".join(f"{value:.3f}" for value in light.intensity) if seen else "intensity not measured"
+        turn = f"direction +- {np.degrees(light.direction_std_rad):.2f} deg  {intensity}"
         if light.source_C is None:
             lines.append(f"{light.name:<6} from {_numbers(light.direction_C, 4)}  {turn}")
         else:
