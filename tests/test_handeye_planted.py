@@ -158,7 +158,7 @@ REFUSED = {
     ),
     "mm for m": Refused(lambda f: moving_rig(f, moving(), scale=1000.0), 6, "in mm, not in metres", "mocap.units: mm"),
     "board square 25.4 x too large": Refused(
-        lambda f: image_rig(f, static(), scaled(static().H_OP, 1 / 25.4)), 6, "the board's size is stated 25.4 times", "board.square"
+        lambda f: image_rig(f, static(), scaled(static().H_OP, 1 / 25.4)), 6, "the board's size is stated 25.", "board.square"
     ),
     "board square 25.4 x too small": Refused(
         lambda f: image_rig(f, static(), scaled(static().H_OP, 25.4)), 6, "25 times too small", "board.square"

@@ -200,9 +200,9 @@ def _with_scale(found: str | None, scale: float) -> str:
         words = f"the mocap's lengths are in {unit}, not in metres, or the board's square is stated {scale:.0f} times too small"
     else:
         words = (
-            f"the board's size is stated {1 / scale:.3g} times what the mocap measures"
+            f"the board's size is stated {1 / scale:.4g} times what the mocap measures"
             if scale < 1
-            else (f"the mocap's lengths are {scale:.3g} times what the board says")
+            else (f"the mocap's lengths are {scale:.4g} times what the board says")
         )
     return words if found is None else f"{found}; and {words}"
 
