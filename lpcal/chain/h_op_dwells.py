@@ -84,10 +84,10 @@ def match_rests(rests: Rests, H_CB: Array) -> npt.NDArray[np.intp]:
             needed="the panel held still for a second at every image, or the images' times",
             todo="give the times: mocap.images, a csv of file,time_s",
         )
-    turn_C = se3.angle_rad(H_CB[:, None, :3, :3] @ np.swapaxes(H_CB[None, :, :3, :3], -1, -2))
+    turn_seen = se3.angle_rad(H_CB[:, None, :3, :3] @ np.swapaxes(H_CB[None, :, :3, :3], -1, -2))
     R_OP = rests.H_OP[:, :3, :3]
-    turn_P = se3.angle_rad(np.swapaxes(R_OP[:, None], -1, -2) @ R_OP[None])
-    match = _aligned(np.zeros((len(H_CB), len(rests.t_s))), turn_C, turn_P)
+    turn_body = se3.angle_rad(np.swapaxes(R_OP[:, None], -1, -2) @ R_OP[None])
+    match = _aligned(np.zeros((len(H_CB), len(rests.t_s))), turn_seen, turn_body)
     for _ in range(3):
         rows = np.flatnonzero(match >= 0)
         if len(rows) < FEWEST:
@@ -98,7 +98,7 @@ def match_rests(rests: Rests, H_CB: Array) -> npt.NDArray[np.intp]:
             break
         match = again
     rows = np.flatnonzero(match >= 0)
-    pairs = np.abs(turn_C[np.ix_(rows, rows)] - turn_P[np.ix_(match[rows], match[rows])])
+    pairs = np.abs(turn_seen[np.ix_(rows, rows)] - turn_body[np.ix_(match[rows], match[rows])])
     agree = np.mean(np.median(pairs, axis=1) < AGREE_RAD) if len(rows) else 0.0
     if len(rows) < max(FEWEST, LEAST_AGREEING * len(H_CB)) or agree < LEAST_AGREEING:
         raise DisagreementError(
@@ -125,7 +125,7 @@ def _placed(H_OP: Array, H_CB: Array, agreed: park.Consensus) -> Array:
     return np.asarray(np.log1p((angle / (2 * ERROR_RAD)) ** 2 + (distance / ERROR_M) ** 2))
 
 
-def _aligned(own: Array, turn_C: Array | None, turn_P: Array | None) -> npt.NDArray[np.intp]:
+def _aligned(own: Array, turn_seen: Array | None, turn_body: Array | None) -> npt.NDArray[np.intp]:
     """The cheapest increasing match, -1 where a view is better left out.
 
     `own` (N, M) is the cost of view k at rest m; with the turns (N, N) and (M, M) that of consecutive views is added. best[k, m] is the
@@ -140,8 +140,8 @@ def _aligned(own: Array, turn_C: Array | None, turn_P: Array | None) -> npt.NDAr
         best[k] = own[k] + k * SKIPPED_VIEW + order * SKIPPED_REST
         for before in range(max(0, k - 4), k):
             step = between + (k - before - 1) * SKIPPED_VIEW
-            if turn_C is not None and turn_P is not None:
-                step = step + np.log1p(((turn_P - turn_C[before, k]) / ERROR_RAD) ** 2)
+            if turn_seen is not None and turn_body is not None:
+                step = step + np.log1p(((turn_body - turn_seen[before, k]) / ERROR_RAD) ** 2)
             through = np.where(later, best[before][:, None] + step, np.inf)
             cheapest = np.argmin(through, axis=0)
             cost = through[cheapest, order] + own[k]
