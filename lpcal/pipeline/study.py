@@ -87,10 +87,8 @@ def study(which: str, folder: Path, progress: Progress) -> Outcome:
     variants, places = (VARIANTS, ANGLES) if swept else (AMBIENTS, LEVELS)
     curves, rows = [], []
     for number, (name, conditions) in enumerate(variants.items()):
-        trials = [
-            trial(replace(conditions, **({"phase_deg": float(x)} if swept else {"ambient": float(x)})), plain=name.startswith(PLAIN))
-            for x in places
-        ]
+        at = [replace(conditions, phase_deg=float(x)) if swept else replace(conditions, ambient=float(x)) for x in places]
+        trials = [trial(one, plain=name.startswith(PLAIN)) for one in at]
         mean = np.array([one.mean for one in trials])
         median = np.array([one.median for one in trials])
         curves.append(Curve(name, places if swept else 255 * places, mean))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.observations import RawCapture
 
@@ -46,19 +46,20 @@ def capture(conditions: Conditions, seed: int) -> tuple[RawCapture, Array, Mask]
     """Images of the sphere with an ambient image, its normals (H, W, 3) at the pixels' centres, and its mask."""
     rng = np.random.default_rng(seed)
     offsets = (np.arange(OVERSAMPLING) + 0.5) / OVERSAMPLING - 0.5
-    lights, light_sum, room = ring(conditions), 0.0, 0.0
+    lights = ring(conditions)
+    room = np.zeros((conditions.pixels, conditions.pixels))
+    lit, full = np.zeros((len(lights), *room.shape)), 2**conditions.bits - 1
     for dx in offsets:
         for dy in offsets:
             n, on = _normals(conditions.pixels, dx, dy)
-            light_sum = light_sum + np.stack([np.maximum(n @ light.direction_C, 0) * on for light in lights]) / OVERSAMPLING**2
-            room = room + on / OVERSAMPLING**2
-    lit, full = np.asarray(light_sum), 2**conditions.bits - 1
+            lit += np.stack([np.maximum(n @ light.direction_C, 0) * on for light in lights]) / OVERSAMPLING**2
+            room += on / OVERSAMPLING**2
 
-    def stored(linear: Array) -> Array:
+    def stored(linear: Array) -> Image:
         noisy = linear + conditions.noise * rng.standard_normal(linear.shape)
-        return np.asarray(np.clip(np.rint(full * noisy), 0, full) / full, np.float32)
+        return (np.clip(np.rint(full * noisy), 0, full) / full).astype(np.float32)
 
-    dark = conditions.ambient * np.asarray(room)
+    dark = conditions.ambient * room
     images = stored(conditions.peak * lit / lit.max() + dark)
     n, on = _normals(conditions.pixels, 0.0, 0.0)
     mask = on & (np.hypot(n[..., 0], n[..., 1]) < RIM * (1 - 1.5 / conditions.pixels))

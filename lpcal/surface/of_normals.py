@@ -28,18 +28,7 @@ def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera |
     DegenerateError
         Too few pixels, or most normals look away from the camera.
     """
-    height, width = mask.shape
-    if camera is not None and (width, height) != tuple(camera.image_size):
-        raise DisagreementError(
-            f"normals of {width}x{height}",
-            where=name,
-            needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
-            todo="give the map of the whole image, or leave the calibration out",
-        )
-    if mask.sum() < FEWEST_PIXELS:
-        raise DegenerateError(
-            f"normals of {mask.sum()} pixels", where=name, needed=f"{FEWEST_PIXELS} at least", todo="check the map and the mask"
-        )
+    _check(name, mask, camera)
     rays_C = ray_map(mask.shape, camera)
     n = lambert.unit(normals_C[mask].astype(float))[0]
     away = float(np.mean(np.einsum("pi,pi->p", n, rays_C[mask]) >= 0))
@@ -78,3 +67,19 @@ def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera |
         figures={"pixels": len(n), "normals_away_from_the_camera": round(away, 4)},
         breaks=pieces.break_map(grid, weight, mask),
     )
+
+
+def _check(name: str, mask: Mask, camera: Camera | None) -> None:
+    """Refuse a map of another size than the camera's, or of too few pixels."""
+    height, width = mask.shape
+    if camera is not None and (width, height) != tuple(camera.image_size):
+        raise DisagreementError(
+            f"normals of {width}x{height}",
+            where=name,
+            needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
+            todo="give the map of the whole image, or leave the calibration out",
+        )
+    if mask.sum() < FEWEST_PIXELS:
+        raise DegenerateError(
+            f"normals of {mask.sum()} pixels", where=name, needed=f"{FEWEST_PIXELS} at least", todo="check the map and the mask"
+        )
