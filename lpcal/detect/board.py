@@ -21,10 +21,12 @@ from lpcal.detect.saddle import fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 3
+DETECTOR_VERSION = 4
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
+NARROW_PX, NARROW_BLURS, LEAST_NARROW_PX = 2.0, 3.0, 5
+"""Once the blur is known the window need not be wider than this and so many blurs: the lens bends the edges, the light slopes."""
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
 SATURATED = 0.996
@@ -110,6 +112,10 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
     share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
     light = image.astype(np.float32)
     saddles = fit_saddles(light, refine(light, rough, spacing, share), round(share * spacing))
+    wide = round(share * spacing)
+    narrow = round(float(np.clip(NARROW_PX + NARROW_BLURS * saddles.blur_px, LEAST_NARROW_PX, wide))) if saddles.blur_px > 0 else wide
+    if narrow < wide:
+        saddles = fit_saddles(light, refine(light, rough, spacing, narrow / spacing), narrow)
     refined, blur_px = saddles.corners_px, saddles.blur_px
     glare = _glare(image, refined)
     if board.kind == "charuco":
