@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pytest
 
+for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")  # as lpcal itself does, before numpy is imported
+
 REPOSITORY = Path(__file__).resolve().parent.parent
 
 
