@@ -12,7 +12,7 @@ from pathlib import Path
 
 README = Path(__file__).resolve().parent.parent / "README.md"
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
-NUMBER = re.compile(r"[-+]?\d+(?:[ .]\d+)*")
+NUMBER = re.compile(r"[-+]?\d+(?: \d{3}(?!\d))*(?:\.\d+)?")
 SKIPPED = "..."
 VARIES = re.compile(r"\d+(\.\d+)? s\b")
 
@@ -72,8 +72,11 @@ def alike(said: str, printed: str) -> bool:
     said, printed = VARIES.sub("# s", said.rstrip()), VARIES.sub("# s", printed.rstrip())
     if _words(said) != _words(printed):
         return False
-    pairs = zip(NUMBER.findall(said), NUMBER.findall(printed), strict=True)
-    return all(abs(_value(a) - _value(b)) <= max(0.35 * abs(_value(a)), 0.05, 2 * 10.0 ** -len(a.partition(".")[2])) for a, b in pairs)
+    one, other = NUMBER.findall(said), NUMBER.findall(printed)
+    pairs = zip(one, other, strict=False)
+    return len(one) == len(other) and all(
+        abs(_value(a) - _value(b)) <= max(0.35 * abs(_value(a)), 0.05, 2 * 10.0 ** -len(a.partition(".")[2])) for a, b in pairs
+    )
 
 
 def _words(line: str) -> str:
