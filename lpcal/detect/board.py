@@ -27,6 +27,8 @@ WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
 NARROW_PX, NARROW_BLURS, LEAST_NARROW_PX = 2.0, 3.0, 5
 """Once the blur is known the window need not be wider than this and so many blurs: the lens bends the edges, the light slopes."""
+COUNTED_PX, COUNT_REACH = 800, range(-3, 4)
+"""Another count is looked for in images of this size at most, so many corners more or fewer along each side."""
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
 SATURATED = 0.996
@@ -48,9 +50,22 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, _absent(grey, board))
 
 
-def count_corners(image: Image | Labels) -> tuple[int, int] | None:
-    """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows."""
+def count_corners(image: Image | Labels, near: tuple[int, int] | None = None) -> tuple[int, int] | None:
+    """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows.
+
+    Counts about `near` are tried one by one, and the largest grid that is found is the board; parts of it are found too.
+    """
+    import cv2
+
     grey = _stretched(image)
+    if near is not None:
+        size = min(1.0, COUNTED_PX / max(grey.shape))
+        small = grey if size == 1 else np.asarray(cv2.resize(grey, None, fx=size, fy=size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+        sides = {tuple(sorted((near[0] + a, near[1] + b), reverse=True)) for a in COUNT_REACH for b in COUNT_REACH}
+        counts = sorted((c for c in sides if c[1] > 2), key=lambda c: -c[0] * c[1])
+        found = next(((long, short) for long, short in counts if _classic(small, (long, short)) is not None), None)
+        if found is not None:
+            return found
     seen = any_grid(grey)
     rough = None if seen is None else _search(grey, seen[0])
     return None if seen is None or rough is None or any(beyond(grey, rough)) else seen[0]

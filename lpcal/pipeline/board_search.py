@@ -21,7 +21,7 @@ from lpcal.pipeline.workspace import Workspace
 from lpcal.records.observations import Board, BoardView, BoardViews
 from lpcal.records.outcome import Progress
 
-COUNTED_IMAGES = 6
+COUNTED_IMAGES = 3
 """So many of the images without a board are searched for a board of another count."""
 FEW = 0.5
 """A board found in fewer images than this is suspected to be another one."""
@@ -104,7 +104,11 @@ def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board
     if found >= FEW * len(images) and found > 0:
         return
     picks = [empty[k] for k in np.unique(np.linspace(0, len(empty) - 1, COUNTED_IMAGES).round().astype(int))]
-    others = [other for row in picks if (other := count_corners(_grey(images[row]))) is not None and set(other) != set(board.corners)]
+    others = [
+        other
+        for row in picks
+        if (other := count_corners(_grey(images[row]), board.corners)) is not None and set(other) != set(board.corners)
+    ]
     asked = f"{board.corners[0]}x{board.corners[1]}"
     if others and board.kind == "chessboard":
         (columns, rows), votes = Counter(others).most_common(1)[0]
