@@ -14,7 +14,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, plain, read_document, remove, sha256, whole, write_document, write_text
+from lpcal.formats.documents import Provenance, plain, read_document, sha256, whole, write_document, write_text
 
 PROVENANCE = Provenance(inputs={"stations.csv": "0" * 64}, options={"model": "auto"}, time="2026-01-01T00:00:00+00:00")
 
@@ -204,16 +204,6 @@ def test_a_file_that_is_not_what_was_asked_for(tmp_path: Path, content: bytes, t
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"camera\.yaml: no such file\n  needed: a camera file that lpcal wrote"):
         read_document(tmp_path / "camera.yaml", "camera")
-
-
-def test_remove_takes_the_link_and_not_what_it_leads_to(tmp_path: Path) -> None:
-    (tmp_path / "kept").mkdir()
-    (tmp_path / "link").symlink_to(tmp_path / "kept")
-    for name in ("link", "nothing"):
-        remove(tmp_path / name)
-    assert contents(tmp_path) == ["kept"]
-    remove(tmp_path / "kept")
-    assert contents(tmp_path) == []
 
 
 def test_sha256_is_the_files(tmp_path: Path) -> None:

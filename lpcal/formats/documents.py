@@ -168,11 +168,6 @@ def plain(value: Any) -> Any:
     return str(value) if isinstance(value, (Path, str)) else value
 
 
-def remove(path: Path) -> None:
-    """Remove a file or a folder if it is there."""
-    shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink(missing_ok=True)
-
-
 class _Dumper(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):  # type: ignore[misc]
     """Never an alias, and floats with all the digits they need and no more."""
 
