@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
 from lpcal.records.calibration import Camera

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+
 from lpcal.records.calibration import Calibration, Camera, Light, Lobe
 from lpcal.records.observations import RawCapture
 

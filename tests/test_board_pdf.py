@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.records.rig import BoardSection
 from lpcal.report.board_pdf import MARGIN_MM, choose_page, draw, yaml_line

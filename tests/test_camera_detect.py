@@ -5,11 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+
+from board_pictures import Pattern, Studio, exposed, poses
 from lpcal.detect.board import count_corners, find_board
 from lpcal.detect.board_grid import beyond, extended, first_square_is_black
 from lpcal.records.observations import Board
-
-from board_pictures import Pattern, Studio, exposed, poses
 
 STUDIO = Studio()
 VIEWS = 4

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+
 from lpcal.errors import InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, write_camera

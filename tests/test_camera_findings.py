@@ -7,6 +7,8 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+
+from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain.k_camera import patterns, solve_camera
 from lpcal.chain.k_camera.assess import assess, information, mean_sigma, ray_slope
 from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
@@ -22,8 +24,6 @@ from lpcal.geometry import se3
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Board, BoardView, BoardViews
-
-from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 
 STUDIO, BOARD = Studio(), Board((9, 6), (0.025, 0.025))
 TRUTH = np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *LENS])

@@ -11,6 +11,8 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+
+from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
@@ -18,8 +20,6 @@ from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3
 from lpcal.pipeline.intrinsics import STAGE
 from lpcal.pipeline.workspace import Workspace
-
-from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 
 type Run = Callable[..., tuple[int, str, str]]
 PATTERN, STUDIO = Pattern(bow_m=(0.0003, 0.0002)), Studio()

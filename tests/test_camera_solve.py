@@ -6,6 +6,8 @@ import importlib.util
 
 import numpy as np
 import pytest
+
+from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain import k_camera
 from lpcal.chain.h_cb_board import fit_board_pose
 from lpcal.chain.k_camera.bundle import lens_jacobian
@@ -19,8 +21,6 @@ from lpcal.geometry import se3
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Board, BoardView, BoardViews
-
-from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 
 STUDIO = Studio()
 BOWED = Pattern(bow_m=(0.0004, -0.0002))

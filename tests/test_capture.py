@@ -5,6 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.capture import read_capture
 

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from lpcal import __version__, errors
 from lpcal.cli import main as cli
 from lpcal.records.outcome import Outcome, Progress

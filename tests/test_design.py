@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+
 from lpcal.geometry.wing import d_object
 from lpcal.geometry.wing_design import settings_for
 

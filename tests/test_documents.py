@@ -13,6 +13,7 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
+
 from lpcal.errors import InputError
 from lpcal.formats.documents import Provenance, plain, read_document, sha256, whole, write_document, write_text
 

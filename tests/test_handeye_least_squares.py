@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
 from lpcal.geometry.least_squares import POSE, Block, Term, compile_residual, matrix, prior, small_rotation, solve

@@ -7,12 +7,12 @@ import re
 import numpy as np
 import pytest
 import yaml
-from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
-from lpcal.formats.pasted_transforms import both_ways, paste_lines, write_easy_handeye
-from lpcal.geometry import se3
 from scipy.spatial.transform import Rotation
 
 from handeye_scene import static_session
+from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
+from lpcal.formats.pasted_transforms import both_ways, paste_lines, write_easy_handeye
+from lpcal.geometry import se3
 
 FLOAT = r"-?\d+\.\d+"
 

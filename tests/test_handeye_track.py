@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from lpcal.geometry import se3
-from lpcal.geometry.pose_track import clean, poses_at
 
 from handeye_scene import Noise, moving_session, stop_and_shoot
+from lpcal.geometry import se3
+from lpcal.geometry.pose_track import clean, poses_at
 
 FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
 

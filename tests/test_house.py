@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from lpcal.cli.main import COMMANDS
 
 REPOSITORY = Path(__file__).resolve().parent.parent

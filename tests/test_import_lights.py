@@ -5,10 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from scipy.io import savemat
+
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
-from scipy.io import savemat
 
 
 def test_lp_is_turned_into_the_cameras_axes(tmp_path):

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights import refine
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance

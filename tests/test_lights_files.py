@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError

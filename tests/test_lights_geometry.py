@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
+
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
 from lpcal.chain.refine_lights import as_designed, refine
 from lpcal.chain.refine_lights.clicks import fit_with_clicks
@@ -14,7 +16,6 @@ from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.wing import d_object, wing_jacobian, wing_transform
 from lpcal.records.calibration import Camera, Wing, Wings
 from lpcal.records.observations import SphereView
-from scipy.optimize import minimize
 
 CAMERA = Camera((752, 480), "opencv5", np.array([[712.0, 0, 385], [0, 713, 231], [0, 0, 1]]), np.array([-0.3, 0.12, 0.0007, -0.0005, 0.0]))
 SETTING_SIGMA = np.array([np.radians(0.5), np.radians(1.0), 0.0005, 0.0005])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from lpcal.chain.h_op_body import body_of
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3

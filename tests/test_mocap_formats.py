@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap

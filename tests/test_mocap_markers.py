@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from lpcal.chain.h_pd_markers import h_pd_from_markers
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import rigid_fit, se3
@@ -66,6 +67,7 @@ def test_refusals():
 
 def test_rig_a(data):
     import yaml
+
     from lpcal.formats.mocap import read_mocap
     from lpcal.formats.panel_yaml import read_rig
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.mocap import read_mocap
 from lpcal.geometry import se3

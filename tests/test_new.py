@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from lpcal.formats.bundled import rig_names
 from lpcal.formats.panel_yaml import read_rig
 

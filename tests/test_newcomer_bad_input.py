@@ -7,6 +7,7 @@ import shutil
 import cv2
 import numpy as np
 import pytest
+
 from lpcal.errors import DisagreementError
 from lpcal.formats.bundled import folder as bundled_folder
 from lpcal.formats.capture import read_capture

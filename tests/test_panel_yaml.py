@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from lpcal.errors import InputError
 from lpcal.formats import panel_yaml
 from lpcal.records import quantities

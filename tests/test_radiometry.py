@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from lpcal.detect.radiometry import Sensor, fit_flat_field, noise_model, to_radiance
 from lpcal.errors import DegenerateError
 from lpcal.records.observations import RawCapture

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lpcal.formats.documents import Provenance, write_document
 
+from lpcal.formats.documents import Provenance, write_document
 from test_report_page import documents, plain
 
 

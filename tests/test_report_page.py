@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
 from lpcal.report.chain_sections import camera_section, handeye_section

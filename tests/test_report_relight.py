@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from lpcal.geometry import camera as central
 from lpcal.records.calibration import Calibration, Light, Lobe
 from lpcal.records.surface import Surface
@@ -19,7 +20,6 @@ from lpcal.report import relight_pack
 from lpcal.report.page import render as render_report
 from lpcal.report.relight_page import render
 from lpcal.report.rig_report import RigReport
-
 from test_report_page import documents, read, surface
 
 SIZE = (150, 200)

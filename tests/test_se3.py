@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from lpcal.geometry import se3
 
 ANGLES = [0.0, 1e-12, 1e-7, 1e-4, 1e-3, 0.3, 2.0, np.pi - 1e-3, np.pi - 1e-7]

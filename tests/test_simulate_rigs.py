@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+
 from lpcal.formats.bundled import folder, rig_file, rig_names
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 import yaml
+
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3, sphere
 from lpcal.pipeline.simulate import simulate

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
+from lit_scene import SIZE, Scene, calibration, draw, truth
 from lpcal.detect.exposures import ambient_notes, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
-
-from lit_scene import SIZE, Scene, calibration, draw, truth
 
 
 def overexposed():

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
+from lit_scene import SIZE, Scene, calibration, draw, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.capture import read_capture
@@ -13,8 +15,6 @@ from lpcal.formats.import_lights import read_lights
 from lpcal.records.surface import Surface
 from lpcal.surface import mesh, planes, shadow_anchor, sight
 from lpcal.surface.reconstruct import Options, reconstruct
-
-from lit_scene import SIZE, Scene, calibration, draw, truth
 
 
 def angle_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+
 from lpcal.geometry import lambert
 from lpcal.records.calibration import Light
 from lpcal.surface import gains, multigrid, normals, pieces
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.sight import Sight
-from scipy import sparse
-from scipy.sparse.linalg import spsolve
 
 
 @given(st.integers(0, 10_000))

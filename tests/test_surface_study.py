@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import cv2
 import numpy as np
+
 from lpcal.pipeline.study import AMBIENT_PEAK, PAPER, trial
 
 

@@ -25,6 +25,7 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
+from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain.k_camera import solve_camera
 from lpcal.chain.k_camera.assess import assess, information, ray_slope
 from lpcal.chain.k_camera.problem import CornerProblem
@@ -35,8 +36,6 @@ from lpcal.geometry import camera as central
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Board, BoardViews
-
-from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("LPCAL_DATA", REPOSITORY.parent / "shared" / "data"))

@@ -20,6 +20,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
+from handeye_scene import TYPICAL, Noise, Session, moving_session, static_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock
 from lpcal.chain.h_pc_handeye.camera_part import camera_prior
@@ -28,8 +29,6 @@ from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.pose_track import poses_at
-
-from handeye_scene import TYPICAL, Noise, Session, moving_session, static_session
 
 SCENARIOS = {
     "30 static, +-25 deg": lambda rng: static_session(rng, 30, 25.0),

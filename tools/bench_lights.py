@@ -16,7 +16,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 from lpcal.chain.refine_lights.clicks import fit_with_clicks
 from lpcal.chain.refine_lights.geometry_fit import fit_geometry
 from lpcal.chain.refine_lights.measure import measure_centre
-
 from test_lights_geometry import CAMERA, DRAWN, Scene
 
 NAMES = [wing.name for wing in DRAWN]

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.formats.capture import read_capture
 from lpcal.formats.import_lights import read_lights

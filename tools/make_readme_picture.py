@@ -11,6 +11,7 @@ import numpy as np
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
+
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.documents import read_document
 from lpcal.formats.surface_files import read_surface

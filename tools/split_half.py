@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
 from lpcal.errors import LpcalError
