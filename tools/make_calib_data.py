@@ -5,10 +5,10 @@ uv run python tools/make_calib_data.py [FOLDER]
 
 from __future__ import annotations
 
+import shutil
 import sys
 from pathlib import Path
 
-from lpcal.formats.documents import remove
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.pipeline.simulate import simulate
 from lpcal.simulate.recipe import Recipe
@@ -21,7 +21,7 @@ RECIPE = Recipe(seed=20260105, image_size=(480, 320), stations=24, sweep_frames=
 def main() -> None:
     """Write the folder, and say how large it is."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else REPOSITORY / "calib_data" / "demo_rig"
-    remove(folder)
+    shutil.rmtree(folder, ignore_errors=True)
     outcome = simulate(read_rig(RIG), folder, RECIPE, lambda what, done, total: print(f"{what} {done}/{total}"))
     print(outcome.summary[0])
     for kind in ("png", "csv", "npz"):

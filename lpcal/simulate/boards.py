@@ -4,7 +4,8 @@ Symbols: o_B, d_B a ray in B; u, v in -1..1 over the corners; the board's surfac
 
     z_B(x, y) = bow (m - 0.7 u^2 - 0.3 v^2 + twist u v)
 
-Light on it is soft and uneven. Sixteen samples a pixel are blurred before they are summed.
+Light on it is soft and uneven. Sixteen samples a pixel are blurred before they are summed; each is the mean of the print over its own
+small square, or edges would stand in steps of a quarter of a pixel.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ OVERSAMPLING = 4
 WHITE, BLACK, BACKGROUND = 0.55, 0.045, 0.05
 TEXELS = 40
 """Of a charuco board's square."""
+FINER = 3
+"""Places a side of a sample's square at which a charuco board is read."""
 
 
 @dataclass(frozen=True)
@@ -107,14 +110,18 @@ def backdrop(image_size: tuple[int, int], rng: np.random.Generator) -> Array:
 
 
 def _chessboard(section: BoardSection) -> Callable[[Array, Array], Array]:
-    """Squares; the one outside the first corner is black."""
+    """Squares; the one outside the first corner is black. Samples that an edge crosses are grey by their shares of it."""
     nx, ny = section.corners
 
+    def wave(x: Array) -> Array:
+        """1 and -1 in turn from square to square, with slopes one sample wide."""
+        width = np.hypot(np.gradient(x, axis=0), np.gradient(x, axis=1))
+        to_edge = np.abs(np.remainder(x + 0.5, 1) - 0.5)
+        return np.where(np.remainder(np.floor(x), 2) == 0, 1.0, -1.0) * np.minimum(2 * to_edge / np.maximum(width, 1e-12), 1)
+
     def albedo(i: Array, j: Array) -> Array:
-        column, row = np.floor(i) + 1, np.floor(j) + 1
-        printed = (column >= 0) & (column <= nx) & (row >= 0) & (row <= ny)
-        even = np.abs(np.remainder(column + row, 2)) < 0.5
-        return np.where(printed & even, BLACK, WHITE)
+        printed = (i > -1) & (i < nx) & (j > -1) & (j < ny)
+        return np.where(printed, WHITE + (BLACK - WHITE) * (1 + wave(i) * wave(j)) / 2, WHITE)
 
     return albedo
 
@@ -131,9 +138,15 @@ def _charuco(section: BoardSection) -> Callable[[Array, Array], Array]:
     )
     texture = np.where(np.asarray(drawn) > 127, WHITE, BLACK)
 
-    def albedo(i: Array, j: Array) -> Array:
+    def read(i: Array, j: Array) -> Array:
         column, row = np.floor((i + 1) * TEXELS).astype(int), np.floor((j + 1) * TEXELS).astype(int)
         printed = (column >= 0) & (column < texture.shape[1]) & (row >= 0) & (row < texture.shape[0])
         return np.where(printed, texture[np.clip(row, 0, texture.shape[0] - 1), np.clip(column, 0, texture.shape[1] - 1)], WHITE)
+
+    def albedo(i: Array, j: Array) -> Array:
+        (i_down, i_across), (j_down, j_across) = np.gradient(i), np.gradient(j)
+        offset = (np.arange(FINER) + 0.5) / FINER - 0.5
+        places = [(i + a * i_across + b * i_down, j + a * j_across + b * j_down) for a in offset for b in offset]
+        return np.asarray(np.mean([read(*place) for place in places], axis=0))
 
     return albedo
