@@ -1,7 +1,20 @@
-"""``python -m lpcal``."""
+"""``lpcal`` and ``python -m lpcal``: nothing is imported before Ctrl-C is caught."""
 
 import sys
 
-from lpcal.cli.main import main
+INTERRUPTED = 130
 
-sys.exit(main())
+
+def run() -> int:
+    """Run the command line; the exit code is the contract's."""
+    try:
+        from lpcal.cli.main import main
+
+        return main()
+    except KeyboardInterrupt:
+        sys.stderr.write("lpcal: interrupted; nothing half-written was kept\n")
+        return INTERRUPTED
+
+
+if __name__ == "__main__":
+    sys.exit(run())

@@ -178,3 +178,15 @@ def test_python_m_lpcal() -> None:
     found = subprocess.run([sys.executable, "-m", "lpcal", "nonsense"], capture_output=True, text=True, check=False)
     assert found.returncode == 2
     assert "invalid choice: 'nonsense'" in found.stderr
+
+
+def test_an_interrupt_while_the_command_line_is_being_imported() -> None:
+    program = (
+        "import sys, types\n"
+        "class Finder:\n    def find_spec(self, name, path, target=None):\n        if name == 'lpcal.cli.main': raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Finder())\n"
+        "from lpcal.__main__ import run\n"
+        "sys.exit(run())\n"
+    )
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (found.returncode, found.stderr) == (130, "lpcal: interrupted; nothing half-written was kept\n")
