@@ -15,11 +15,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.errors import DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.geometry.pose_track import PoseTrack, poses_at
+from lpcal.geometry.pose_track import PoseTrack
 
 REACH_S = 60.0
 """Clocks further apart than this, beyond what their ranges overlap, are not compared."""
@@ -29,7 +30,10 @@ ERROR_RAD = 0.01
 """Scale of the robust cost: angles of two views agree better than this at the right offset."""
 CANDIDATES = 4
 MOST_LAGS = 400_000
-MOST_PAIRS = 600
+MOST_PAIRS, SOME_PAIRS = 600, 150
+"""Pairs that are compared near a likely offset, and those that find it."""
+LEAST_INSIDE = 0.3
+"""Share of the pairs that must fall into the recording."""
 PLATEAU = 1.3
 
 
@@ -65,30 +69,64 @@ def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[
             needed=f"recordings of the same minutes, their clocks within {REACH_S:.0f} s",
             todo="pair the right files, or state the offset: mocap.clock_offset",
         )
-    i, j = _pairs(t_camera_s)
-    angle = se3.angle_rad(H_CB[i, :3, :3] @ np.swapaxes(H_CB[j, :3, :3], 1, 2))
-    tried = [_scan(track, t_camera_s[i], t_camera_s[j], angle, *_range(track, t_camera_s), STEP_S)]
-    lags, costs = tried[0]
-    best = [k for k in _minima(costs) if np.isfinite(costs[k])][:CANDIDATES]
+    scan = _Scan.of(track, t_camera_s, H_CB)
+    lags = np.arange(*_range(track, t_camera_s), STEP_S)[:MOST_LAGS]
+    costs = scan.costs(lags, SOME_PAIRS)
     found = []
-    for k in best:
-        fine_lags, fine = _scan(track, t_camera_s[i], t_camera_s[j], angle, lags[k] - 2 * STEP_S, lags[k] + 2 * STEP_S, STEP_S / 20)
+    for k in _minima(costs)[:CANDIDATES]:
+        fine_lags = lags[k] + np.linspace(-2, 2, 81) * STEP_S
+        fine = scan.costs(fine_lags, MOST_PAIRS)
+        if not np.isfinite(fine).any():
+            continue
         centre = int(np.nanargmin(fine))
         offset, width = _plateau(lags, costs, k, float(fine_lags[centre]), float(fine[centre]))
         found.append(OffsetCandidate(offset, float(fine[centre]), width))
     return sorted(found, key=lambda candidate: candidate.cost)
 
 
-def refine_offset(
-    track: PoseTrack, t_camera_s: Array, H_CB: Array, H_PC: Array, H_OB: Array, start_s: float, reach_s: float = 0.05
-) -> float:
-    """The offset near a start that makes the median misplacement of the board least, H_PC and H_OB held."""
-    lags = start_s + np.linspace(-reach_s, reach_s, 41)
-    costs = []
-    for lag in lags:
-        H_OB_k = poses_at(track, t_camera_s - lag).H @ H_PC @ H_CB
-        costs.append(np.median(np.linalg.norm(H_OB_k[:, :3, 3] - H_OB[:3, 3], axis=1)))
-    return float(lags[int(np.argmin(costs))])
+@dataclass(frozen=True)
+class _Scan:
+    """The pairs of views, and the track's rotations as they are asked for at each offset."""
+
+    track: PoseTrack
+    q_OP: Array
+    """(S, 4) of the track's samples, neighbours on one half of the sphere."""
+    t_camera_s: Array
+    pairs: npt.NDArray[np.intp]
+    """(2, P) the views of each pair, in random order."""
+    angle_rad: Array
+    """(P,) by which the board turned from one to the other."""
+
+    @classmethod
+    def of(cls, track: PoseTrack, t_camera_s: Array, H_CB: Array) -> _Scan:
+        """All that does not depend on the offset."""
+        q = se3.quaternion(track.H[:, :3, :3])
+        q *= np.concatenate([[1.0], np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0))])[:, None]
+        i, j = pairs = _pairs(t_camera_s)
+        return cls(track, q, t_camera_s, pairs, se3.angle_rad(H_CB[i, :3, :3] @ np.swapaxes(H_CB[j, :3, :3], 1, 2)))
+
+    def costs(self, lags: Array, most: int) -> Array:
+        """Mean robust disagreement (L,) of up to `most` pairs at offsets (L,), NaN where too few pairs fall into the recording."""
+        (i, j), angle = self.pairs[:, :most], self.angle_rad[:most]
+        costs = np.full(len(lags), np.nan)
+        for chunk in np.array_split(np.arange(len(lags)), max(1, len(lags) * len(angle) // 100_000)):
+            q, inside = self._rotations(self.t_camera_s[None] - lags[chunk, None])
+            found = 2 * np.arccos(np.minimum(np.abs(np.einsum("lpc,lpc->lp", q[:, i], q[:, j])), 1))
+            both = inside[:, i] & inside[:, j]
+            robust = np.log1p(((found - angle) / ERROR_RAD) ** 2)
+            count = both.sum(axis=1)
+            mean = np.sum(np.where(both, robust, 0), axis=1) / np.maximum(count, 1)
+            costs[chunk] = np.where(count >= LEAST_INSIDE * len(angle), mean, np.nan)
+        return costs
+
+    def _rotations(self, t: Array) -> tuple[Array, Mask]:
+        """Interpolated unit quaternions (..., 4) at times (...), and whether they lie in a run."""
+        t_s, run = self.track.t_s, self.track.run
+        at = np.clip(np.searchsorted(t_s, t), 1, len(t_s) - 1)
+        share = np.clip((t - t_s[at - 1]) / (t_s[at] - t_s[at - 1]), 0, 1)[..., None]
+        mixed = (1 - share) * self.q_OP[at - 1] + share * self.q_OP[at]
+        inside = (t >= t_s[0]) & (t <= t_s[-1]) & (run[at] == run[at - 1])
+        return mixed / np.sqrt(np.einsum("...c,...c->...", mixed, mixed))[..., None], inside
 
 
 def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:
@@ -100,39 +138,11 @@ def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _pairs(t_camera_s: Array) -> tuple[Array, Array]:
+def _pairs(t_camera_s: Array) -> npt.NDArray[np.intp]:
     order = np.argsort(t_camera_s)
     pairs = [(order[k], order[k + stride]) for stride in PAIR_STRIDES for k in range(len(order) - stride)]
     keep = np.random.default_rng(0).permutation(len(pairs))[:MOST_PAIRS]
-    i, j = np.array(pairs)[keep].T
-    return i, j
-
-
-def _scan(track: PoseTrack, t_i: Array, t_j: Array, angle: Array, low: float, high: float, step: float) -> tuple[Array, Array]:
-    """Mean robust disagreement (L,) at offsets (L,), NaN where too few pairs fall into the recording."""
-    lags = np.arange(low, high + step, step)[:MOST_LAGS]
-    q = se3.quaternion(track.H[:, :3, :3])
-    q *= np.concatenate([[1.0], np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0))])[:, None]
-    costs = np.full(len(lags), np.nan)
-    for chunk in np.array_split(np.arange(len(lags)), max(1, len(lags) * len(angle) // 400_000)):
-        q_i, ok_i = _quaternions(track, q, t_i[None] - lags[chunk, None])
-        q_j, ok_j = _quaternions(track, q, t_j[None] - lags[chunk, None])
-        found = 2 * np.arccos(np.clip(np.abs(np.sum(q_i * q_j, axis=-1)), 0, 1))
-        both = ok_i & ok_j
-        robust = np.log1p(((found - angle) / ERROR_RAD) ** 2)
-        count = both.sum(axis=1)
-        mean = np.sum(np.where(both, robust, 0), axis=1) / np.maximum(count, 1)
-        costs[chunk] = np.where(count >= 0.3 * len(angle), mean, np.nan)
-    return lags, costs
-
-
-def _quaternions(track: PoseTrack, q: Array, t: Array) -> tuple[Array, Mask]:
-    """Interpolated unit quaternions (..., 4) at times (...), and whether they lie in a run."""
-    at = np.clip(np.searchsorted(track.t_s, t), 1, len(track.t_s) - 1)
-    share = np.clip((t - track.t_s[at - 1]) / (track.t_s[at] - track.t_s[at - 1]), 0, 1)[..., None]
-    mixed = (1 - share) * q[at - 1] + share * q[at]
-    inside = (t >= track.t_s[0]) & (t <= track.t_s[-1]) & (track.run[at] == track.run[at - 1])
-    return mixed / np.linalg.norm(mixed, axis=-1, keepdims=True), inside
+    return np.array(pairs, dtype=np.intp)[keep].T
 
 
 def _minima(costs: Array) -> list[int]:
