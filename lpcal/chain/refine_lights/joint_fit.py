@@ -190,11 +190,7 @@ class _Problem:
         return [self._light(k, blocks) for k in range(len(self.names))]
 
     def _light(self, k: int, blocks: dict[str, Block]) -> Light:
-        mode = self.leds[k]
-        leds = _cluster_of(
-            Cluster(mode), blocks["dome"].value[self.mode[k]], float(blocks["roll"].value[k, 0]), blocks[f"led{mode}"].value[k]
-        )
-        H_CL = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])
+        leds, H_CL = self._leds(k, blocks), self._frame(k, blocks)
         source_L = np.array([0.0, 0.0, blocks["dome"].value[self.mode[k], 0]])
         return Light(
             name=self.names[k],
@@ -241,25 +237,37 @@ class _Problem:
         return replace(light, direction_C=light.field(focus_C[None])[0][0], source_C=source_C)
 
     def _derivatives(self, blocks: dict[str, Block], parts: list[str], focus_C: Array) -> Array:
-        """(L, 7, P): origin of H_CL, direction and log irradiance at the focus, by the parameters."""
-
-        def figures(trial: dict[str, Block]) -> Array:
-            rows = []
-            for light in self.lights_of(trial):
-                d_C, irradiance = light.field(focus_C[None])
-                assert light.H_CL is not None
-                rows.append([*light.H_CL[:3, 3], *d_C[0], float(np.log(irradiance[0, 0]))])
-            return np.array(rows)
-
-        now, columns = figures(blocks), []
-        for name in parts:
-            block = blocks[name]
-            for item in range(block.count):
+        """(L, 7, P): origin of H_CL, direction and log irradiance at the focus, by the parameters, those of one light in its rows only."""
+        start = dict(zip(parts, np.cumsum([0, *(blocks[name].count * blocks[name].size for name in parts)]), strict=False))
+        J = np.zeros((len(self.names), 7, sum(blocks[name].count * blocks[name].size for name in parts)))
+        for k, leds in enumerate(self.leds):
+            now = self._figures(k, blocks, focus_C)
+            own = {"H_CD": 0, "setting": self.wing[k], "dome": self.mode[k], "roll": k, "intensity": k, f"led{leds}": k}
+            for name, item in own.items():
+                block = blocks[name]
                 for axis in range(block.size):
                     step = np.zeros((block.count, block.size))
                     step[item, axis] = STEP
-                    columns.append((figures(blocks | {name: block.moved(step)}) - now) / STEP)
-        return np.stack(columns, axis=-1)
+                    moved = self._figures(k, blocks | {name: block.moved(step)}, focus_C)
+                    J[k, :, start[name] + item * block.size + axis] = (moved - now) / STEP
+        return J
+
+    def _figures(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Array:
+        """(7,) of one light: origin of H_CL, direction and log irradiance at the focus."""
+        H_CL, leds = self._frame(k, blocks), self._leds(k, blocks)
+        x_L = se3.apply(se3.inv(H_CL), focus_C[None])
+        d_L, irradiance = led_cluster.cluster_field(x_L, leds.position_L, leds.axis_L, leds.power, leds.exponent)
+        level = np.log(irradiance) + blocks["intensity"].value[k]
+        return np.concatenate([H_CL[:3, 3], se3.rotate(H_CL, d_L)[0], level])
+
+    def _frame(self, k: int, blocks: dict[str, Block]) -> Array:
+        H_CL: Array = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])
+        return H_CL
+
+    def _leds(self, k: int, blocks: dict[str, Block]) -> LedCluster:
+        mode = self.leds[k]
+        dome, led = blocks["dome"].value[self.mode[k]], blocks[f"led{mode}"].value[k]
+        return _cluster_of(Cluster(mode), dome, float(blocks["roll"].value[k, 0]), led)
 
     def _misses(self, lights: Sequence[Light], centres_C: Array) -> dict[tuple[str, str], float]:
         misses = {}
@@ -279,8 +287,8 @@ def _axis_level(cluster: Cluster) -> float:
 
 
 def _cluster_of(cluster: Cluster, dome: Array, roll: float, led: Array) -> LedCluster:
-    axes = cluster.axes_of(roll, led)
-    return LedCluster(np.array([0.0, 0.0, dome[0]]) + dome[1] * axes, axes, np.exp(led[::3]) / _axis_level(cluster), cluster.exponent)
+    stands, axes = cluster.axes_of(roll, led)
+    return LedCluster(np.array([0.0, 0.0, dome[0]]) + dome[1] * stands, axes, np.exp(led[::3]) / _axis_level(cluster), cluster.exponent)
 
 
 def _mean_lobe(leds: LedCluster) -> Array:

@@ -1,7 +1,8 @@
 r"""Lights as the sum of their LEDs: geometry, roll, power and tilt of every LED, intensities and albedos in one problem.
 
-Symbols: LED i of light k stands at ``[0, 0, h] + R a_i`` in L, emits along a_i with power p_i; its nominal axis is turned by the blob's
-roll and by two small tilts; dome height h and radius R are one for all blobs of a mode. Block b of matte sphere s, ray u, point P::
+Symbols: LED i of light k stands at ``[0, 0, h] + R o_i`` in L with its nominal direction o_i turned by the blob's roll, and emits with power
+p_i along a_i, which is o_i but for two small tilts: the dome holds the LED, its die sits askew. Dome height h and radius R are one for all
+blobs of a mode. Block b of matte sphere s, ray u, point P::
 
     r = [log data - log I_k - log rho_s - delta_b - log c - log sum_i p_i cos^m(a_i, P - x_i) (n . d_i) / |P - x_i|^2] / sigma
 
@@ -44,14 +45,15 @@ class Cluster:
         """Of one LED's lobe."""
         return led_cluster.exponent(led_cluster.HALF_POWER_RAD)
 
-    def axes_of(self, roll: float, led: Array) -> Array:
-        """Axes (n, 3) after roll and tilts; led (3 n,) as log power, tilt, tilt of each."""
+    def axes_of(self, roll: float, led: Array) -> tuple[Array, Array]:
+        """Directions (n, 3) in which the LEDs stand on the dome, and axes (n, 3); led (3 n,) as log power, tilt, tilt of each."""
         tilt = led.reshape(-1, 3)[:, 1:]
         e1, e2 = _across(self.axes)
         turned = self.axes + tilt[:, :1] * e1 + tilt[:, 1:] * e2
         turned /= np.linalg.norm(turned, axis=1, keepdims=True)
         c, s = np.cos(roll), np.sin(roll)
-        return np.asarray(turned @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]))
+        by_roll = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+        return self.axes @ by_roll, turned @ by_roll
 
     def symbolic(self, roll: Any, led: Any, dome: Any) -> list[tuple[Any, Any, Any]]:
         """(place in L, axis in L, power) of each LED in casadi's terms."""
@@ -63,8 +65,8 @@ class Cluster:
         found = []
         for i, axis in enumerate(self.axes):
             turned = ca.DM(axis) + led[3 * i + 1] * ca.DM(e1[i]) + led[3 * i + 2] * ca.DM(e2[i])
-            a = R @ (turned / ca.norm_2(turned))
-            found.append((ca.vertcat(0, 0, dome[0]) + dome[1] * a, a, ca.exp(led[3 * i])))
+            place = ca.vertcat(0, 0, dome[0]) + dome[1] * (R @ ca.DM(axis))
+            found.append((place, R @ (turned / ca.norm_2(turned)), ca.exp(led[3 * i])))
         return found
 
 
@@ -142,7 +144,7 @@ def scan_roll(cluster: Cluster, angle_rad: Array, around_rad: Array, log_lobe: A
     nothing = np.zeros(3 * cluster.leds)
     misfits = []
     for roll in ROLLS_RAD:
-        lobe = np.sum(np.maximum(direction @ cluster.axes_of(roll, nothing).T, 1e-6) ** cluster.exponent, axis=1)
+        lobe = np.sum(np.maximum(direction @ cluster.axes_of(roll, nothing)[1].T, 1e-6) ** cluster.exponent, axis=1)
         misfits.append(np.var(log_lobe - np.log(lobe)))
     return float(ROLLS_RAD[int(np.argmin(misfits))])
 
