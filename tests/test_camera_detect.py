@@ -39,6 +39,21 @@ def test_corners_are_where_they_are(rays: np.ndarray, blur: float, noise: float,
     assert np.abs(np.mean(errors, axis=(0, 1))).max() < 0.01
 
 
+def test_white_that_spreads_over_black_moves_no_corner(rays: np.ndarray) -> None:
+    """A sensor that is not linear parts edges of opposite sense by a third of a pixel here; what is found must not follow the window."""
+    pattern, errors = Pattern(), {"edges": [], "opencv": []}
+    for k, H_CB in enumerate(poses(VIEWS, 3)):
+        light = np.clip(STUDIO.picture(H_CB, pattern, blur=0.8, rays=rays), 0, None)
+        image = exposed(np.clip(0.9 * light, 0, 1) ** 0.35, k)
+        for fit, found in errors.items():
+            view = find_board(image, Board(pattern.corners, pattern.square_m, corner_fit=fit))
+            assert view.corners_px is not None, view.why
+            found.append(view.corners_px - STUDIO.project(H_CB, pattern.points()))
+    edges, opencv = (np.sqrt(np.mean(np.square(found))) for found in errors.values())
+    assert edges < 0.035
+    assert edges < opencv
+
+
 @pytest.mark.parametrize("kind", ["16 bit", "float", "dim"])
 def test_other_numbers_give_the_same_corners(rays: np.ndarray, kind: str) -> None:
     pattern, H_CB = Pattern(), poses(1, 5)[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -92,7 +93,7 @@ def test_both_solvers_find_the_same(model: str) -> None:
 
 
 def test_a_lens_that_needs_k3_gets_it() -> None:
-    lens = np.array([-0.3, 0.15, 0.0, 0.0, -0.1])
+    lens = np.array([-0.3, 0.15, 0.0, 0.0, -0.2])
     studio = Studio(lens=lens)
     solution = k_camera.solve_camera(corner_views(24, sigma_px=0.02, studio=studio), BOARD)
     assert solution.camera.model in {"opencv5", "opencv8"}
@@ -219,6 +220,36 @@ def test_a_splined_lens_projects_where_the_lens_does() -> None:
     error, _ = projection_difference(pixels, central.unproject(pixels, K, LENS), camera.project)
     assert np.sqrt(np.mean(np.sum(error**2, axis=1))) < 0.25
     np.testing.assert_allclose(camera.project(camera.unproject(pixels)), pixels, atol=1e-6)
+
+
+def rippled(px: np.ndarray) -> np.ndarray:
+    """Half a pixel of waves that no polynomial of a lens follows."""
+    x, y = np.moveaxis((px - np.array(STUDIO.size) / 2) / 200, -1, 0)
+    return np.asarray(px + 0.5 * np.stack([np.sin(5 * x) * np.cos(4 * y), np.cos(6 * x + 1) * np.sin(5 * y)], axis=-1))
+
+
+@mrcal_only
+def test_a_lens_that_no_polynomial_follows_is_splined_and_says_how_sure() -> None:
+    views = corner_views(40, pattern=Pattern())
+    waves = replace(views, views=tuple(replace(view, corners_px=rippled(np.asarray(view.corners_px))) for view in views.views))
+    solution = k_camera.solve_camera(waves, BOARD)
+    assert solution.camera.model == "splined"
+    said = solution.evidence["projection_uncertainty"]
+    assert isinstance(said, dict)
+    assert np.all(np.isfinite(said["worst_direction_std_px"]))
+    pixels = pixel_grid(STUDIO.size, 12, 9)
+    pixels = pixels[np.all(np.abs(pixels - np.array(STUDIO.size) / 2) < 0.3 * np.array(STUDIO.size), axis=1)]
+    rays_C = central.unproject(pixels, K, LENS)
+    spline, polynomial = (
+        np.sqrt(np.mean((projection_difference(rippled(pixels), rays_C, camera.project)[0]) ** 2))
+        for camera in (solution.camera, k_camera.solve_camera(waves, BOARD, model="opencv8").camera)
+    )
+    assert spline < 0.5 * polynomial
+
+
+@mrcal_only
+def test_a_lens_that_a_polynomial_follows_is_not_splined() -> None:
+    assert k_camera.solve_camera(corner_views(24), BOARD).camera.model != "splined"
 
 
 def test_own_solver_leaves_the_poses_consistent() -> None:

@@ -38,8 +38,8 @@ class BoardPose:
     """A coordinate, over the inliers."""
 
 
-def fit_board_pose(corners_px: Array, points_B: Array, camera: Camera, sigma_px: float) -> BoardPose:
-    """Pose of the board from corners_px (M, 2), NaN where not seen, and points_B (M, 3).
+def fit_board_pose(corners_px: Array, points_B: Array, camera: Camera, sigma_px: float, H_CB: Array | None = None) -> BoardPose:
+    """Pose of the board from corners_px (M, 2), NaN where not seen, and points_B (M, 3); from H_CB where it is known about.
 
     Corners off by more than five sigmas (of `sigma_px`, or of the view's own scatter where that is larger) are left out, one pass.
 
@@ -51,7 +51,8 @@ def fit_board_pose(corners_px: Array, points_B: Array, camera: Camera, sigma_px:
     seen = np.isfinite(corners_px).all(axis=1)
     if seen.sum() < FEWEST_CORNERS or np.linalg.matrix_rank(points_B[seen, :2] - points_B[seen, :2].mean(axis=0), tol=1e-6) < 2:
         raise DegenerateError(f"{int(seen.sum())} corners, all on a line or too few", needed=f"{FEWEST_CORNERS} corners of the board")
-    H_CB = _best_pose(corners_px[seen], points_B[seen], camera)
+    if H_CB is None:
+        H_CB = _best_pose(corners_px[seen], points_B[seen], camera)
     inlier = seen.copy()
     for _ in range(3):
         error = np.full(len(seen), np.inf)

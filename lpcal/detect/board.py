@@ -1,9 +1,10 @@
 """The board's inner corners in an image, to a few hundredths of a pixel, in the board's own order.
 
 Symbols: corner (i, j) of nx along x and ny along y, row j * nx + i of the result; spacing s, the distance of neighbouring corners in
-pixels. Two detectors of OpenCV find the grid, the quads of the classic one first (it is faster and finds more on distorted lenses),
-the sector-based one (SB) where it fails; neither is exact, so every corner is refined to the saddle of its window, whose half side is
-0.4 s, and then to where two blurred edges fitted to that window cross (`saddle`).
+pixels. Two detectors of OpenCV find the grid: the quads of the classic one first (it is faster and finds more on distorted lenses), unless the
+squares are small, and the sector-based one (SB) where it fails. Neither is exact, so every corner is refined to the saddle of its window,
+whose half side is 0.4 s, and then, unless the board asks for OpenCV's corners, to where two blurred edges fitted to that window cross
+(`saddle`).
 Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
 
 The order: x to y turns clockwise as seen (z of B points away from the camera); of the ends that are left, the one whose outer square is
@@ -21,16 +22,20 @@ from lpcal.detect.saddle import fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 4
+DETECTOR_VERSION = 5
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
 NARROW_PX, NARROW_BLURS, LEAST_NARROW_PX = 2.0, 3.0, 5
 """Once the blur is known the window need not be wider than this and so many blurs: the lens bends the edges, the light slopes."""
+SAMPLED = 24
+"""The blur is first learnt from so many corners."""
 COUNTED_PX, COUNT_REACH = 800, range(-3, 4)
 """Another count is looked for in images of this size at most, so many corners more or fewer along each side."""
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
+FINE_PX = 60
+"""Where a board that filled the image would have smaller squares, the classic detector's quads grow together: SB goes first."""
 SATURATED = 0.996
 """Of full scale: as bright as an image gets."""
 SMALL_SPACING_PX = 5.0
@@ -91,6 +96,8 @@ def _search(grey: Labels, corners: tuple[int, int]) -> Array | None:
     import cv2
 
     passes = [(1.0, _classic), (1.0, _sector_based)]
+    if np.sqrt(grey.size / np.prod(corners)) < FINE_PX:
+        passes.reverse()
     if max(grey.shape) > LARGE_PX:
         passes = [(0.5, _classic), (0.5, _sector_based), *passes]
     elif cv2.checkChessboard(grey, corners):
@@ -126,12 +133,13 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
         )
     share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
     light = image.astype(np.float32)
-    saddles = fit_saddles(light, refine(light, rough, spacing, share), round(share * spacing))
     wide = round(share * spacing)
-    narrow = round(float(np.clip(NARROW_PX + NARROW_BLURS * saddles.blur_px, LEAST_NARROW_PX, wide))) if saddles.blur_px > 0 else wide
-    if narrow < wide:
-        saddles = fit_saddles(light, refine(light, rough, spacing, narrow / spacing), narrow)
-    refined, blur_px = saddles.corners_px, saddles.blur_px
+    start = refine(light, rough, spacing, share)
+    blur_px = fit_saddles(light, start, wide, every=max(1, rough[..., 0].size // SAMPLED)).blur_px
+    narrow = round(float(np.clip(NARROW_PX + NARROW_BLURS * blur_px, LEAST_NARROW_PX, wide))) if blur_px > 0 else wide
+    refined = start
+    if board.corner_fit == "edges":
+        refined = fit_saddles(light, refine(light, rough, spacing, narrow / spacing) if narrow < wide else start, narrow).corners_px
     glare = _glare(image, refined)
     if board.kind == "charuco":
         return BoardView(name, refined.reshape(-1, 2), blur_px=blur_px, glare=glare)

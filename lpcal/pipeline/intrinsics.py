@@ -77,7 +77,9 @@ def board_of(section: BoardSection | None) -> Board | None:
     if section is None:
         return None
     marker_m = float("nan") if section.marker is None else section.marker
-    return Board(section.corners, section.square, section.warp == "auto", section.kind, marker_m, section.dictionary or "")
+    return Board(
+        section.corners, section.square, section.warp == "auto", section.kind, marker_m, section.dictionary or "", section.corner_fit
+    )
 
 
 def camera_images(workspace: Workspace) -> list[Path]:
@@ -110,7 +112,7 @@ def board_poses(views: BoardViews, solution: CameraSolution, progress: Progress)
             left_out[view.image] = view.why or "no board found"
             continue
         try:
-            pose = fit_board_pose(view.corners_px, solution.points_B, solution.camera, sigma_px)
+            pose = fit_board_pose(view.corners_px, solution.points_B, solution.camera, sigma_px, solution.H_CB.get(view.image))
         except (DegenerateError, np.linalg.LinAlgError) as error:
             left_out[view.image] = f"no pose: {error}"
             continue

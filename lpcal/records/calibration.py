@@ -124,6 +124,8 @@ class CameraSolution:
     warnings: tuple[str, ...] = ()
     cameramodel: str = ""
     """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
+    H_CB: dict[str, Array] = field(default_factory=dict)
+    """The board in the images that were used, by image, as the solve has it."""
 
 
 @dataclass(frozen=True)
@@ -206,6 +208,8 @@ class Lobe:
     leds: LedCluster | None = None
     node_rad: Array = field(default_factory=lambda: np.zeros(0))
     factor: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    seen_rad: float = float("nan")
+    """Largest angle from the axis at which spheres showed this light: beyond it the lobe is extrapolated. NaN: not known."""
 
     def __call__(self, angle_rad: Array) -> Array:
         """Relative intensity (...) at angles (...) from the axis."""
@@ -236,6 +240,12 @@ class Light:
     position_std_m: float = float("nan")
     direction_std_rad: float = float("nan")
     intensity_std: float = float("nan")
+
+    def extrapolated(self, x_C: Array) -> Mask:
+        """Whether points x_C (..., 3) lie in directions from which no sphere showed the light."""
+        if self.source_C is None or self.axis_C is None or np.isnan(self.lobe.seen_rad):
+            return np.zeros(x_C.shape[:-1], dtype=bool)
+        return np.asarray(light_field.near_light(x_C, self.source_C, self.axis_C)[2] > self.lobe.seen_rad)
 
     def field(self, x_C: Array) -> tuple[Array, Array]:
         """Unit vectors to the light (..., 3) and irradiance (..., C) of surfaces that face it at points x_C (..., 3)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -26,6 +27,8 @@ class Board:
     """Charuco: side of a marker."""
     dictionary: str = ""
     """Charuco: OpenCV's name of the markers' dictionary."""
+    corner_fit: str = "edges"
+    """edges: where two blurred edges cross; opencv: cornerSubPix, as other tools refine, for figures that compare with theirs."""
 
     def points_B(self) -> Array:
         """Corners (ny*nx, 3) in B, of a flat board."""
@@ -172,6 +175,16 @@ class Radiance:
     """(H, W[, 3]) the shorter exposures, linear, ambient taken away; scaled only where their exposure is stated."""
     mask: Mask | None = None
     notes: tuple[str, ...] = ()
+    dark: tuple[str, ...] = ()
+    """Lights that lift nothing over its noise."""
+
+    def of(self, lights: Sequence[str]) -> Radiance:
+        """Some of the lights."""
+        rows = [self.lights.index(light) for light in lights]
+        short = {light: image for light, image in self.short.items() if light in lights}
+        return replace(
+            self, lights=tuple(lights), signal=self.signal[rows], sigma=self.sigma[rows], saturated=self.saturated[rows], short=short
+        )
 
 
 @dataclass(frozen=True)
@@ -190,3 +203,5 @@ class SphereView:
     highlight_sigma_px: dict[str, float] = field(default_factory=dict)
     shading: Radiance | None = None
     """Matte: the linear images."""
+    notes: tuple[str, ...] = ()
+    """What of it could not be used, in words."""

@@ -64,6 +64,7 @@ class BoardSection(Section):
     corners: tuple[Count, Count]
     square: tuple[Size, Size]
     warp: Literal["auto", "none"] = "auto"
+    corner_fit: Literal["edges", "opencv"] = "edges"
     marker: Size | None = None
     dictionary: str | None = None
 
@@ -131,6 +132,8 @@ class LightSection(Section):
     disc_spacer: Length | None = None
     blob_spacer: Length | None = None
     leds: int | None = Field(default=None, gt=0)
+    lobe: str | None = None
+    """A maker's photometric file, .ies or .ldt, where it is no blob of LEDs."""
 
     @property
     def is_wing(self) -> bool:
@@ -143,6 +146,9 @@ class LightSection(Section):
         lacking = [key for key, value in setting.items() if value is None]
         if 0 < len(lacking) < len(setting):
             msg = f"a wing without {', '.join(lacking)}; all of {', '.join(setting)}, or none"
+            raise ValueError(msg)
+        if self.leds is not None and self.lobe is not None:
+            msg = "leds and lobe, where one of them says how the light emits"
             raise ValueError(msg)
         return self
 

@@ -9,16 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from importlib.util import find_spec
 
 import numpy as np
 
+from lpcal.chain.k_camera import patterns
 from lpcal.chain.k_camera.choice import FEWEST_VIEWS as FEWEST_TO_CHOOSE
-from lpcal.chain.k_camera.choice import Candidate, choose
+from lpcal.chain.k_camera.choice import Candidate, better_of, choose
 from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
 from lpcal.chain.k_camera.refit import find_shape, refit
-from lpcal.chain.k_camera.settle import FEWEST_VIEWS, settle
+from lpcal.chain.k_camera.settle import FEWEST_VIEWS, settle, settled
 from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Array
@@ -27,6 +29,8 @@ from lpcal.records.observations import Board, BoardViews
 
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
 """Of a focal length, or of the image's width for the principal point: a sigma above is refused, warned of."""
+SPLINE_SHARE = 0.5
+"""A splined lens is tried where the residuals keep a pattern in the image of more than this share of a corner's sigma."""
 
 
 def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver: str = "auto") -> CameraSolution:
@@ -61,11 +65,19 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         raise InputError(f"a splined lens needs mrcal; {missing}", where="camera.model", todo="install mrcal, or use opencv8")
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
     problem, judged = CornerProblem(board, views.image_size, corners_px), solve
+    start = None
     if model != "splined":
         start = solve(problem, "opencv4", BOARDS[board.warp])
         problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
     chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], board.warp)
-    fit, left_out = settle(problem, solve, chosen)
+    fit, left_out = settle(problem, solve, chosen, start)
+    left = patterns.on_image(fit)
+    if model == "auto" and name == "mrcal" and left.seen(fit.sigma_px) and left.size_px > SPLINE_SHARE * fit.sigma_px:
+        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", chosen.board))
+        tried = [*(one for one in tried if one != chosen), *ranked]
+        if ranked[0].model == "splined":
+            chosen = ranked[0]
+            fit, left_out = settle(problem, solve, chosen)
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     doubts = refuse_degenerate(fit)
     kept = problem.part(np.array([row not in left_out for row in range(len(corners_px))]))
@@ -79,6 +91,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         evidence=_evidence(chosen, tried, fit, board) | figures,
         warnings=(*((missing,) if missing else ()), *doubts, *unmodelled, *blurred_or_glaring(views.views)),
         cameramodel=fit.cameramodel() if fit.cameramodel else "",
+        H_CB={views.views[index].image: H_CB for index, H_CB in zip(found, fit.H_CB, strict=True)},
     )
 
 

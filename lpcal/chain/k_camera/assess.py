@@ -21,6 +21,7 @@ from lpcal.chain.k_camera.shape import shape_terms
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid
+from lpcal.geometry.hull import inside_hull
 
 COLUMNS, ROWS = 12, 8
 """Of the grid over the imager."""
@@ -76,7 +77,7 @@ def assess(known: Information, fit: CameraFit) -> Sureness:
     slope = ray_slope(known, pixels, fit)
     total = known.views.sum(axis=0)
     worst = worst_direction(slope, known.covariance(total))
-    covered = _in_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
+    covered = inside_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
     judged = covered if covered.any() else np.ones(len(pixels), dtype=bool)
     usual = float(np.median(worst[judged]))
     mean = mean_sigma(slope[judged], known.covariance(total))
@@ -89,6 +90,17 @@ def assess(known: Information, fit: CameraFit) -> Sureness:
         trusted=(worst < TRUSTED * usual).reshape(shape),
         gain=np.array(without) / mean,
     )
+
+
+def assess_spline(fit: CameraFit) -> Sureness:
+    """Sureness over the imager as the solver itself tells it; what each view is worth is not known."""
+    assert fit.uncertainty is not None
+    pixels = pixel_grid(fit.camera.image_size, COLUMNS, ROWS)
+    worst = fit.uncertainty(pixels)
+    covered = inside_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
+    trusted = worst < TRUSTED * float(np.median(worst[covered] if covered.any() else worst))
+    shape = (ROWS, COLUMNS)
+    return Sureness(pixels.reshape(*shape, 2), worst.reshape(shape), covered.reshape(shape), trusted.reshape(shape), np.zeros(0))
 
 
 def ray_slope(known: Information, pixels: Array, fit: CameraFit) -> Array:
@@ -108,13 +120,3 @@ def worst_direction(slope: Array, covariance: Array) -> Array:
 def mean_sigma(slope: Array, covariance: Array) -> float:
     """Root of the mean variance over the pixels, both directions added."""
     return float(np.sqrt(np.mean(np.trace(slope @ covariance @ np.swapaxes(slope, 1, 2), axis1=1, axis2=2))))
-
-
-def _in_hull(pixels: Array, corners_px: Array) -> Mask:
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        sides = ConvexHull(corners_px).equations
-    except (QhullError, ValueError):
-        return np.zeros(len(pixels), dtype=bool)
-    return np.asarray(np.all(pixels @ sides[:, :2].T + sides[:, 2] <= 0, axis=1))

@@ -8,7 +8,7 @@ two cameras over the part of the imager that corners cover, rms over it and over
     expected^2 = variance + bias^2
 
 The residual always falls with more parameters; halves always agree better with fewer, also where they agree on what is wrong: a bowed
-board taken as flat bends both alike. A candidate with more parameters must be better by MARGIN.
+board taken as flat bends both alike. A candidate with more parameters must be better by a margin.
 Sources: cross-validation as in mrcal's documentation; the variance of the difference of a richer and a poorer estimate, Hausman 1978.
 """
 
@@ -19,14 +19,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lpcal.chain.k_camera import patterns
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver
 from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import LpcalError
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
+from lpcal.geometry.hull import inside_hull
 from lpcal.records.calibration import Camera
 
 MARGIN = 0.95
+"""More parameters must be better by this."""
+SIGNIFICANT = 16.0
+"""And a lens must fit better by this chi-square, four sigmas: halves of the views tell what to expect to a tenth or so only, and a lens
+that bends in the image's corners, where no board was, costs more than it gains."""
 FEWEST_VIEWS = 8
 """Halves of fewer views than this, together, decide nothing."""
 
@@ -41,6 +47,8 @@ class Candidate:
     """Difference between halves of the views; NaN: not tried."""
     expected_px: float = float("nan")
     """Expected difference from the truth, rms."""
+    fit_chi2: float = float("inf")
+    """n log(sum of squares) of the n residuals of all views: differences are chi-square of the parameters more, the noise unknown."""
 
     @property
     def rank(self) -> int:
@@ -61,12 +69,27 @@ def choose(problem: CornerProblem, solver: Solver, models: Sequence[str], may_wa
     usual = boards[min(2, len(boards) - 1)]
     trials = {(model, usual): _Trial(problem, solver, model, usual, pixels) for model in models}
     lenses = _with_expectation(list(trials.values()), pixels)
-    lens = _better(lenses)
+    lens = _better(lenses, SIGNIFICANT)
     if len(boards) == 1:
         return lens, lenses
     kinds = [trials.get((lens.model, board)) or _Trial(problem, solver, lens.model, board, pixels) for board in boards]
     sheets = _with_expectation(kinds, pixels)
     return _better(sheets), [*(one for one in lenses if one.model != lens.model), *sheets]
+
+
+def better_of(problem: CornerProblem, first: tuple[Solver, str, str], second: tuple[Solver, str, str]) -> list[Candidate]:
+    """Two candidates (solver, model, board), the better one ahead; the second, of hundreds of parameters, must earn them.
+
+    A splined lens is held at its rim by regularisation, the same in both halves, so what the two are apart is no measure of the first's
+    bias: that is what its residuals keep in common over the image.
+    """
+    pixels = covered_pixels(problem)
+    scored = []
+    for one in (first, second):
+        trial = _Trial(problem, *one, pixels)
+        bias_px = patterns.on_image(trial.fit).size_px if trial.fit is not None else float("inf")
+        scored.append(replace(trial.candidate, expected_px=float(np.hypot(trial.candidate.score_px / 2, bias_px))))
+    return scored if _better(scored, SIGNIFICANT) is scored[0] else scored[::-1]
 
 
 class _Trial:
@@ -78,11 +101,18 @@ class _Trial:
         try:
             self.fit = solver(problem, model, board)
             fitting = np.where(self.fit.inlier[..., None], problem.corners_px, np.nan)
-            known = replace(problem, corners_px=fitting, camera=self.fit.camera, H_CB=self.fit.H_CB)
+            known = replace(problem, corners_px=fitting)
+            if self.fit.camera.spline is None:
+                known = replace(known, camera=self.fit.camera, H_CB=self.fit.H_CB)
             score = cross_validate(known, solver, model, board, pixels)
         except (LpcalError, np.linalg.LinAlgError):
             pass
-        self.candidate = Candidate(model, board, score)
+        self.candidate = Candidate(model, board, score, fit_chi2=float("inf") if self.fit is None else _chi2(self.fit))
+
+
+def _chi2(fit: CameraFit) -> float:
+    left = fit.residual_px[fit.inlier]
+    return float(left.size * np.log(np.mean(left**2)))
 
 
 def _with_expectation(trials: Sequence[_Trial], pixels: Array) -> list[Candidate]:
@@ -105,11 +135,12 @@ def _with_expectation(trials: Sequence[_Trial], pixels: Array) -> list[Candidate
     return found
 
 
-def _better(candidates: Sequence[Candidate]) -> Candidate:
+def _better(candidates: Sequence[Candidate], significant: float = -np.inf) -> Candidate:
     """The least expected difference from the truth, but more parameters must earn themselves."""
     chosen, *others = sorted(candidates, key=lambda c: c.rank)
     for candidate in others:
-        if candidate.expected_px < MARGIN * chosen.expected_px:
+        gain = chosen.fit_chi2 - candidate.fit_chi2
+        if candidate.expected_px < MARGIN * chosen.expected_px and gain > significant:
             chosen = candidate
     return chosen
 
@@ -141,9 +172,5 @@ def splits(count: int) -> list[Mask]:
 
 def covered_pixels(problem: CornerProblem) -> Array:
     """Pixels (N, 2) of a grid over the imager, inside the hull of all corners."""
-    from scipy.spatial import ConvexHull
-
-    corners_px = problem.corners_px[np.isfinite(problem.corners_px).all(axis=-1)]
-    sides = ConvexHull(corners_px).equations
     grid = pixel_grid(problem.image_size)
-    return grid[np.all(grid @ sides[:, :2].T + sides[:, 2] <= 0, axis=1)]
+    return grid[inside_hull(grid, problem.corners_px[np.isfinite(problem.corners_px).all(axis=-1)])]

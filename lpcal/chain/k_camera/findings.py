@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.k_camera import patterns
-from lpcal.chain.k_camera.assess import Sureness, assess, information
+from lpcal.chain.k_camera.assess import Sureness, assess, assess_spline, information
 from lpcal.chain.k_camera.independent import check
 from lpcal.chain.k_camera.next_view import WORTH_SAYING, advise
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
@@ -37,7 +37,9 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
         "residual_pattern": {where: {"size_px": one.size_px, "z": one.z} for where, one in left.items()},
     }
     warnings = [*_unmodelled(left, fit), *_odd_size(problem, fit)]
-    if fit.camera.spline is not None or fit.camera.covariance is None:
+    if fit.uncertainty is not None:
+        return figures | {"projection_uncertainty": _uncertainty(assess_spline(fit))}, warnings
+    if fit.camera.covariance is None:
         return figures | {"projection_uncertainty": None}, warnings
     known = information(problem, fit)
     sure = assess(known, fit)
@@ -132,9 +134,9 @@ def _unmodelled(left: dict[str, patterns.Pattern], fit: CameraFit) -> list[str]:
             "it is bent in another way, or printed unevenly; a stiffer board (glass, aluminium) would help"
         )
     if left["image"].seen(fit.sigma_px):
+        richer = "a richer lens (model: opencv8 or splined) may" if fit.camera.spline is None else "the lens bends within a knot's distance"
         said.append(
-            f"the residuals keep a pattern of {left['image'].size_px:.3f} px in the image that {fit.camera.model} cannot explain: "
-            "a richer lens (model: opencv8 or splined) may"
+            f"the residuals keep a pattern of {left['image'].size_px:.3f} px in the image that {fit.camera.model} cannot explain: {richer}"
         )
     return said
 

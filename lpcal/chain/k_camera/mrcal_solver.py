@@ -31,7 +31,7 @@ FOCAL_GUESSES = (0.9, 0.5, 1.8, 3.6)
 """In units of the image's width; the first that leads to a fit under GOOD_START is taken."""
 GOOD_START = 0.01
 """rms of a start without distortion, in units of the image's width."""
-SPLINE_PX = 90
+SPLINE_PX = 60
 """About so many pixels between the knots of a splined lens."""
 
 
@@ -186,9 +186,19 @@ def _fit(problem: CornerProblem, model: str, inputs: dict[str, Any]) -> CameraFi
         mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0).write(stream)
         return stream.getvalue()
 
+    def uncertainty(pixels: Array) -> Array:
+        with silenced():
+            lens = mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0)
+            worst_px = mrcal.projection_uncertainty(
+                camera.unproject(pixels), lens, atinfinity=True, what="worstdirection-stdev", observed_pixel_uncertainty=sigma_px
+            )
+        return np.nan_to_num(worst_px, nan=problem.image_size[0], posinf=problem.image_size[0])
+
     bow = inputs["calobject_warp"]
     shape = {} if bow is None else {name: (float(value), float("nan")) for name, value in zip(("bow_x_m", "bow_y_m"), bow, strict=True)}
-    return CameraFit(camera, H_CB, points_B, inlier, residual_px, sigma_px, BOARDS[bool(shape)], shape, text)
+    return CameraFit(
+        camera, H_CB, points_B, inlier, residual_px, sigma_px, BOARDS[bool(shape)], shape, text, None if names else uncertainty
+    )
 
 
 def _geometry(problem: CornerProblem, inputs: dict[str, Any]) -> tuple[Array, Array]:

@@ -63,6 +63,8 @@ class CameraFit:
     """The numbers of the board's terms, each with its sigma (NaN where the solver does not tell)."""
     cameramodel: Callable[[], str] | None = None
     """The text of a .cameramodel with the optimisation inputs, where the solver has them."""
+    uncertainty: Callable[[Array], Array] | None = None
+    """The worst direction's sigma (N,) in px at pixels (N, 2) by the solver itself, for lenses of which no covariance is kept."""
 
 
 type Solver = Callable[[CornerProblem, str, str], CameraFit]

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.k_camera.choice import Candidate
-from lpcal.chain.k_camera.problem import CameraFit, CornerProblem, Solver
+from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver
 from lpcal.chain.k_camera.refit import refit
 from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.geometry import se3
@@ -23,31 +23,40 @@ from lpcal.geometry import se3
 WORST_SHARE = 0.5
 """A view of which more corners than this are rejected is not used."""
 FEWEST_VIEWS = 3
+RICHEST = "opencv8"
+"""The lens under which the board's shape is found for a splined one."""
 
 
-def settle(problem: CornerProblem, solver: Solver, chosen: Candidate) -> tuple[CameraFit, dict[int, str]]:
-    """The fit, and the rows of views that were left out of it because most of their corners do not fit."""
-    fit = _solve(problem, solver, chosen)
+def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: CameraFit | None = None) -> tuple[CameraFit, dict[int, str]]:
+    """The fit, and the rows of views that were left out of it because most of their corners do not fit.
+
+    `start` is the solver's fit from which the choice was made: where it is what was chosen, it is not solved again.
+    """
+    known = start is not None and (start.camera.model, start.board) == (chosen.model, chosen.board)
+    fit = start if start is not None and known else settled(problem, chosen.model, chosen.board, solver)
     seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
     rejected = seen - fit.inlier.sum(axis=1)
     bad = rejected > WORST_SHARE * seen
     if bad.any() and (~bad).sum() >= FEWEST_VIEWS:
-        fit = _solve(problem.part(~bad), solver, chosen)
+        fit = settled(problem.part(~bad), chosen.model, chosen.board, solver)
     else:
         bad[:] = False
     return fit, {int(row): f"{rejected[row]} of {seen[row]} corners do not fit" for row in np.flatnonzero(bad)}
 
 
-def _solve(problem: CornerProblem, solver: Solver, chosen: Candidate) -> CameraFit:
-    if chosen.board in BOARDS[:2]:
-        return solver(problem, chosen.model, chosen.board)
-    shaped = refit(problem, chosen.model, chosen.board)
+def settled(problem: CornerProblem, model: str, board: str, solver: Solver) -> CameraFit:
+    """The solver's fit, with what it does not know of the board's shape found by `refit`."""
+    if board in BOARDS[:2]:
+        return solver(problem, model, board)
+    lens = model if model in DISTORTIONS else RICHEST
+    shaped = refit(problem, lens, board)
     if solver is refit:
         return shaped
-    bowed = refit(problem, chosen.model, BOARDS[1])
+    bowed = refit(problem, lens, BOARDS[1])
     taken_out = shaped.camera.project(se3.apply(shaped.H_CB, shaped.points_B)) - shaped.camera.project(
         se3.apply(shaped.H_CB, bowed.points_B)
     )
-    fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), chosen.model, BOARDS[1])
-    camera = replace(fit.camera, covariance=shaped.camera.covariance)
-    return replace(fit, camera=camera, points_B=shaped.points_B, sigma_px=shaped.sigma_px, board=shaped.board, shape=shaped.shape)
+    fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), model, BOARDS[1])
+    if model == lens:
+        fit = replace(fit, camera=replace(fit.camera, covariance=shaped.camera.covariance), sigma_px=shaped.sigma_px)
+    return replace(fit, points_B=shaped.points_B, board=shaped.board, shape=shaped.shape)
