@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 from lpcal.records.outcome import Outcome, Progress
@@ -24,9 +25,15 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
     calibration = read_calibration(options.calibration)
     x_C = read_points(options.points)
-    fields = {}
+    fields, warnings = {}, []
     for done, light in enumerate(calibration.lights, start=1):
         fields[light.name] = light.field(x_C)
+        if (beyond := int(light.extrapolated(x_C).sum())) > 0:
+            seen_deg = math.degrees(light.lobe.seen_rad)
+            warnings.append(
+                f"{light.name}: extrapolated at {beyond} points, more than {seen_deg:.1f} deg from its axis: no sphere was there"
+            )
         progress("lights", done, len(calibration.lights))
     write_field(options.output, x_C, fields)
-    return Outcome([f"{options.output}: {len(calibration.lights)} lights at {len(x_C)} points"], {"file": str(options.output)})
+    summary = [f"{options.output}: {len(calibration.lights)} lights at {len(x_C)} points"]
+    return Outcome(summary, {"file": str(options.output)}, warnings=warnings)

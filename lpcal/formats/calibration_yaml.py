@@ -10,7 +10,8 @@ see `records.calibration.FlatField`), and for a splined camera ``camera.lensmode
 - ``{kind: table, angle_deg: [...], value: [...], node_deg: [...], factor: [[...]]}``: monotone cubic through the table, 1 on the axis, 0
   beyond its last angle
 
-with the angle t between the light's axis and the ray from its source. `factor`, if there, multiplies it: bilinear between nodes at
+with the angle t between the light's axis and the ray from its source. ``seen_deg``, if there, is the largest angle at which spheres showed
+the light: beyond it the lobe is extrapolated. `factor`, if there, multiplies it: bilinear between nodes at
 (t sin f, t cos f), f the angle about the axis from the x of the light's frame.
 """
 
@@ -88,23 +89,25 @@ def light_document(light: Light) -> dict[str, Any]:
 
 def lobe_document(lobe: Lobe) -> dict[str, Any]:
     """A lobe as it is written."""
+    seen = {} if np.isnan(lobe.seen_rad) else {"seen_deg": float(np.degrees(lobe.seen_rad).round(3))}
     if lobe.kind == "cosine":
         return {"kind": "cosine", "exponent": lobe.exponent}
     if lobe.kind == "table":
         table = {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
         factor = {"node_deg": np.degrees(lobe.node_rad).round(4), "factor": lobe.factor.round(5)} if lobe.node_rad.size else {}
-        return table | factor
+        return table | factor | seen
     if lobe.leds is not None:
         leds = {"exponent": lobe.leds.exponent, "position_m": lobe.leds.position_L.round(7), "axis": lobe.leds.axis_L.round(7)}
         table = {"angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
-        return {"kind": "leds", **leds, "power": lobe.leds.power.round(7), **table}
+        return {"kind": "leds", **leds, "power": lobe.leds.power.round(7), **table, **seen}
     return {"kind": lobe.kind}
 
 
 def lobe_from_document(entry: dict[str, Any]) -> Lobe:
     """A lobe as it was written."""
     if entry["kind"] in {"table", "leds"}:
-        lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"))
+        seen_rad = np.radians(float(entry.get("seen_deg", np.nan)))
+        lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"), seen_rad=seen_rad)
         if entry.get("node_deg"):
             nodes = np.radians(_numbers(entry, "node_deg"))
             return replace(lobe, node_rad=nodes, factor=_numbers(entry, "factor", nodes.size, nodes.size))

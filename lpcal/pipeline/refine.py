@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from lpcal.chain.refine_lights import refine
+from lpcal.detect.exposures import ambient_notes, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import read_capture
 from lpcal.formats.lights_yaml import KIND, write_lights
+from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.sensor import flat_field_path, has_lens, sensor_of_camera, sensor_of_panel
 from lpcal.pipeline.workspace import Stage, Workspace
-from lpcal.records.calibration import Camera, LightsSolution
-from lpcal.records.observations import SphereView
+from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
+from lpcal.records.observations import Radiance, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
 
@@ -39,6 +42,7 @@ def inputs(workspace: Workspace) -> list[Path]:
     found += [workspace.calib(wings_stage.FILE)] if wings_stage.wanted(workspace) else []
     flat = flat_field_path(workspace)
     found += [flat] if flat and not has_lens(workspace) else []
+    found += [path for _, path in _lobe_files(workspace)]
     for name, sphere in workspace.rig_file.rig.spheres.items():
         folder = workspace.path(sphere.images, f"spheres.{name}.images")
         found += sorted(path for path in folder.iterdir() if path.is_file())
@@ -51,14 +55,14 @@ def settings(workspace: Workspace) -> dict[str, Any]:
     levels = rig.camera.model_dump(include={"black_level", "white_level", "gamma"}) if rig.camera else {}
     return {
         "spheres": {name: sphere.model_dump() for name, sphere in rig.spheres.items()},
-        "lights": list(rig.lights),
+        "lights": {name: light.lobe for name, light in rig.lights.items()},
         "intensity": rig.panel.tolerance.intensity if rig.panel else None,
         "levels": levels,
     }
 
 
 def run(workspace: Workspace, progress: Progress) -> Outcome:
-    """Write lights.yaml."""
+    """Write lights.yaml; a bad sphere of several is named and left out, and the exit code is its error's."""
     lights = list(workspace.need("lights"))
     spheres: dict[str, SphereSection] = workspace.need("spheres")
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
@@ -66,35 +70,43 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     sensor = sensor_of_camera(camera) if camera else sensor_of_panel(workspace)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
     views: list[SphereView] = []
-    warnings: list[str] = []
+    notes: list[str] = []
+    bad: dict[str, LpcalError] = {}
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
+        radiance, told = _radiance(workspace, name, section, lights, sensor, camera)
+        notes += told
         try:
-            views.append(_observe(workspace, name, section, lights, sensor, camera, distance_m, warnings))
-        except DegenerateError as error:
+            hint = None if section.hint is None else np.array(section.hint)
+            views.append(observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera))
+            notes += views[-1].notes
+        except (DegenerateError, DisagreementError) as error:
             if len(spheres) == 1:
                 raise
-            warnings.append(f"left out: {error}")
+            bad[name] = error
     progress("spheres", len(spheres), len(spheres))
     panel = workspace.rig_file.rig.panel
     solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5)
+    left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
+    solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings))
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
-        summary=summary_of(solution, among=len(spheres)),
+        summary=summary_of(solution),
         document={
             "file": str(workspace.calib(FILE)),
             "lights": {light.name: light.direction_C for light in solution.lights},
             "evidence": solution.evidence,
         },
-        warnings=[*warnings, *solution.warnings],
+        warnings=[*(f"left out: {error}" for error in bad.values()), *solution.warnings],
         next_command="lpcal export",
+        exit_code=next((error.exit_code for error in bad.values()), 0),
     )
 
 
-def summary_of(solution: LightsSolution, *, among: int | None = None) -> list[str]:
-    """A line a light, and what it rests on; `among`: the spheres of the rig, those that could not be read included."""
+def summary_of(solution: LightsSolution) -> list[str]:
+    """A line a light, and what it rests on."""
     used = [sphere for sphere in solution.spheres if sphere.used]
-    lines = [f"{len(solution.lights)} lights from {len(used)} of {among or len(solution.spheres)} spheres"]
+    lines = [f"{len(solution.lights)} lights from {len(used)} of {len(solution.spheres)} spheres"]
     for light in solution.lights:
         seen = any(sphere.used and sphere.kind == "matte" for sphere in solution.spheres)
         intensity = "intensity " + " ".join(f"{value:.3f}" for value in light.intensity) if seen else "intensity not measured"
@@ -108,26 +120,25 @@ def summary_of(solution: LightsSolution, *, among: int | None = None) -> list[st
     return lines
 
 
-def _observe(
-    workspace: Workspace,
-    name: str,
-    section: SphereSection,
-    lights: list[str],
-    sensor: Sensor,
-    camera: Camera | None,
-    distance_m: tuple[float, float] | None,
-    warnings: list[str],
-) -> SphereView:
+def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:
+    """Lights whose maker says how they emit, and the file."""
+    lights = workspace.rig_file.rig.lights
+    return [(name, workspace.path(light.lobe, f"lights.{name}.lobe")) for name, light in lights.items() if light.lobe]
+
+
+def _radiance(
+    workspace: Workspace, name: str, section: SphereSection, lights: list[str], sensor: Sensor, camera: Camera | None
+) -> tuple[Radiance, list[str]]:
+    """The linear images of a sphere, and what is to be said of them."""
     if camera is not None and section.radius is None:
         raise InputError(
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
-    folder = workspace.path(section.images, f"spheres.{name}.images")
-    raw = read_capture(folder, lights, name=name)
-    warnings += [f"{name}: left out: {image} is no light's" for image in raw.left_out]
-    radiance = to_radiance(raw, sensor)
-    hint = None if section.hint is None else np.array(section.hint)
-    return observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
+    raw = read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
+    plain = to_radiance(raw, sensor)
+    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_notes(plain, raw, sensor))
+    radiance = with_short_exposures(plain, raw, sensor) if section.kind == "matte" else plain
+    return radiance, [f"sphere {name}: {note}" for note in told]
 
 
 def _numbers(values: Any, digits: int) -> str:

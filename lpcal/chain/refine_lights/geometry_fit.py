@@ -24,7 +24,7 @@ from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projectio
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
-from lpcal.geometry.least_squares import POSE, Block, Options, Solution, Term, compile_residual, prior, solve
+from lpcal.geometry.least_squares import POSE, Block, Options, Solution, Term, compile_residual, independent_prior, prior, solve
 from lpcal.geometry.wing import wing_jacobian, wing_transform
 from lpcal.records.calibration import Camera, Wings
 from lpcal.records.observations import SphereView
@@ -53,6 +53,8 @@ class GeometryFit:
     frame_covariance: Array
     """(L, 6, 6) of the left perturbation of H_CL, NaN for a free light."""
     settings: Array
+    """(W, 4)."""
+    settings_std: Array
     """(W, 4)."""
     H_CD: Array | None
     source_offset_m: dict[int, float]
@@ -118,27 +120,17 @@ class _Problem:
 
     def terms(self) -> list[Term]:
         blocks = self.blocks()
-        terms = [
-            self._outlines(),
-            *(
-                prior("bias", blocks["bias"], np.array([mean]), np.array([[sigma**2]]), k)
-                for k, (mean, sigma) in enumerate(BIAS_PX[kind] for kind in KINDS)
-            ),
-        ]
+        bias = np.array([BIAS_PX[kind] for kind in KINDS])
+        terms = [self._outlines(), independent_prior("bias", bias[:, :1], bias[:, 1:])]
         if self.wings is not None:
-            terms.append(prior("H_CD", blocks["H_CD"], self.wings.H_CD, self.wings.H_CD_covariance))
+            offset = np.full((len(self.modes), 1), SOURCE_OFFSET_M)
             terms += [
-                prior("setting", blocks["setting"], row, np.diag(self.wings.setting_sigma**2), k)
-                for k, row in enumerate(settings_of(self.wings))
-            ]
-            terms += [
-                prior("offset", blocks["offset"], np.array([SOURCE_OFFSET_M]), np.array([[SOURCE_OFFSET_SIGMA_M**2]]), k)
-                for k in range(len(self.modes))
+                prior("H_CD", blocks["H_CD"], self.wings.H_CD, self.wings.H_CD_covariance),
+                independent_prior("setting", settings_of(self.wings), self.wings.setting_sigma),
+                independent_prior("offset", offset, np.array([SOURCE_OFFSET_SIGMA_M])),
             ]
         if self.free:
-            terms += [
-                prior("source", blocks["source"], start, FREE_SIGMA_M**2 * np.eye(3), k) for k, start in enumerate(blocks["source"].value)
-            ]
+            terms.append(independent_prior("source", blocks["source"].value, np.array([FREE_SIGMA_M] * 3)))
         terms += [term for term in (self._wing_highlights(), self._free_highlights()) if term is not None]
         return terms
 
@@ -222,6 +214,7 @@ class _Problem:
             H_CL=np.array(H_CL),
             frame_covariance=np.array(by_frame),
             settings=solution["setting"] if "setting" in names else np.zeros((0, 4)),
+            settings_std=np.sqrt(np.diag(solution.covariance("setting"))).reshape(-1, 4) if "setting" in names else np.zeros((0, 4)),
             H_CD=solution["H_CD"][0] if "H_CD" in names else None,
             source_offset_m={mode: float(solution["offset"][k, 0]) for k, mode in enumerate(self.modes)},
             centres_C=solution["centre"],

@@ -47,6 +47,10 @@ class JointFit:
     direction_std_rad: Array
     intensity_std: Array
     """(L,) of the relative irradiance at the focus."""
+    source_C: Array
+    """(L, 3) middles of the blobs' domes."""
+    source_covariance: Array
+    """(3 L, 3 L), joint."""
 
 
 def can_fit(views: Sequence[SphereView], wings: Wings | None, lights: Sequence[str]) -> bool:
@@ -209,7 +213,7 @@ class _Problem:
         parts = ["H_CD", "setting", "dome", "roll", "intensity", *(f"led{mode}" for mode in self.modes)]
         covariance = solution.covariance(*parts)
         J = self._derivatives(blocks, parts, focus_C)
-        place, turn, level = J[:, :3], J[:, 3:6], J[:, 6]
+        place, turn, level, source = J[:, :3], J[:, 3:6], J[:, 6], J[:, 7:].reshape(-1, J.shape[2])
         level = level - level.mean(axis=0)
         shading_terms = [place_ for place_, term in enumerate(solution.terms) if "delta" in term.blocks and len(term.blocks) > 1]
         left = np.concatenate([solution.residuals[t][:, 0] / solution.terms[t].data[:, 5] for t in shading_terms])
@@ -226,6 +230,8 @@ class _Problem:
             position_std_m=np.sqrt(np.einsum("kij,jl,kil->k", place, covariance, place) / 3),
             direction_std_rad=np.sqrt(np.einsum("kij,jl,kil->k", turn, covariance, turn) / 2),
             intensity_std=np.sqrt(np.einsum("kj,jl,kl->k", level, covariance, level)),
+            source_C=np.array([self._figures(k, blocks, focus_C)[7:] for k in range(len(self.names))]),
+            source_covariance=source @ covariance @ source.T,
         )
 
     def _with_direction(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Light:
@@ -237,9 +243,9 @@ class _Problem:
         return replace(light, direction_C=light.field(focus_C[None])[0][0], source_C=source_C)
 
     def _derivatives(self, blocks: dict[str, Block], parts: list[str], focus_C: Array) -> Array:
-        """(L, 7, P): origin of H_CL, direction and log irradiance at the focus, by the parameters, those of one light in its rows only."""
+        """(L, 10, P) of `_figures` by the parameters; those of one light count in its rows only."""
         start = dict(zip(parts, np.cumsum([0, *(blocks[name].count * blocks[name].size for name in parts)]), strict=False))
-        J = np.zeros((len(self.names), 7, sum(blocks[name].count * blocks[name].size for name in parts)))
+        J = np.zeros((len(self.names), 10, sum(blocks[name].count * blocks[name].size for name in parts)))
         for k, leds in enumerate(self.leds):
             now = self._figures(k, blocks, focus_C)
             own = {"H_CD": 0, "setting": self.wing[k], "dome": self.mode[k], "roll": k, "intensity": k, f"led{leds}": k}
@@ -253,12 +259,13 @@ class _Problem:
         return J
 
     def _figures(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Array:
-        """(7,) of one light: origin of H_CL, direction and log irradiance at the focus."""
+        """(10,) of one light: origin of H_CL, direction and log irradiance at the focus, middle of the dome."""
         H_CL, leds = self._frame(k, blocks), self._leds(k, blocks)
         x_L = se3.apply(se3.inv(H_CL), focus_C[None])
         d_L, irradiance = led_cluster.cluster_field(x_L, leds.position_L, leds.axis_L, leds.power, leds.exponent)
         level = np.log(irradiance) + blocks["intensity"].value[k]
-        return np.concatenate([H_CL[:3, 3], se3.rotate(H_CL, d_L)[0], level])
+        middle_C = H_CL[:3, 3] + blocks["dome"].value[self.mode[k], 0] * H_CL[:3, 2]
+        return np.concatenate([H_CL[:3, 3], se3.rotate(H_CL, d_L)[0], level, middle_C])
 
     def _frame(self, k: int, blocks: dict[str, Block]) -> Array:
         H_CL: Array = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])

@@ -1,8 +1,8 @@
 r"""Lights as the sum of their LEDs: geometry, roll, power and tilt of every LED, intensities and albedos in one problem.
 
-Symbols: LED i of light k stands at ``[0, 0, h] + R o_i`` in L with its nominal direction o_i turned by the blob's roll, and emits with power
-p_i along a_i, which is o_i but for two small tilts: the dome holds the LED, its die sits askew. Dome height h and radius R are one for all
-blobs of a mode. Block b of matte sphere s, ray u, point P::
+Symbols: LED i of light k stands at ``[0, 0, h] + R o_i`` in L, o_i its nominal direction turned by the blob's roll, and emits with power
+p_i along a_i, which is o_i but for two small tilts: the dome holds the LED, its die sits askew. Dome height h and radius R are one for
+all blobs of a mode. Block b of matte sphere s, ray u, point P::
 
     r = [log data - log I_k - log rho_s - delta_b - log c - log sum_i p_i cos^m(a_i, P - x_i) (n . d_i) / |P - x_i|^2] / sigma
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,13 +12,14 @@ from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
+from lpcal.chain.refine_lights.next_sphere import advise
 from lpcal.chain.refine_lights.samples import sample_blocks
-from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, nominal_lobe
+from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, lobe_of_leds
 from lpcal.chain.refine_lights.swaps import refuse_swapped
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import Camera, Light, LightsSolution, SphereFinding, Wings
+from lpcal.records.calibration import Camera, Light, LightsSolution, Lobe, SphereFinding, Wings
 from lpcal.records.observations import SphereView
 
 DIRECTION_FLOOR_RAD = float(np.radians(0.02))
@@ -30,7 +31,13 @@ UNSURE = 0.3
 
 
 def refine(
-    views: Sequence[SphereView], lights: Sequence[str], camera: Camera | None, wings: Wings | None, *, intensity_sd: float = 0.10
+    views: Sequence[SphereView],
+    lights: Sequence[str],
+    camera: Camera | None,
+    wings: Wings | None,
+    *,
+    intensity_sd: float = 0.10,
+    lobes: Mapping[str, Lobe] | None = None,
 ) -> LightsSolution:
     """Position, axis, intensity and lobe of every light from spheres, with the wings as prior.
 
@@ -40,6 +47,7 @@ def refine(
     lights : the lights' names; those that are no wing of `wings` are free
     camera : None: orthographic, distant lights
     intensity_sd : prior of a light's relative intensity
+    lobes : how lights emit by angle as their makers say; the prior of what is found
 
     Raises
     ------
@@ -60,13 +68,13 @@ def refine(
         fit, wings, clicks = fit_with_clicks(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     focus_C = _focus(fit, wings)
     kept = [view for view, _ in used]
-    found, warnings = _near_lights(fit, lights, wings, focus_C, intensity_sd)
+    known = [(lobes or {}).get(name) or lobe_of_leds(_leds(fit, k, wings)) for k, name in enumerate(lights)]
+    found, warnings = _near_lights(fit, lights, known, focus_C, intensity_sd)
     warnings = [*(click.message() for click in clicks), *warnings]
     samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
     if samples is None:
         return _solution(found, focus_C, fit, None, views, kept, refused, warnings, camera, wings)
-    leds = [None if row is None or wings is None else wings.wings[row].leds for row in fit.wing_of]
-    shading = fit_shading(samples, len(lights), leds, [view.name for view in kept], intensity_sd)
+    shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd)
     if wings is None or not can_fit(kept, wings, lights):
         found = _with_shading(found, shading)
         return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings)
@@ -97,7 +105,7 @@ def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> Lig
                 H_CL=H_CL,
                 source_C=source_C,
                 axis_C=axis_C,
-                lobe=nominal_lobe(wings.wings[k].leds),
+                lobe=lobe_of_leds(wings.wings[k].leds) or Lobe(),
                 position_std_m=_per_axis(origin @ block @ origin.T),
                 direction_std_rad=_direction_std(source_C - focus_C, covariance),
                 intensity_std=intensity_sd,
@@ -136,15 +144,19 @@ def _fit_without_outliers(
         used = [(view, m) for view, m in used if view.name != worst]
 
 
+def _leds(fit: GeometryFit, k: int, wings: Wings | None) -> int | None:
+    row = fit.wing_of[k]
+    return None if row is None or wings is None else wings.wings[row].leds
+
+
 def _near_lights(
-    fit: GeometryFit, lights: Sequence[str], wings: Wings | None, focus_C: Array, intensity_sd: float
+    fit: GeometryFit, lights: Sequence[str], known: Sequence[Lobe | None], focus_C: Array, intensity_sd: float
 ) -> tuple[list[Light], list[str]]:
-    """The lights as the geometry alone has them, each with its nominal lobe; and warnings."""
+    """The lights as the geometry alone has them, each with the lobe that it is known by beforehand; and warnings."""
     found, warnings = [], []
     axes = _axes(fit, focus_C)
     for k, name in enumerate(lights):
         covariance, row, away = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], fit.wing_of[k], fit.source_C[k] - focus_C
-        leds = wings.wings[row].leds if row is not None and wings is not None else None
         light = Light(
             name=name,
             direction_C=_unit(away),
@@ -152,7 +164,7 @@ def _near_lights(
             H_CL=fit.H_CL[k] if row is not None else _frame_at(fit.source_C[k], axes[k]),
             source_C=fit.source_C[k],
             axis_C=axes[k],
-            lobe=nominal_lobe(leds),
+            lobe=known[k] or Lobe(),
             position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
             direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
             intensity_std=intensity_sd,
@@ -169,7 +181,10 @@ def _with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
     misfit = _rms(list(shading.residual.values()))
     return [
         replace(
-            light, intensity=shading.intensity[k], lobe=shading.lobes[k], intensity_std=float(np.hypot(shading.intensity_std[k], misfit))
+            light,
+            intensity=shading.intensity[k],
+            lobe=replace(shading.lobes[k], seen_rad=float(shading.seen_rad[k])),
+            intensity_std=float(np.hypot(shading.intensity_std[k], misfit)),
         )
         for k, light in enumerate(lights)
     ]
@@ -185,6 +200,7 @@ def _with_leds(joint: JointFit, shading: ShadingFit) -> list[Light]:
         replace(
             light,
             intensity=intensity[k],
+            lobe=replace(light.lobe, seen_rad=float(shading.seen_rad[k])),
             position_std_m=float(joint.position_std_m[k]),
             direction_std_rad=float(np.hypot(joint.direction_std_rad[k], DIRECTION_FLOOR_RAD)),
             intensity_std=float(np.hypot(joint.intensity_std[k], misfit)),
@@ -223,12 +239,26 @@ def _solution(
         else {str(m): e for m, e in fit.source_offset_m.items()},
         "outline_bias_px": joint.bias_px if joint else fit.bias_px,
         "settings": _setting_report(settings, wings),
-        "lobe_seen_deg": float(np.degrees(shading.seen_rad)) if shading else None,
+        "lobe_seen_deg": dict(zip(fit.lights, np.degrees(shading.seen_rad).tolist(), strict=True)) if shading else None,
         "highlight_rms_px": _rms(list(highlights.values())),
         "shading_rms": _rms(list(misfit.values())),
+        "next_sphere": _next_sphere(fit, joint, focus_C, kept, camera),
     }
     told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings, *_doubts(joint.bias_px if joint else fit.bias_px, highlights))
     return LightsSolution(tuple(lights), focus_C, _d_object(H_CD, focus_C), H_CD, tuple(spheres), told, evidence)
+
+
+def _next_sphere(
+    fit: GeometryFit, joint: JointFit | None, focus_C: Array, kept: Sequence[SphereView], camera: Camera
+) -> dict[str, object] | None:
+    """Which chrome sphere would tell the most of the directions, as evidence."""
+    source_C, covariance = (joint.source_C, joint.source_covariance) if joint else (fit.source_C, fit.source_covariance)
+    radius_m = float(np.median([view.radius_m for view in kept]))
+    advice = advise(source_C, covariance, focus_C, radius_m, camera)
+    if advice is None:
+        return None
+    before, after = np.degrees([advice.before_rad, advice.after_rad])
+    return {"where": advice.words, "centre_m": advice.centre_C, "direction_std_deg": float(before), "with_it_deg": float(after)}
 
 
 def _doubts(bias_px: dict[str, float], highlights: dict[tuple[str, str], float]) -> list[str]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -27,6 +28,8 @@ KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
 LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
 UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
 MAP_SD, MAP_LENGTH_RAD, MAP_SPACING_RAD = 0.03, float(np.radians(5)), float(np.radians(2.5))
+DARKEST = 1e-6
+"""A known lobe is not darker: its logarithm is used."""
 ROBUST = 3.0
 ROUNDS = 8
 
@@ -49,62 +52,62 @@ class ShadingFit:
     """(L,) as fitted."""
     log_albedo: dict[int, float]
     """By sphere."""
-    seen_rad: float
-    """Largest angle from a light's axis that the spheres saw: beyond it the lobe is extrapolated."""
+    seen_rad: Array
+    """(L,) largest angle from each light's axis that the spheres saw, NaN for a light that they did not."""
 
 
-def fit_shading(samples: Samples, count: int, leds: Sequence[int | None], names: Sequence[str], intensity_sd: float) -> ShadingFit:
+def fit_shading(samples: Samples, known: Sequence[Lobe | None], names: Sequence[str], intensity_sd: float) -> ShadingFit:
     """Intensities, lobes and albedos from block means.
 
     Parameters
     ----------
-    count : number of lights
-    leds : LED mode of each light; lights of one mode share their lobe
+    known : the lobe that each light is known by beforehand, None where nothing is; lights of one lobe share what is found of it
     names : the spheres' names
     intensity_sd : prior of the relative intensity of a light
     """
-    layout = _Layout(samples, count, tuple(leds), intensity_sd)
+    count = len(known)
+    layout = _Layout(samples, known, intensity_sd)
     target = samples.log_data - samples.log_geometry - layout.known
     block = np.unique(samples.block, return_inverse=True)[1]
     sigma = np.hypot(samples.relative_sigma, MODEL_SD)
     found, covariance, residual = _solve_with_blocks(layout.design, target, sigma, block, layout.prior)
     intensity, std = _intensities(samples, found[:count], covariance[:count, :count])
-    lobes = [layout.lobe(m, found) for m in range(len(layout.modes))]
+    lobes = [layout.lobe(m, found) for m in range(len(layout.shapes))]
     rows = slice(layout.lobe_start, None)
     return ShadingFit(
         intensity=intensity,
         intensity_std=std,
-        lobes=tuple(layout.with_map(lobes[m], k, found) for k, m in enumerate(layout.mode_of_light)),
+        lobes=tuple(layout.with_map(lobes[m], k, found) for k, m in enumerate(layout.shape_of_light)),
         residual={names[s]: float(np.sqrt(np.mean(residual[samples.sphere == s] ** 2))) for s in layout.spheres},
         log_lobe=layout.known + layout.design[:, rows] @ found[rows] + residual,
         log_intensity=found[:count],
         log_albedo={int(s): float(found[count + k]) for k, s in enumerate(layout.spheres)},
-        seen_rad=float(samples.angle_rad.max()),
+        seen_rad=np.array([max(samples.angle_rad[samples.light == k], default=np.nan) for k in range(count)]),
     )
 
 
 class _Layout:
-    """The unknowns in order: log intensity a light, log albedo a sphere, lobe deviations a mode, exponent an unknown mode."""
+    """The unknowns in order: log intensity a light, log albedo a sphere, lobe deviations a shape, the exponent of an unknown shape."""
 
-    def __init__(self, samples: Samples, count: int, leds: tuple[int | None, ...], intensity_sd: float) -> None:
-        self.samples = samples
-        self.modes = sorted({mode or 0 for mode in leds})
-        self.unknown = [mode for mode in self.modes if mode not in led_cluster.RINGS]
-        self.mode_of_light = np.array([self.modes.index(mode or 0) for mode in leds])
+    def __init__(self, samples: Samples, known: Sequence[Lobe | None], intensity_sd: float) -> None:
+        self.samples, count = samples, len(known)
+        self.shapes = list({id(lobe): lobe for lobe in known}.values())
+        self.unknown = [m for m, lobe in enumerate(self.shapes) if lobe is None]
+        self.shape_of_light = np.array([next(m for m, lobe in enumerate(self.shapes) if lobe is own) for own in known])
         self.spheres = np.unique(samples.sphere)
         self.lobe_start = count + len(self.spheres)
-        own = [self.mode_of_light[samples.light] == m for m in range(len(self.modes))]
+        own = [self.shape_of_light[samples.light] == m for m in range(len(self.shapes))]
         weights, log_cosine = _interpolation(samples.angle_rad)[:, 1:], np.log(np.maximum(np.cos(samples.angle_rad), 1e-3))
         self.known = np.zeros(samples.light.size)
-        for mine, mode in zip(own, self.modes, strict=True):
-            if mode in led_cluster.RINGS:
-                self.known += np.where(mine, np.log(led_cluster.mean_lobe(samples.angle_rad, mode)), 0.0)
+        for mine, lobe in zip(own, self.shapes, strict=True):
+            if lobe is not None:
+                self.known += np.where(mine, np.log(np.maximum(lobe(samples.angle_rad), DARKEST)), 0.0)
         self.design = np.column_stack(
             [
                 np.eye(count)[samples.light],
                 (samples.sphere[:, None] == self.spheres).astype(float),
                 *(weights * mine[:, None] for mine in own),
-                *(log_cosine * own[self.modes.index(mode)] for mode in self.unknown),
+                *(log_cosine * own[m] for m in self.unknown),
             ]
         )
         self.node_rad = lobe_map.nodes(float(samples.angle_rad.max()) + MAP_SPACING_RAD, MAP_SPACING_RAD)
@@ -116,8 +119,8 @@ class _Layout:
             rows = slice(self.map_start + k * self.map_size, self.map_start + (k + 1) * self.map_size)
             self.prior[rows, rows] += map_precision
         self.prior[:count, :count] += np.eye(count) / intensity_sd**2
-        for m, mode in enumerate(self.modes):
-            sd = LOBE_SD if mode in led_cluster.RINGS else UNKNOWN_LOBE_SD
+        for m, lobe in enumerate(self.shapes):
+            sd = UNKNOWN_LOBE_SD if lobe is None else LOBE_SD
             self.prior[self._lobe_rows(m), self._lobe_rows(m)] += np.linalg.inv(_smooth_covariance(sd))
         for row in range(self.map_start - len(self.unknown), self.map_start):
             self.prior[row, row] += 1 / EXPONENT_SD**2
@@ -139,13 +142,13 @@ class _Layout:
 
     def lobe(self, m: int, found: Array) -> Lobe:
         """The known shape times what was found; beyond the largest angle seen the factor stays what it was there."""
-        mode, seen_rad = self.modes[m], float(self.samples.angle_rad.max())
+        known, seen_rad = self.shapes[m], float(self.samples.angle_rad.max())
         deviation = np.concatenate([[0.0], found[self._lobe_rows(m)]])
         deviation = np.interp(np.minimum(KNOTS_RAD, seen_rad), KNOTS_RAD, deviation)
-        if mode in led_cluster.RINGS:
-            base = led_cluster.mean_lobe(KNOTS_RAD, mode)
+        if known is not None:
+            base = known(KNOTS_RAD)
         else:
-            exponent = found[self.map_start - len(self.unknown) + self.unknown.index(mode)]
+            exponent = found[self.map_start - len(self.unknown) + self.unknown.index(m)]
             base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(float(exponent), 0.0)
         return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))
 
@@ -165,11 +168,12 @@ def _intensities(samples: Samples, logs: Array, covariance: Array) -> tuple[Arra
     return intensity / intensity.mean(), std
 
 
-def nominal_lobe(leds: int | None) -> Lobe:
-    """The lobe of a light before any matte sphere has been seen."""
-    if leds in led_cluster.RINGS:
-        return Lobe("table", angle_rad=KNOTS_RAD, value=led_cluster.mean_lobe(KNOTS_RAD, int(leds or 1)))
-    return Lobe("isotropic")
+@lru_cache
+def lobe_of_leds(leds: int | None) -> Lobe | None:
+    """The lobe of a LED mode, one object a mode; None of a mode that is not known."""
+    if leds not in led_cluster.RINGS:
+        return None
+    return Lobe("table", angle_rad=KNOTS_RAD, value=led_cluster.mean_lobe(KNOTS_RAD, int(leds or 1)))
 
 
 def _interpolation(angle_rad: Array) -> Array:
