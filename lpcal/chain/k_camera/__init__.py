@@ -64,20 +64,8 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     if model == "splined" and name != "mrcal":
         raise InputError(f"a splined lens needs mrcal; {missing}", where="camera.model", todo="install mrcal, or use opencv8")
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
-    problem, judged = CornerProblem(board, views.image_size, corners_px), solve
-    start = None
-    if model != "splined":
-        start = solve(problem, "opencv4", BOARDS[board.warp])
-        problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
-    chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], board.warp)
-    fit, left_out = settle(problem, solve, chosen, start)
-    left = patterns.on_image(fit)
-    if model == "auto" and name == "mrcal" and left.seen(fit.sigma_px) and left.size_px > SPLINE_SHARE * fit.sigma_px:
-        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", chosen.board))
-        tried = [*(one for one in tried if one != chosen), *ranked]
-        if ranked[0].model == "splined":
-            chosen = ranked[0]
-            fit, left_out = settle(problem, solve, chosen)
+    problem = CornerProblem(board, views.image_size, corners_px)
+    chosen, tried, fit, left_out = _chosen_and_solved(problem, solve, model, may_spline=name == "mrcal")
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     doubts = refuse_degenerate(fit)
     kept = problem.part(np.array([row not in left_out for row in range(len(corners_px))]))
@@ -93,6 +81,26 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         cameramodel=fit.cameramodel() if fit.cameramodel else "",
         H_CB={views.views[index].image: H_CB for index, H_CB in zip(found, fit.H_CB, strict=True)},
     )
+
+
+def _chosen_and_solved(
+    problem: CornerProblem, solve: Solver, model: str, *, may_spline: bool
+) -> tuple[Candidate, list[Candidate], CameraFit, dict[int, str]]:
+    """The candidate chosen, all that were tried, its fit, and the rows of views left out of it."""
+    judged, start, may_warp = solve, None, problem.board.warp
+    if model != "splined":
+        start = solve(problem, "opencv4", BOARDS[may_warp])
+        problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
+    chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], may_warp)
+    fit, left_out = settle(problem, solve, chosen, start)
+    left = patterns.on_image(fit)
+    if model == "auto" and may_spline and left.seen(fit.sigma_px) and left.size_px > SPLINE_SHARE * fit.sigma_px:
+        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", chosen.board))
+        tried = [*(one for one in tried if one != chosen), *ranked]
+        if ranked[0].model == "splined":
+            chosen = ranked[0]
+            fit, left_out = settle(problem, solve, chosen)
+    return chosen, tried, fit, left_out
 
 
 def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
