@@ -55,7 +55,7 @@ def match_edges(coefficients: Array, points: Array, normals: Array, kind: str, r
     """
     from scipy.optimize import minimize_scalar
 
-    scale = float(np.clip(radius / LARGE_RADIUS_PX, 1.0, LARGEST_SCALE))
+    scale = edge_scale(radius)
     search = max(search_px, SEARCH_PX * scale)
     s = np.arange(-(REACH_PX * scale + search), REACH_PX * scale + search + STEP_PX / 2, STEP_PX * scale)
     profile, inside = _profiles(coefficients, points, normals, s)
@@ -84,6 +84,11 @@ def match_edges(coefficients: Array, points: Array, normals: Array, kind: str, r
     offset, least = _lowest(cost(blur), offsets)
     contrast = window.contrast(offset, least)
     return Edges(offset, inside & (contrast > LEAST_CONTRAST) & (np.abs(offset) < 0.97 * search), contrast, blur)
+
+
+def edge_scale(radius: float) -> float:
+    """By how much the lengths above grow for an outline of a radius in pixels."""
+    return float(np.clip(radius / LARGE_RADIUS_PX, 1.0, LARGEST_SCALE))
 
 
 @dataclass(frozen=True)

@@ -75,9 +75,11 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
         ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
     signal = linear / exposure - ambient
     sigma = np.asarray(np.sqrt(_variance(linear, noise) / exposure**2 + ambient_variance), np.float32)
-    _refuse_dark(raw, signal, sigma)
+    dark = _dark(raw, signal, sigma)
     short = {light: _short(sensor.linear(image), raw.short_exposure_s.get(light), ambient, response) for light, image in raw.short.items()}
-    return Radiance(raw.name, raw.lights, signal / response, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes))
+    notes += [f"{light} lights nothing: is it off in its image?" for light in dark]
+    lit = signal / response
+    return Radiance(raw.name, raw.lights, lit, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
 
 
 def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, float]:
@@ -182,10 +184,10 @@ def _line_through_lower(x: Array, y: Array) -> tuple[float, float]:
     return float(slope), float(offset)
 
 
-def _refuse_dark(raw: RawCapture, signal: Image, sigma: Image) -> None:
-    """A light that lifts only a few pixels well over their noise is off; all of them: the capture is dark."""
+def _dark(raw: RawCapture, signal: Image, sigma: Image) -> tuple[str, ...]:
+    """Lights that lift only a few pixels well over their noise: they are off. All of them: the capture is dark, and refused."""
     ratio = (signal / sigma).reshape(len(signal), -1)
-    dark = [light for light, lit in zip(raw.lights, np.sum(ratio > DARK_SIGMAS, axis=1), strict=True) if lit < DARK_PIXELS]
+    dark = tuple(light for light, lit in zip(raw.lights, np.sum(ratio > DARK_SIGMAS, axis=1), strict=True) if lit < DARK_PIXELS)
     if len(dark) == len(raw.lights):
         raise DegenerateError(
             "all dark: no light lifts the image over its noise" + (" and the ambient light" if raw.ambient is not None else ""),
@@ -193,3 +195,4 @@ def _refuse_dark(raw: RawCapture, signal: Image, sigma: Image) -> None:
             needed="images lit by one light each",
             todo="check the lights, the exposure and the ambient image",
         )
+    return dark

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.detect.edge_profile import match_edges
+from lpcal.detect.edge_profile import edge_scale, match_edges
 from lpcal.errors import DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Image
@@ -38,6 +38,8 @@ class Curve:
 class Outline:
     """Points (K, 2) of an outline, the scatter of one point along its normal, and the circle nearest to it."""
 
+    curve_px: Array
+    """(RAYS, 2) as fitted, all round."""
     points_px: Array
     sigma_px: float
     centre_px: Array
@@ -45,6 +47,11 @@ class Outline:
     blur_px: float
     contrast: float
     """Median step at the edge in units of its noise."""
+
+    @property
+    def scale(self) -> float:
+        """Large outlines are softer: lengths in pixels that are right for small ones grow by this."""
+        return edge_scale(self.radius_px)
 
 
 AROUND = np.linspace(0, 2 * np.pi, RAYS, endpoint=False)
@@ -108,7 +115,9 @@ def refine_outline(image: Image, kind: str, start_px: Array, curve: Curve) -> Ou
         search_px = 0.0
     x, y, r = _circle(moved[good])
     sigma = float(1.4826 * np.median(np.abs(distance[good])))
-    return Outline(moved[good], max(sigma, 1e-3), np.array([x, y]), r, fits.blur_px, float(np.median(fits.contrast[good])))
+    return Outline(
+        curve.draw(parameters), moved[good], max(sigma, 1e-3), np.array([x, y]), r, fits.blur_px, float(np.median(fits.contrast[good]))
+    )
 
 
 def _with_normals(points: Array) -> tuple[Array, Array]:

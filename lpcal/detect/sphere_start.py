@@ -10,6 +10,8 @@ from lpcal.geometry.arrays import Array, Image, Mask
 RADIUS_SHARE = (0.03, 0.55)
 """Radii looked for, as shares of the image's shorter side, where nothing is known."""
 CANDIDATES = 12
+SEEN_SHARE, SEEN_SHARE_BEYOND = 0.6, 0.35
+"""Of a circle must lie in the image."""
 
 
 def from_mask(mask: Mask) -> Array:
@@ -27,19 +29,33 @@ def from_mask(mask: Mask) -> Array:
 
 
 def search(image: Image, radius_px: tuple[float, float] | None = None) -> list[Array]:
-    """Circles (x, y, radius) that may be a sphere's outline in a linear image (H, W), the most likely first.
+    """Circles (x, y, radius) that may be a sphere's outline in a linear image (H, W), the most likely first; none at all: empty."""
+    return _search(_levelled(image), _range(image, radius_px), SEEN_SHARE)
 
-    Raises
-    ------
-    DegenerateError
-        There is none.
-    """
+
+def search_beyond(image: Image, radius_px: tuple[float, float] | None = None) -> list[Array]:
+    """Circles (x, y, radius) that may also lie partly outside the image (H, W), the most likely first."""
+    low, high = _range(image, radius_px)
+    pad = int(np.ceil(high))
+    levelled = _levelled(image)
+    found = _search(np.pad(levelled, pad, mode="edge"), (low, high), SEEN_SHARE)
+    inside = [circle - [pad, pad, 0] for circle in found]
+    return sorted(inside, key=lambda circle: -_support(levelled, circle, SEEN_SHARE_BEYOND))
+
+
+def _range(image: Image, radius_px: tuple[float, float] | None) -> tuple[float, float]:
+    """Radii looked for: those that are known where any of them fits into the image, else all that do."""
+    side = min(image.shape)
+    low, high = RADIUS_SHARE[0] * side, RADIUS_SHARE[1] * side
+    if radius_px is not None and radius_px[0] < high and radius_px[1] > 5.0:
+        low, high = radius_px[0], min(radius_px[1], high)
+    return max(low, 5.0), high
+
+
+def _search(levelled: Image, radius_px: tuple[float, float], seen_share: float) -> list[Array]:
     import cv2
 
-    side = min(image.shape)
-    low, high = radius_px or (RADIUS_SHARE[0] * side, RADIUS_SHARE[1] * side)
-    low, high = max(low, 5.0), min(high, RADIUS_SHARE[1] * side)
-    levelled = _levelled(image)
+    (low, high), side = radius_px, min(levelled.shape)
     shrink = min(1.0, 480 / side)
     small = cv2.resize(levelled, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA) if shrink < 1 else levelled
     byte = cv2.GaussianBlur(np.clip(255 * small, 0, 255).astype(np.uint8), (0, 0), 1.2)
@@ -51,11 +67,7 @@ def search(image: Image, radius_px: tuple[float, float] | None = None) -> list[A
         )  # fmt: skip
         if circles is not None:
             found += [np.asarray(circle[:3], dtype=float) / shrink for circle in circles.reshape(-1, circles.shape[-1])[:CANDIDATES]]
-    if not found:
-        raise DegenerateError(
-            "no round outline is found", needed="one sphere, whole and sharp in the picture", todo="give its place as hint: [x, y, radius]"
-        )
-    scores = [_support(levelled, circle) for circle in found]
+    scores = [_support(levelled, circle, seen_share) for circle in found]
     order = np.argsort(scores)[::-1]
     return _distinct([found[k] for k in order])
 
@@ -67,7 +79,7 @@ def _levelled(image: Image) -> Image:
     return np.asarray(level / max(float(np.percentile(level, 99.8)), 1e-6), dtype=np.float32)
 
 
-def _support(levelled: Image, circle: Array) -> float:
+def _support(levelled: Image, circle: Array, seen_share: float) -> float:
     """How much of a circle is an edge across it: the lower quartile over its rays of the step over 3 px, less what wavers inside."""
     x, y, r = circle
     around = np.linspace(0, 2 * np.pi, 120, endpoint=False)
@@ -84,7 +96,7 @@ def _support(levelled: Image, circle: Array) -> float:
     reach = max(2.0, 0.03 * r)
     steps = np.stack([ring(shift - reach) - ring(shift + reach) for shift in (-0.02 * r, 0.0, 0.02 * r)])
     seen = np.isfinite(steps).all(axis=0)
-    if seen.mean() < 0.6:
+    if seen.mean() < seen_share:
         return 0.0
     signed = steps[:, seen]
     step = np.take_along_axis(signed, np.argmax(np.abs(signed), axis=0)[None], axis=0)[0]

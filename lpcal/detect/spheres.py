@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.detect import sphere_outline, sphere_start
-from lpcal.detect.sphere_highlights import find_highlight
-from lpcal.errors import DegenerateError
+from lpcal.detect import sphere_checks, sphere_outline, sphere_start
+from lpcal.detect.sphere_highlights import Highlight, find_highlight, without_lamps
+from lpcal.detect.sphere_outline import Outline
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance, SphereView
 
 REFINED_STARTS = 3
-CLEAR_RAYS, CLEAR_CONTRAST = 0.9, 20.0
-"""An outline that so many rays see so clearly needs no rival."""
+CLEAR_RAYS, CLEAR_CONTRAST, CLEAR_SCATTER_PX = 0.9, 20.0, 0.5
+"""An outline that so many rays see so clearly and evenly needs no rival."""
+MATTE_DISC, LIT_SIGMAS, LIT_SHARE = 0.9, 5.0, 0.02
+"""Inside this share of a matte outline's radius a light must lift this share of the pixels by so many sigmas, unsaturated."""
 
 
 @dataclass(frozen=True)
@@ -36,25 +41,25 @@ def observe_sphere(radiance: Radiance, expected: Expected, camera: Camera | None
     Raises
     ------
     DegenerateError
-        No outline, or no highlight of any light; the sphere is named.
+        No outline, one cut by the border, blurred or not the only one; or nothing of any light: no highlight, all dark or saturated.
+    DisagreementError
+        Its radius cannot be right.
     """
-    image = mean_image(radiance)
-    curve = sphere_outline.circle_curve()
-    if camera is not None and expected.radius_m is not None:
-        curve = sphere_outline.perspective_curve(camera, expected.radius_m)
     try:
-        outline = _best_outline(image, radiance, expected, camera, curve)
-    except DegenerateError as error:
-        raise DegenerateError(error.found, where=f"sphere {radiance.name}", needed=error.needed, todo=error.todo) from error
-    view = SphereView(
+        outline = _outline_of(mean_image(radiance), radiance, expected, camera)
+        return _with_lights(_view_of(radiance, expected, outline), radiance, outline)
+    except (DegenerateError, DisagreementError) as error:
+        raise type(error)(error.found, where=f"sphere {radiance.name}", needed=error.needed, todo=error.todo) from error
+
+
+def _view_of(radiance: Radiance, expected: Expected, outline: Outline) -> SphereView:
+    return SphereView(
         name=radiance.name,
         kind=expected.kind,
         radius_m=expected.radius_m if expected.radius_m is not None else float("nan"),
         outline_px=outline.points_px,
         outline_sigma_px=outline.sigma_px,
-        shading=radiance if expected.kind == "matte" else None,
     )
-    return view if expected.kind == "matte" else _with_highlights(view, radiance, outline)
 
 
 def mean_image(radiance: Radiance) -> Image:
@@ -63,58 +68,136 @@ def mean_image(radiance: Radiance) -> Image:
     return np.asarray(mean.mean(axis=2) if mean.ndim == 3 else mean, dtype=np.float32)
 
 
-def _best_outline(
-    image: Image, radiance: Radiance, expected: Expected, camera: Camera | None, curve: sphere_outline.Curve
-) -> sphere_outline.Outline:
+def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Camera | None) -> Outline:
+    """The outline of the only sphere in an image, looked for where it is expected, else anywhere."""
+    curve = sphere_outline.circle_curve()
+    if camera is not None and expected.radius_m is not None:
+        curve = sphere_outline.perspective_curve(camera, expected.radius_m)
+
+    def refine(start: Array, kind: str = expected.kind) -> Outline:
+        return sphere_outline.refine_outline(image, kind, start, curve)
+
+    told = expected.hint_px is not None or radiance.mask is not None
+    radius_px = _radius_range(expected, camera)
     if expected.hint_px is not None:
         starts = [expected.hint_px]
     elif radiance.mask is not None:
         starts = [sphere_start.from_mask(radiance.mask)]
     else:
-        radius_px = None
-        if camera is not None and expected.radius_m is not None and expected.distance_m is not None:
-            near, far = expected.distance_m
-            focal = float(np.sqrt(camera.K[0, 0] * camera.K[1, 1]))
-            radius_px = (focal * expected.radius_m / far, 1.2 * focal * expected.radius_m / near)
-        starts = sphere_start.search(image, radius_px)[:REFINED_STARTS]
-    found: list[sphere_outline.Outline] = []
-    complaint: DegenerateError | None = None
+        starts = sphere_start.search(image, radius_px)
+    outline = _best_of(starts[:REFINED_STARTS], refine)
+    if (outline is None or sphere_checks.is_vague(outline)) and not told and radius_px is not None:
+        starts = sphere_start.search(image)
+        outline = _best_of(starts[:REFINED_STARTS], refine)
+        outline = outline if outline is not None and _is_clear(outline) else None
+    if outline is None or sphere_checks.is_vague(outline):
+        raise sphere_checks.why_none(image, radius_px)
+    sphere_checks.refuse_bad_outline(outline, image)
+    if not told:
+        sphere_checks.refuse_second(outline, starts, refine)
+    if camera is not None and expected.radius_m is not None:
+        centre_C = sphere.from_outline(camera.unproject(outline.points_px), expected.radius_m)
+        sphere_checks.refuse_far(float(np.linalg.norm(centre_C)), expected.radius_m, expected.distance_m)
+    return outline
+
+
+def _radius_range(expected: Expected, camera: Camera | None) -> tuple[float, float] | None:
+    """Between which radii in pixels the outline is expected."""
+    if camera is None or expected.radius_m is None or expected.distance_m is None:
+        return None
+    near, far = expected.distance_m
+    focal = float(np.sqrt(camera.K[0, 0] * camera.K[1, 1]))
+    return focal * expected.radius_m / far, 1.2 * focal * expected.radius_m / near
+
+
+def _best_of(starts: Sequence[Array], refine: Callable[[Array], Outline]) -> Outline | None:
+    found: list[Outline] = []
     for start in starts:
         try:
-            found.append(sphere_outline.refine_outline(image, expected.kind, start, curve))
-        except DegenerateError as error:
-            complaint = complaint or error
+            found.append(refine(start))
+        except DegenerateError:
             continue
-        if len(found[-1].points_px) > CLEAR_RAYS * sphere_outline.RAYS and found[-1].contrast > CLEAR_CONTRAST:
+        if _is_clear(found[-1]):
             break
-    if not found:
-        raise complaint or DegenerateError("no round outline is found", needed="one sphere, whole and sharp in the picture")
-    return max(found, key=lambda outline: len(outline.points_px) * np.sqrt(outline.radius_px) * min(outline.contrast, 20.0))
+    return max(found, key=_clearness, default=None)
 
 
-def _with_highlights(view: SphereView, radiance: Radiance, outline: sphere_outline.Outline) -> SphereView:
+def _is_clear(outline: Outline) -> bool:
+    """Whether an outline needs no rival."""
+    whole = len(outline.points_px) > CLEAR_RAYS * sphere_outline.RAYS
+    return whole and outline.contrast > CLEAR_CONTRAST and outline.sigma_px < CLEAR_SCATTER_PX * outline.scale
+
+
+def _clearness(outline: Outline) -> float:
+    scatter = 0.3 + outline.sigma_px / outline.scale
+    return float(len(outline.points_px) * np.sqrt(outline.radius_px) * min(outline.contrast, CLEAR_CONTRAST) / scatter)
+
+
+def _with_lights(view: SphereView, radiance: Radiance, outline: Outline) -> SphereView:
+    lit = [light for light in radiance.lights if light not in radiance.dark]
+    notes = [f"{', '.join(radiance.dark)} lights nothing: is it off in its image?"] if radiance.dark else []
+    if view.kind == "matte":
+        lit, more = _shaded(radiance, lit, outline)
+        if not lit:
+            raise DegenerateError(
+                "; ".join([*notes, *more]), needed="a matte sphere neither dark nor saturated", todo="change the exposure"
+            )
+        view = replace(view, shading=radiance.of(lit))
+    else:
+        places, sigmas, more = _highlights(radiance, lit, outline)
+        if not places:
+            raise DegenerateError(
+                "; ".join([*notes, *more]),
+                needed="a mirror image of each light",
+                todo="is it a chrome sphere, and are its images lit by one light each?",
+            )
+        view = replace(view, highlights_px=places, highlight_sigma_px=sigmas)
+    return replace(view, notes=tuple(f"sphere {view.name}: {note}; left out" for note in [*notes, *more]))
+
+
+def _shaded(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[list[str], list[str]]:
+    """The lights whose shading of a matte sphere can be used, and why the others' cannot."""
+    rows, columns = np.indices(radiance.saturated.shape[1:])
+    disc = np.hypot(columns - outline.centre_px[0], rows - outline.centre_px[1]) < MATTE_DISC * outline.radius_px
+    found, full, dark = list[str](), list[str](), list[str]()
+    for light in lit:
+        k = radiance.lights.index(light)
+        over = radiance.saturated[k][disc]
+        shaded = ~over & (_grey(radiance.signal[k])[disc] > LIT_SIGMAS * _grey(radiance.sigma[k])[disc])
+        (found if shaded.mean() > LIT_SHARE else full if over.mean() > LIT_SHARE else dark).append(light)
+    told = ((full, "saturated wherever it is lit under"), (dark, "not lit by"))
+    return found, [f"it is {what} {', '.join(some)}" for some, what in told if some]
+
+
+def _highlights(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[dict[str, Array], dict[str, float], list[str]]:
+    """Place and sigma of each light's mirror image in a chrome sphere, and why there is none of the others."""
+    spots = without_lamps({light: _spots(radiance, light, outline) for light in lit}, outline.radius_px)
     places: dict[str, Array] = {}
     sigmas: dict[str, float] = {}
-    for k, light in enumerate(radiance.lights):
-        dark = float(np.median(radiance.sigma[k]))
-        long_, full = _grey(radiance.signal[k]), radiance.saturated[k]
-        found = None
-        if light in radiance.short:
-            short = _grey(radiance.short[light])
-            noise = float(1.4826 * np.median(np.abs(short - np.median(short)))) + 1e-9
-            found = find_highlight(short, noise, np.zeros_like(full), outline.centre_px, outline.radius_px)
-        if found is None:
-            found = find_highlight(long_, dark, full, outline.centre_px, outline.radius_px)
-        if found is not None:
-            places[light], sigmas[light] = found.centre_px, found.sigma_px
-    if not places:
-        raise DegenerateError(
-            "no light's highlight stands out in it",
-            where=f"sphere {view.name}",
-            needed="a mirror image of each light",
-            todo="is it a chrome sphere?",
-        )
-    return SphereView(view.name, view.kind, view.radius_m, view.outline_px, view.outline_sigma_px, places, sigmas)
+    notes, without = [], []
+    for light, found in spots.items():
+        if len(found) == 1:
+            places[light], sigmas[light] = found[0].centre_px, found[0].sigma_px
+        elif found:
+            at = " and ".join(f"({x:.0f}, {y:.0f}) px" for x, y in (spot.centre_px for spot in found))
+            notes.append(f"it shows {len(found)} bright spots under {light}, at {at}: is the highlight split, or another lamp on?")
+        else:
+            without.append(light)
+    if without:
+        notes.append(f"no highlight of {', '.join(without)} stands out inside its outline")
+    return places, sigmas, notes
+
+
+def _spots(radiance: Radiance, light: str, outline: Outline) -> list[Highlight]:
+    """Bright spots under a light: in its shorter exposure where there is one, else in the long one."""
+    k = radiance.lights.index(light)
+    full, found = radiance.saturated[k], list[Highlight]()
+    if light in radiance.short:
+        short = _grey(radiance.short[light])
+        noise = float(1.4826 * np.median(np.abs(short - np.median(short)))) + 1e-9
+        found = find_highlight(short, noise, np.zeros_like(full), outline.centre_px, outline.radius_px)
+    dark = float(np.median(radiance.sigma[k]))
+    return found or find_highlight(_grey(radiance.signal[k]), dark, full, outline.centre_px, outline.radius_px)
 
 
 def _grey(image: Image) -> Image:

@@ -22,7 +22,7 @@ from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.sensor import flat_field_path, has_lens, sensor_of_camera, sensor_of_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
-from lpcal.records.observations import Radiance, SphereView
+from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
 
@@ -74,11 +74,9 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     bad: dict[str, LpcalError] = {}
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
-        radiance, told = _radiance(workspace, name, section, lights, sensor, camera)
-        notes += told
+        raw = _images(workspace, name, section, lights, camera)
         try:
-            hint = None if section.hint is None else np.array(section.hint)
-            views.append(observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera))
+            views.append(_view(raw, sensor, section, camera, distance_m))
             notes += views[-1].notes
         except (DegenerateError, DisagreementError) as error:
             if len(spheres) == 1:
@@ -86,7 +84,8 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
     panel = workspace.rig_file.rig.panel
-    solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5)
+    lobes = {name: read_lobe(path) for name, path in _lobe_files(workspace)}
+    solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5, lobes=lobes)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
     solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings))
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
@@ -126,19 +125,24 @@ def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:
     return [(name, workspace.path(light.lobe, f"lights.{name}.lobe")) for name, light in lights.items() if light.lobe]
 
 
-def _radiance(
-    workspace: Workspace, name: str, section: SphereSection, lights: list[str], sensor: Sensor, camera: Camera | None
-) -> tuple[Radiance, list[str]]:
-    """The linear images of a sphere, and what is to be said of them."""
+def _images(workspace: Workspace, name: str, section: SphereSection, lights: list[str], camera: Camera | None) -> RawCapture:
     if camera is not None and section.radius is None:
         raise InputError(
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
-    raw = read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
+    return read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
+
+
+def _view(
+    raw: RawCapture, sensor: Sensor, section: SphereSection, camera: Camera | None, distance_m: tuple[float, float] | None
+) -> SphereView:
+    """What the images of a sphere show, and what is to be said of them."""
     plain = to_radiance(raw, sensor)
     told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_notes(plain, raw, sensor))
     radiance = with_short_exposures(plain, raw, sensor) if section.kind == "matte" else plain
-    return radiance, [f"sphere {name}: {note}" for note in told]
+    hint = None if section.hint is None else np.array(section.hint)
+    view = observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
+    return replace(view, notes=(*(f"sphere {raw.name}: {note}" for note in told), *view.notes))
 
 
 def _numbers(values: Any, digits: int) -> str:
