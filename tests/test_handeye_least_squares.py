@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,20 @@ def test_elimination_changes_nothing():
     assert np.allclose(plain.leverage(0), schur.leverage(0), atol=1e-9)
     assert np.sum(plain.leverage(0)) == pytest.approx(7 * 6 + 12 * 3)
     assert np.allclose(plain.scores(0)[:, plain.columns("H")].sum(axis=0), 0, atol=1e-4)
+
+
+def test_what_is_left_out_moves_the_rest_as_a_new_solve_would():
+    blocks, term, _, _ = _problem(np.random.default_rng(6))
+    found = solve(blocks, [term], eliminate="x")
+    out, kept = np.isin(term.items(2), [2, 7]), np.setdiff1d(np.arange(12), [2, 7])
+    index = (term.items(0)[~out], 0, np.searchsorted(kept, term.items(2)[~out]))
+    rest = replace(term, index=index, data=term.data[~out])
+    again = solve(found.blocks | {"x": Block(found["x"][kept])}, [rest], eliminate="x")
+    step = found.without([out])[found.columns("H")].reshape(-1, 6)
+    moved = se3.exp(step) @ found["H"]
+    sigma = np.sqrt(np.diag(found.covariance("H"))).max()
+    assert np.abs(again["H"] - found["H"]).max() > 0.05 * sigma
+    assert np.abs(moved - again["H"]).max() < 1e-2 * sigma
 
 
 def test_covariance_is_the_spread():

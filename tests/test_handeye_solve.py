@@ -58,6 +58,12 @@ def test_moving_finds_the_offset_and_is_honest():
     assert np.mean((np.array(offset) / std) ** 2) < 3
 
 
+def test_a_view_at_the_edge_of_a_run_that_settling_loses():
+    found = _moving(session := moving_session(np.random.default_rng(30), 30, flips=0.05))
+    assert sum(view.used for view in found.views) >= 20
+    assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 25
+
+
 @pytest.mark.slow
 def test_drifting_noise_does_not_make_it_sure_of_itself():
     nees = []

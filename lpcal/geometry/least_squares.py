@@ -28,7 +28,7 @@ from functools import cached_property
 import numpy as np
 
 from lpcal.errors import ConvergenceError
-from lpcal.geometry.arrays import Array, Index
+from lpcal.geometry.arrays import Array, Index, Mask
 from lpcal.geometry.normal_equations import Layout, System, inverse, linearise, reduced, step_of
 from lpcal.geometry.residual_terms import POSE, Block, Model, Term, compile_residual, independent_prior, matrix, prior, small_rotation
 
@@ -150,6 +150,37 @@ class Solution:
             g = np.delete(g, np.s_[start:stop], axis=1)
         np.add.at(scores, (np.arange(len(J))[:, None], columns), g)
         return scores
+
+    def without(self, left_out: Sequence[Mask]) -> Array:
+        """Gauss-Newton step (n,) of all that is not eliminated, once some observations of each term (N,) are left out.
+
+        An eliminated item loses all of its observations or none.
+
+        Raises
+        ------
+        DegenerateError
+            What is left leaves a direction undetermined.
+        """
+        system, free = self._system, self._layout.free
+        N, g = reduced(system, 0.0)[0], np.zeros(len(system.A))
+        gone: set[int] = set()
+        for place, (term, out) in enumerate(zip(self.terms, left_out, strict=True)):
+            columns, item = self._layout.of_term(term)
+            J, r = system.jacobians[place][out], system.residuals[place][out]
+            if item is not None:
+                start, stop = self._layout.eliminated_columns(term)
+                J = np.delete(J, np.s_[start:stop], axis=1)
+                gone |= set(item[out].tolist())
+            np.add.at(g, columns[out], np.einsum("kar,kr->ka", J, r))
+            np.subtract.at(N, (columns[out][:, :, None], columns[out][:, None, :]), J @ np.swapaxes(J, 1, 2))
+        for i in gone:
+            BC = system.B[i] @ np.linalg.inv(system.C[i])
+            N += BC @ system.B[i].T
+            g -= BC @ system.gradient_e[i]
+        step = np.zeros_like(g)
+        labels = [name for name, f in zip(self._layout.labels(), free, strict=True) if f]
+        step[free] = inverse(N[np.ix_(free, free)], labels) @ g[free]
+        return step
 
     def columns(self, *names: str) -> Index:
         """Places of blocks in `scores`."""

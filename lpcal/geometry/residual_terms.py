@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ from lpcal.geometry.arrays import Array, Index
 
 POSE = 0
 """Stands for a pose among the sizes of a residual's blocks."""
+MOST_MAPS = 16
+"""Counts of observations for which a mapped function is kept."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,8 @@ class Model:
         """Residuals (N, rows) and Jacobians (N, tangent, rows), transposed, of N observations."""
         count = len(data)
         if count not in self.mapped:
+            if len(self.mapped) >= MOST_MAPS:
+                self.mapped.clear()
             self.mapped[count] = self.function.map(count).buffer()
         buffer, run = self.mapped[count]
         residual, jacobian = np.zeros((count, self.rows)), np.zeros((count, self.tangent, self.rows))
@@ -154,22 +158,29 @@ class Term:
 
 def prior(name: str, block: Block, mean: Array, covariance: Array, item: int = 0) -> Term:
     """A Gaussian prior of one item of a block: mean (n,) or H (4, 4), covariance (size, size) of it or of its left perturbation."""
+    whiten = np.linalg.inv(np.linalg.cholesky(covariance))
+    data = np.concatenate([np.ravel(mean), np.ravel(whiten)])[None]
+    return Term(_pose_prior() if block.is_pose else _vector_prior(block.size), (name,), (item,), data)
+
+
+@cache
+def _pose_prior() -> Model:
     import casadi as ca
 
-    size = block.size
-
-    def of_pose(H: Any, data: Any) -> Any:
+    def residual(H: Any, data: Any) -> Any:
         H_mean, whiten = matrix(data[:16], 4, 4), matrix(data[16:], 6, 6)
         R = H[:3, :3] @ H_mean[:3, :3].T
         return whiten @ ca.vertcat(small_rotation(R), H[:3, 3] - R @ H_mean[:3, 3])
 
-    def of_vector(x: Any, data: Any) -> Any:
+    return compile_residual(residual, (POSE,), 16 + 36)
+
+
+@cache
+def _vector_prior(size: int) -> Model:
+    def residual(x: Any, data: Any) -> Any:
         return matrix(data[size:], size, size) @ (x - data[:size])
 
-    whiten = np.linalg.inv(np.linalg.cholesky(covariance))
-    data = np.concatenate([np.ravel(mean), np.ravel(whiten)])[None]
-    model = compile_residual(of_pose if block.is_pose else of_vector, (POSE if block.is_pose else size,), data.shape[1])
-    return Term(model, (name,), (item,), data)
+    return compile_residual(residual, (size,), size + size**2)
 
 
 def independent_prior(name: str, mean: Array, sd: Array) -> Term:

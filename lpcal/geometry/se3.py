@@ -41,25 +41,28 @@ def rotation_vector(R: Array) -> Array:
 
 
 def quaternion(R: Array) -> Array:
-    """Unit quaternion (..., 4) as x, y, z, w with w >= 0 of rotation matrices R (..., 3, 3) (Bar-Itzhack 2000).
+    """Unit quaternion (..., 4) as x, y, z, w with w >= 0 of rotation matrices R (..., 3, 3).
 
-    The eigenvector of the largest eigenvalue: the nearest rotation where R is only nearly one.
+    K of R (Bar-Itzhack 2000) is 4 q q^T of a rotation: its largest column is q. Two steps of power iteration give the nearest rotation's
+    where R is only nearly one.
     """
     R = np.asarray(R, dtype=float)
     if R.shape[-2:] != (3, 3):
         msg = f"a rotation is (..., 3, 3), not {R.shape}"
         raise ValueError(msg)
     K = np.empty((*R.shape[:-2], 4, 4))
-    for i in range(3):
-        for j in range(3):
-            K[..., i, j] = R[..., i, j] + R[..., j, i]
+    K[..., :3, :3] = R + np.swapaxes(R, -1, -2)
     trace = np.trace(R, axis1=-2, axis2=-1)
-    K[..., range(3), range(3)] -= trace[..., None]
-    K[..., 3, 3] = trace
+    K[..., range(3), range(3)] += 1 - trace[..., None]
+    K[..., 3, 3] = 1 + trace
     K[..., 0, 3] = K[..., 3, 0] = R[..., 2, 1] - R[..., 1, 2]
     K[..., 1, 3] = K[..., 3, 1] = R[..., 0, 2] - R[..., 2, 0]
     K[..., 2, 3] = K[..., 3, 2] = R[..., 1, 0] - R[..., 0, 1]
-    q = np.linalg.eigh(K)[1][..., :, -1]
+    largest = np.argmax(np.diagonal(K, axis1=-2, axis2=-1), axis=-1)
+    q = np.take_along_axis(K, largest[..., None, None], axis=-1)
+    for _ in range(2):
+        q = K @ (q / np.linalg.norm(q, axis=-2, keepdims=True))
+    q = q[..., 0] / np.linalg.norm(q[..., 0], axis=-1, keepdims=True)
     return np.asarray(np.where(q[..., 3:] < 0, -q, q))
 
 

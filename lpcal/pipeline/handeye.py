@@ -13,7 +13,7 @@ from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
 from lpcal.formats.pasted_transforms import write_easy_handeye
-from lpcal.geometry.pose_track import poses_at
+from lpcal.geometry.pose_track import PoseTrack, poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
 from lpcal.pipeline.handeye_summary import EASY_HANDEYE, body_name, summarise
 from lpcal.pipeline.workspace import Stage, Workspace
@@ -32,11 +32,12 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     workspace = with_recording(workspace, recording)
     given = gather(workspace, progress)
     progress("hand-eye", 0, 1)
-    finding = _solved(workspace, given)
+    track = None if given.stream is None else track_of(given.stream)
+    finding = _solved(workspace, given, track)
     progress("hand-eye", 1, 1)
     handeye = _with_all_images(finding.handeye, given)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
-    write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding), provenance)
+    write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding, track), provenance)
     write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
     write_easy_handeye(workspace.calib(EASY_HANDEYE), handeye.H_PC, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
@@ -48,11 +49,11 @@ def settings(workspace: Workspace) -> dict[str, Any]:
     return {"mocap": section.model_dump() if section else None}
 
 
-def _solved(workspace: Workspace, given: HandEyeInputs) -> HandEyeFinding:
+def _solved(workspace: Workspace, given: HandEyeInputs, track: PoseTrack | None) -> HandEyeFinding:
     offset = section_of(workspace).clock_offset
     options = Options(None if offset == "estimate" else float(offset), given.camera_share)
-    if given.stream is not None:
-        return solve_moving(given.boards, track_of(given.stream), given.camera, options)
+    if track is not None:
+        return solve_moving(given.boards, track, given.camera, options)
     assert given.H_OP is not None
     return solve_paired(given.boards, given.H_OP, given.camera, options)
 
@@ -64,10 +65,10 @@ def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
     return replace(handeye, views=tuple(verdicts[image] for image in given.images))
 
 
-def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding) -> ImagePanelPoses:
+def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding, track: PoseTrack | None) -> ImagePanelPoses:
     """The body's pose at every image, those without a board too."""
-    if given.stream is not None and given.t_camera_s is not None:
-        panel = poses_at(track_of(given.stream), finding.mocap_times(given.t_camera_s))
+    if track is not None and given.t_camera_s is not None:
+        panel = poses_at(track, finding.mocap_times(given.t_camera_s))
         H_OP = np.where(panel.trusted[:, None, None], panel.H, np.nan)
         why, steady = panel.why, panel.steady
     else:

@@ -28,7 +28,7 @@ STEP_S = 0.02
 PAIR_STRIDES = (1, 2, 3, 5, 8, 13, 21, 34)
 ERROR_RAD = 0.01
 """Scale of the robust cost: angles of two views agree better than this at the right offset."""
-CANDIDATES = 4
+CANDIDATES, APART_S = 4, 0.15
 MOST_LAGS = 400_000
 MOST_PAIRS, SOME_PAIRS = 600, 150
 """Pairs that are compared near a likely offset, and those that find it."""
@@ -73,7 +73,7 @@ def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[
     lags = np.arange(*_range(track, t_camera_s), STEP_S)[:MOST_LAGS]
     costs = scan.costs(lags, SOME_PAIRS)
     found = []
-    for k in _minima(costs)[:CANDIDATES]:
+    for k in _minima(costs):
         fine_lags = lags[k] + np.linspace(-2, 2, 81) * STEP_S
         fine = scan.costs(fine_lags, MOST_PAIRS)
         if not np.isfinite(fine).any():
@@ -146,13 +146,15 @@ def _pairs(t_camera_s: Array) -> npt.NDArray[np.intp]:
 
 
 def _minima(costs: Array) -> list[int]:
+    """Local minima, least first, up to `CANDIDATES` that are apart."""
     filled = np.nan_to_num(costs, nan=np.inf)
     inner = np.concatenate([[np.inf], filled, [np.inf]])
     at = np.flatnonzero((filled <= inner[:-2]) & (filled <= inner[2:]) & np.isfinite(filled))
+    at = at[np.argsort(filled[at], kind="stable")]
     chosen: list[int] = []
-    for k in at[np.argsort(filled[at])]:
-        if all(abs(int(k) - other) * STEP_S > 0.15 for other in chosen):
-            chosen.append(int(k))
+    while len(at) and len(chosen) < CANDIDATES:
+        chosen.append(int(at[0]))
+        at = at[np.abs(at - at[0]) * STEP_S > APART_S]
     return chosen
 
 

@@ -11,35 +11,30 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import observability
-from lpcal.chain.h_pc_handeye.likelihood import estimate, misfit
+from lpcal.chain.h_pc_handeye.likelihood import misfit
 from lpcal.chain.h_pc_handeye.state import State
-from lpcal.errors import LpcalError
+from lpcal.errors import DegenerateError
+from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.geometry.least_squares import Options as LeastSquaresOptions
 
 ONE_BY_ONE, FOLDS = 20, 10
-ONE_STEP = LeastSquaresOptions(iterations=1, strict=False)
 
 
 def held_out(state: State) -> tuple[Array, Array]:
     """Angle (N,) and distance (N,) by which each used view's board misses the H_OB of the others; NaN for views not used."""
     rows = np.flatnonzero(state.inliers)
     angle, distance = np.full(len(state.inliers), np.nan), np.full(len(state.inliers), np.nan)
+    found, views = state.estimate(), state.views()
+    at = found.solution.columns("H_PC", "H_OB")
     folds = len(rows) if len(rows) <= ONE_BY_ONE else FOLDS
-    whole = state.estimate()
-    latent = whole.solution["H_OP"] if whole.term("mocap") >= 0 else None
     for fold in range(folds):
-        out = rows[fold::folds]
-        rest = state.inliers.copy()
-        rest[out] = False
-        if rest.sum() < observability.FEWEST_VIEWS:
+        out = np.arange(len(rows)) % folds == fold
+        if np.sum(~out) < observability.FEWEST_VIEWS:
             continue
-        others = replace(state, inliers=rest).views()
         try:
-            start_OP = None if latent is None else latent[rest[rows]]
-            found = estimate(others, state.camera, state.sigmas, whole, clock=state.clock, options=ONE_STEP, start_OP=start_OP)
-        except LpcalError:
+            step = found.solution.without(found.of_views(out))[at]
+        except DegenerateError:
             continue
-        left_out = replace(state, inliers=np.isin(np.arange(len(rest)), out)).views()
-        angle[out], distance[out] = misfit(left_out, found)
+        others = replace(found, H_PC=se3.exp(step[:6]) @ found.H_PC, H_OB=se3.exp(step[6:]) @ found.H_OB)
+        angle[rows[out]], distance[rows[out]] = misfit(views.of(out), others)
     return angle, distance

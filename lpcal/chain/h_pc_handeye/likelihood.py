@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.least_squares import POSE, Block, Model, Options, Solution, Term, compile_residual, matrix, prior, small_rotation, solve
 
 CAMERA_SIZE = 12
@@ -112,13 +112,23 @@ class Estimate:
         """Place of a kind of term; -1 where there is none."""
         return self.order.index(kind) if kind in self.order else -1
 
+    def views_of(self, kind: str) -> npt.NDArray[np.intp]:
+        """The view (K,) of each observation of a kind of term that is not the camera's prior."""
+        term = self.solution.terms[self.term(kind)]
+        return term.items(term.blocks.index("H_OP")) if "H_OP" in term.blocks else np.arange(term.count)
+
+    def of_views(self, chosen: Mask) -> list[Mask]:
+        """Which observations (K,) of each term belong to chosen views (N,)."""
+        terms = zip(self.order, self.solution.terms, strict=True)
+        return [np.zeros(term.count, dtype=bool) if kind == "camera" else chosen[self.views_of(kind)] for kind, term in terms]
+
     def corner_residuals(self) -> tuple[Array, npt.NDArray[np.intp]]:
         """Residuals (K, 2) of the corners in pixels of the image, and the view (K,) of each; empty where there are no corners."""
         place = self.term("corners")
         if place < 0:
             return np.zeros((0, 2)), np.zeros(0, dtype=np.intp)
         term = self.solution.terms[place]
-        return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, term.items(2)
+        return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, self.views_of("corners")
 
     def covariance(self) -> Array:
         """(13, 13) of H_PC, H_OB (left perturbations) and the offset."""
@@ -133,9 +143,8 @@ def estimate(
     *,
     clock: bool,
     options: Options | None = None,
-    start_OP: Array | None = None,
 ) -> Estimate:
-    """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB); `start_OP` (N, 4, 4) is that of the latent poses.
+    """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB).
 
     Raises
     ------
@@ -148,9 +157,8 @@ def estimate(
         found = solve(blocks, [_board_term(views, sigmas)], options=options)
         return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",), sigmas)
     earlier = start if isinstance(start, Estimate) else None
-    if start_OP is None and earlier is not None and len(earlier.solution["H_OP"]) == views.count:
-        start_OP = earlier.solution["H_OP"]
-    blocks["H_OP"] = Block(views.H_OP if start_OP is None else start_OP)
+    same_views = earlier is not None and len(earlier.solution["H_OP"]) == views.count
+    blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same_views else views.H_OP)
     blocks["camera"] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
     terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas)], ["mocap", "corners"]
     if camera.free.any():

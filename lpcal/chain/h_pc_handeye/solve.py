@@ -30,8 +30,10 @@ ROUNDS = 25
 SETTLED = 0.01
 """Relative change of every sigma at which the estimate counts as settled."""
 SETTLED_S = 2e-6
-HASTE = LeastSquaresOptions(iterations=3, strict=False)
-"""Of the solves between which the sigmas still change."""
+FIRST = LeastSquaresOptions(iterations=5, strict=False)
+THEN = LeastSquaresOptions(iterations=1, damping=1e-12, strict=False)
+"""Of the solves between which the sigmas still change: a Gauss-Newton step each, once near. Undamped: what the mocap determines is known
+a million times worse than what the corners do, and a damping in proportion to these would hold it."""
 OUTLIER_CHI2 = 33.0
 """Of six degrees of freedom: one of a hundred thousand sound views."""
 CORNER_SIGMAS = 6.0
@@ -86,9 +88,9 @@ def _refine(state: State, t_camera_s: Array | None) -> State:
         state = replace(state, inliers=chosen, corners_px=corners)
         if not same:
             state = _settle(state, t_camera_s)
-        factor = np.ones(len(chosen))
+        used, factor = state.inliers, np.ones(len(chosen))  # settling may have lost a view to an edge of the recording
         if t_camera_s is not None:
-            factor[chosen] = variance.deflation(state.views(), state.estimate(), state.sigmas, t_camera_s[chosen])
+            factor[used] = variance.deflation(state.views(), state.estimate(), state.sigmas, t_camera_s[used])
         moved = np.max(np.abs(factor / state.deflation - 1))
         if same and moved < 0.1:
             break
@@ -116,7 +118,9 @@ def _settle(state: State, t_camera_s: Array | None) -> State:
         views = state.views()
         if state.clock and not np.any(views.velocity):
             state = replace(state, clock=False)
-        found = estimate(views, state.camera, state.sigmas, state.found or state.start, clock=state.clock, options=HASTE)
+        found = estimate(
+            views, state.camera, state.sigmas, state.found or state.start, clock=state.clock, options=THEN if state.found else FIRST
+        )
         sigmas = variance.components(views, found, state.sigmas)
         moved, inliers = variance.change(state.sigmas, sigmas), state.inliers
         state = replace(state, found=found, sigmas=sigmas)

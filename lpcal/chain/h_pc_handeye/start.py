@@ -23,13 +23,17 @@ from lpcal.records.observations import BoardPoses
 READMIT = 5.0
 """Times the worst residual of the views that agree, up to which a board turned by half counts as agreeing."""
 
+CLEARLY_WORSE = 1.0
+"""Offsets at which the angles disagree by so much more, in logarithms of squares, are not tried."""
+
 
 def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Camera | None, options: Options) -> State:
     """The closed form at each likely offset; the one of least scatter."""
     if options.clock_offset_s is not None:
         offsets = [options.clock_offset_s]
     else:
-        offsets = [candidate.offset_s for candidate in clocks.offset_candidates(track, t_camera_s, boards.H_CB)]
+        candidates = clocks.offset_candidates(track, t_camera_s, boards.H_CB)
+        offsets = [candidate.offset_s for candidate in candidates if candidate.cost < candidates[0].cost + CLEARLY_WORSE]
     best: tuple[float, State, park.Consensus] | None = None
     for offset in offsets:
         panel = poses_at(track, t_camera_s - offset)

@@ -111,9 +111,7 @@ def block_factor(views: Views, found: Estimate, t_s: Array | None) -> float:
     for place, kind in enumerate(found.order):
         if kind == "camera":
             continue
-        term = solution.terms[place]
-        items = term.items(term.blocks.index("H_OP")) if "H_OP" in term.blocks else np.arange(term.count)
-        np.add.at(scores, blocks[items], solution.scores(place))
+        np.add.at(scores, blocks[found.views_of(kind)], solution.scores(place))
     formal = solution.covariance("H_PC", "H_OB")
     whole = solution.covariance_of_all()
     influence = scores @ whole[:, at]
