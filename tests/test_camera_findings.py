@@ -80,6 +80,20 @@ def test_a_twisted_board_costs_nothing_once_its_shape_is_free(bent_fits: dict[st
     np.testing.assert_allclose(found.points_B[:, 2], raised(bent()), atol=1.5e-5)
 
 
+def test_an_unevenly_printed_board_is_told_by_freeing_its_corners() -> None:
+    """COLMAP's adjustment finds where the corners are, and by how much the camera is off for it; on an even board it agrees."""
+    pytest.importorskip("pycolmap")
+    even = problem(Pattern().points(), 3, count=24)
+    uneven_m = Pattern().points() + 2e-4 * np.random.default_rng(5).standard_normal((54, 3))
+    for one, off_m in ((even, 0.0), (problem(uneven_m, 3, count=24), 2e-4)):
+        solution = solve_camera(views_of(one), BOARD, model="opencv4")
+        found = solution.evidence["free_board_check"]
+        assert isinstance(found, dict)
+        assert abs(found["board_off_rms_m"] - off_m) < 5e-5
+        assert any("mm rms from where its shape says" in word for word in solution.warnings) == (off_m > 0)
+        assert found["difference_rms_px"] < 0.05 if off_m == 0 else found["difference_rms_px"] > 0.05
+
+
 def test_the_shape_is_chosen_where_there_is_one_and_said() -> None:
     solution = solve_camera(views_of(problem(bent(1e-3), 3)), BOARD, model="opencv5")
     assert solution.evidence["chosen"]["board"] in BOARDS[2:]  # type: ignore[index]

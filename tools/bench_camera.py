@@ -123,11 +123,13 @@ def spread() -> None:
 
 def bouguet() -> None:
     paths = [str(DATA / "intrinsics" / "bouguet_ex1" / f"Image{k}.tif") for k in range(1, 21)]
-    for board, model in ((Board((13, 12), (0.03, 0.03), warp=False), "opencv4"), (Board((13, 12), (0.03, 0.03)), "auto")):
+    flat, opencv = (Board((13, 12), (0.03, 0.03), warp=False, corner_fit=fit) for fit in ("edges", "opencv"))
+    for board, model in ((flat, "opencv4"), (opencv, "opencv4"), (Board((13, 12), (0.03, 0.03)), "auto")):
         solution = solve_camera(found(paths, board), board, model=model)
         core = solution.camera.K[CORE]
-        print(f"bouguet, {model}: {np.round(core, 2)}, {np.round((core - PUBLISHED) / SIGMA, 1)} published sigmas")
-        print(f"  {solution.evidence['chosen']}")
+        apart = np.round((core - PUBLISHED) / SIGMA, 1)
+        print(f"bouguet, {model}, corners by {board.corner_fit}: {np.round(core, 2)}, {apart} published sigmas")
+        print(f"  {solution.evidence['chosen']}; {solution.evidence['free_board_check']}")
 
 
 def boards() -> None:

@@ -78,11 +78,11 @@ def _sureness(evidence: Mapping[str, Any]) -> list[str]:
             f"({sure['most_where_corners_are_px']:.3f} px where corners are)",
             f"            to be trusted over {100 * sure['trusted_share']:.0f} % of the imager",
         ]
-    other = evidence.get("independent_check") or {}
-    if "difference_rms_px" in other:
-        lines.append(
-            f"check       {other['by']} is {other['difference_rms_px']:.4f} px rms, {other['difference_worst_px']:.4f} px at most apart"
-        )
+    for check in ("independent_check", "free_board_check"):
+        other = evidence.get(check) or {}
+        if "difference_rms_px" in other:
+            by, rms_px, most_px = other["by"], other["difference_rms_px"], other["difference_worst_px"]
+            lines.append(f"check       {by}: {rms_px:.4f} px rms, {most_px:.4f} px at most apart")
     if "coverage" in evidence:
         lines.append(f"coverage    {evidence['coverage']['in_words']}")
     if evidence.get("views_that_matter"):

@@ -13,6 +13,7 @@ import numpy as np
 
 from lpcal.chain.k_camera import patterns
 from lpcal.chain.k_camera.assess import Sureness, assess, assess_spline, information
+from lpcal.chain.k_camera.free_board import check_with_free_board
 from lpcal.chain.k_camera.independent import check
 from lpcal.chain.k_camera.next_view import WORTH_SAYING, advise
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
@@ -25,6 +26,8 @@ MOST_NAMED = 5
 MUCH_BLUR, LEAST_BLUR_PX, MUCH_GLARE = 2.0, 1.5, 0.03
 """A view is blurred over so many times the usual blur and so many px; it shines where more than this share of the board is white."""
 USUAL_SQUARE_M = (0.002, 0.25)
+UNEVEN_SHARE, UNEVEN_SIGMAS = 0.6, 2.0
+"""A board is called uneven where its corners are off by this share of a corner's sigma, or move the camera by so many of its sigmas."""
 FLAT_TILT_DEG = 15.0
 """Boards tilted less than this about an axis leave the focal length to chance."""
 
@@ -45,12 +48,28 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
     sure = assess(known, fit)
     figures["projection_uncertainty"] = _uncertainty(sure)
     figures["independent_check"] = check(problem, fit)
+    figures["free_board_check"] = free = check_with_free_board(problem, fit)
+    warnings += _uneven(free or {}, sure, fit)
     order = np.argsort(-sure.gain)[:MOST_NAMED]
     figures["views_that_matter"] = [{"image": names[row], "without_it": float(sure.gain[row])} for row in order]
     advice = advise(known, fit)
     if advice is not None and advice.after_px < WORTH_SAYING * advice.before_px:
         figures["next_view"] = {"hold_the_board": advice.words, "std_now_px": advice.before_px, "std_then_px": advice.after_px}
     return figures, warnings
+
+
+def _uneven(free: dict[str, Any], sure: Sureness, fit: CameraFit) -> list[str]:
+    """A word where freeing the board's corners explains much of what is left, or moves the camera by more than its sigma allows."""
+    if "difference_rms_px" not in free or not sure.covered.any():
+        return []
+    off_px = free["board_off_rms_m"] * fit.camera.K[0, 0] / float(np.median(fit.H_CB[:, 2, 3]))
+    said_px = float(np.sqrt(np.mean(sure.worst_px[sure.covered] ** 2)))
+    if off_px < UNEVEN_SHARE * fit.sigma_px and free["difference_rms_px"] < UNEVEN_SIGMAS * said_px:
+        return []
+    return [
+        f"the board's corners lie {1e3 * free['board_off_rms_m']:.2g} mm rms from where its shape says, and with them free the camera is "
+        f"{free['difference_rms_px']:.2g} px apart (its sigma there is {said_px:.2g} px): print on a stiff board, or have one made"
+    ]
 
 
 def _odd_size(problem: CornerProblem, fit: CameraFit) -> list[str]:
