@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, FlatField, ViewVerdict
 
@@ -45,13 +44,7 @@ def read_camera(path: Path) -> Camera:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    document = read_document(path, KIND)
-    try:
-        return camera_from_document(document)
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{error} is lacking or garbled", where=str(path), needed="a whole camera file", todo="write it anew with lpcal intrinsics"
-        ) from error
+    return read_record(path, KIND, "lpcal intrinsics", camera_from_document)
 
 
 def camera_document(camera: Camera) -> dict[str, Any]:

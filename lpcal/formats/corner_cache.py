@@ -22,7 +22,9 @@ from lpcal.records.observations import Board, BoardView
 
 def cache_key(image: Path, board: Board, version: int) -> str:
     """What a detection depends on, as one digest."""
-    seeds = f"{sha256(image)} {board.kind} {board.corners} {board.dictionary} {board.corner_fit} {board.marker_m / board.square_m[0]} {version}"
+    seeds = (
+        f"{sha256(image)} {board.kind} {board.corners} {board.dictionary} {board.corner_fit} {board.marker_m / board.square_m[0]} {version}"
+    )
     return hashlib.sha256(seeds.encode()).hexdigest()
 
 

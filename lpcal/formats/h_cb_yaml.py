@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardPoses
 
@@ -44,23 +43,21 @@ def read_h_cb(path: Path) -> BoardPoses:
     InputError
         Not there, cut off, of another kind, or garbled.
     """
-    document = read_document(path, KIND)
-    try:
-        views = [view for view in document["views"] if view["H_CB"] is not None]
-        return BoardPoses(
-            images=tuple(view["image"] for view in views),
-            t_camera_s=None,
-            H_CB=_stack([view["H_CB"] for view in views], (4, 4)),
-            corners_px=_stack([view["corners_px"] for view in views], (len(document["board"]["points_m"]), 2)),
-            points_B=np.array(document["board"]["points_m"], dtype=float),
-            covariance=_stack([view["covariance"] for view in views], (6, 6)),
-            rms_px=np.array([view["rms_px"] for view in views], dtype=float),
-            corner_sigma_px=float(document["corner_sigma_px"]),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{error} is lacking or garbled", where=str(path), needed="a whole H_CB file", todo="write it anew with lpcal intrinsics"
-        ) from error
+    return read_record(path, KIND, "lpcal intrinsics", _poses)
+
+
+def _poses(document: dict[str, Any]) -> BoardPoses:
+    views = [view for view in document["views"] if view["H_CB"] is not None]
+    return BoardPoses(
+        images=tuple(view["image"] for view in views),
+        t_camera_s=None,
+        H_CB=_stack([view["H_CB"] for view in views], (4, 4)),
+        corners_px=_stack([view["corners_px"] for view in views], (len(document["board"]["points_m"]), 2)),
+        points_B=np.array(document["board"]["points_m"], dtype=float),
+        covariance=_stack([view["covariance"] for view in views], (6, 6)),
+        rms_px=np.array([view["rms_px"] for view in views], dtype=float),
+        corner_sigma_px=float(document["corner_sigma_px"]),
+    )
 
 
 def _view(poses: BoardPoses, row: int) -> dict[str, Any]:

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.geometry.arrays import Array
 
 KIND = "H_OP"
@@ -58,21 +58,19 @@ def read_h_op(path: Path) -> ImagePanelPoses:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    document = read_document(path, KIND)
-    try:
-        views = document["views"]
-        nothing = np.full((4, 4), np.nan)
-        times = [view["t_camera_s"] for view in views]
-        return ImagePanelPoses(
-            body=document["body"],
-            images=tuple(view["image"] for view in views),
-            t_camera_s=None if any(time is None for time in times) else np.array(times, dtype=float),
-            H_OP=np.array([nothing if view["H_OP"] is None else view["H_OP"] for view in views], dtype=float).reshape(len(views), 4, 4),
-            why=tuple(view["why"] for view in views),
-            steady=np.array([view["steady"] for view in views], dtype=bool),
-            clock_offset_s=document["clock_offset_s"],
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{error} is lacking or garbled", where=str(path), needed="a whole H_OP file", todo="write it anew with lpcal handeye"
-        ) from error
+    return read_record(path, KIND, "lpcal handeye", _poses)
+
+
+def _poses(document: dict[str, Any]) -> ImagePanelPoses:
+    views = document["views"]
+    nothing = np.full((4, 4), np.nan)
+    times = [view["t_camera_s"] for view in views]
+    return ImagePanelPoses(
+        body=document["body"],
+        images=tuple(view["image"] for view in views),
+        t_camera_s=None if any(time is None for time in times) else np.array(times, dtype=float),
+        H_OP=np.array([nothing if view["H_OP"] is None else view["H_OP"] for view in views], dtype=float).reshape(len(views), 4, 4),
+        why=tuple(view["why"] for view in views),
+        steady=np.array([view["steady"] for view in views], dtype=bool),
+        clock_offset_s=document["clock_offset_s"],
+    )

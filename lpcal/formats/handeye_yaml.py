@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.formats.pasted_transforms import both_ways
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye, ViewVerdict
@@ -52,25 +51,23 @@ def read_handeye(path: Path) -> HandEye:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    document = read_document(path, KIND)
-    try:
-        return HandEye(
-            H_PC=_matrix(document, "H_PC", 4),
-            H_PC_covariance=_matrix(document, "H_PC_covariance", 6),
-            H_OB=_matrix(document, "H_OB", 4),
-            H_OB_covariance=_matrix(document, "H_OB_covariance", 6),
-            clock_offset_s=document["clock_offset_s"],
-            clock_offset_std_s=document["clock_offset_std_s"],
-            views=tuple(_verdict(view) for view in document["views"]),
-            clock_drift=1e-6 * (document.get("clock_drift_ppm") or 0.0),
-            clock_middle_s=document.get("clock_middle_s") or 0.0,
-            warnings=tuple(document.get("warnings") or ()),
-            evidence=document.get("evidence") or {},
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{error} is lacking or garbled", where=str(path), needed="a whole handeye file", todo="write it anew with lpcal handeye"
-        ) from error
+    return read_record(path, KIND, "lpcal handeye", _handeye)
+
+
+def _handeye(document: dict[str, Any]) -> HandEye:
+    return HandEye(
+        H_PC=_matrix(document, "H_PC", 4),
+        H_PC_covariance=_matrix(document, "H_PC_covariance", 6),
+        H_OB=_matrix(document, "H_OB", 4),
+        H_OB_covariance=_matrix(document, "H_OB_covariance", 6),
+        clock_offset_s=document["clock_offset_s"],
+        clock_offset_std_s=document["clock_offset_std_s"],
+        views=tuple(_verdict(view) for view in document["views"]),
+        clock_drift=1e-6 * (document.get("clock_drift_ppm") or 0.0),
+        clock_middle_s=document.get("clock_middle_s") or 0.0,
+        warnings=tuple(document.get("warnings") or ()),
+        evidence=document.get("evidence") or {},
+    )
 
 
 def _matrix(document: dict[str, Any], key: str, size: int) -> Array:
