@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from lpcal.records.observations import Board, BoardView, BoardViews
 from lpcal.records.outcome import Progress
 
 COUNTED_IMAGES = 3
-"""So many of the images without a board are searched for a board of another count."""
+"""So many of the images without a board are searched for a board of another count, before the rest is looked at where they come first."""
 FEW = 0.5
 """A board found in fewer images than this is suspected to be another one."""
 
@@ -48,16 +48,12 @@ def search(
     found: dict[str, Sighting] = {key: kept[key] for key in keys if key in kept}
     given = {image: Sighting(read_image(image).size, view) for image, view in known.items()}
     new = [row for row, (key, image) in enumerate(zip(keys, images, strict=True)) if key not in kept and image not in given]
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        # threads, not processes: OpenCV gives up the interpreter's lock while it searches
-        tasks = {pool.submit(_look, images[row], board): keys[row] for row in new}
-        try:
-            for done, task in enumerate(as_completed(tasks), start=1):
-                found[tasks[task]] = task.result()
-                progress("board", done, len(new))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    first = _spread(new)
+    found |= _look_at(images, keys, first, board, lambda done: progress("board", done, len(new)))
+    if first and len(new) == len(images) and all(found[keys[row]].view.corners_px is None for row in first):
+        refuse_another_count(images, first, found[keys[first[0]]].named(workspace.relative(images[first[0]])), board)
+    rest = [row for row in new if row not in first]
+    found |= _look_at(images, keys, rest, board, lambda done: progress("board", len(first) + done, len(new)))
     if new:
         write_corner_cache(store, found)
     sightings = [given[image] if image in given else found[key] for key, image in zip(keys, images, strict=True)]
@@ -103,23 +99,10 @@ def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board
     found = len(images) - len(empty)
     if found >= FEW * len(images) and found > 0:
         return
-    picks = [empty[k] for k in np.unique(np.linspace(0, len(empty) - 1, COUNTED_IMAGES).round().astype(int))]
-    others = [
-        other
-        for row in picks
-        if (other := count_corners(_grey(images[row]), board.corners)) is not None and set(other) != set(board.corners)
-    ]
-    asked = f"{board.corners[0]}x{board.corners[1]}"
-    if others and board.kind == "chessboard":
-        (columns, rows), votes = Counter(others).most_common(1)[0]
-        if found == 0 or votes > len(picks) / 2:
-            raise DisagreementError(
-                f"found a board of {columns}x{rows} inner corners in {votes} of the {len(picks)} images looked at, you asked for {asked}",
-                where=views.views[picks[0]].image,
-                needed="board.corners as on the board: inner corners, one fewer than squares, along x and y",
-                todo=f"write corners: [{columns}, {rows}], or give the images of the other board",
-            )
+    picks = _spread(empty)
+    refuse_another_count(images, picks, views.views[picks[0]], board)
     if found == 0:
+        asked = f"{board.corners[0]}x{board.corners[1]}"
         reasons = Counter(view.why for view in views.views)
         why, count = reasons.most_common(1)[0]
         raise DegenerateError(
@@ -128,6 +111,54 @@ def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board
             needed="images that show the whole board, sharp and lit evenly",
             todo="look at the images, and at board.corners",
         )
+
+
+def refuse_another_count(images: Sequence[Path], picks: Sequence[int], first: BoardView, board: Board) -> None:
+    """Say so where most of the images picked, in which the board was not found, show a chessboard of another corner count.
+
+    Raises
+    ------
+    DisagreementError
+    """
+    if board.kind != "chessboard":
+        return
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        others = pool.map(lambda row: count_corners(_grey(images[row]), board.corners), picks)
+        counts = Counter(other for other in others if other is not None)
+    counts.pop((max(board.corners), min(board.corners)), None)
+    if not counts or counts.most_common(1)[0][1] <= len(picks) / 2:
+        return
+    (columns, rows), votes = counts.most_common(1)[0]
+    asked = f"{board.corners[0]}x{board.corners[1]}"
+    raise DisagreementError(
+        f"found a board of {columns}x{rows} inner corners in {votes} of the {len(picks)} images looked at, you asked for {asked}",
+        where=first.image,
+        needed="board.corners as on the board: inner corners, one fewer than squares, along x and y",
+        todo=f"write corners: [{columns}, {rows}], or give the images of the other board",
+    )
+
+
+def _spread(rows: Sequence[int]) -> list[int]:
+    """A few of the rows, over all of them."""
+    return [rows[k] for k in np.unique(np.linspace(0, len(rows) - 1, COUNTED_IMAGES).round().astype(int))] if rows else []
+
+
+def _look_at(
+    images: Sequence[Path], keys: Sequence[str], rows: Sequence[int], board: Board, done: Callable[[int], None]
+) -> dict[str, Sighting]:
+    """The board in some of the images, by their keys."""
+    found: dict[str, Sighting] = {}
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        # threads, not processes: OpenCV gives up the interpreter's lock while it searches
+        tasks = {pool.submit(_look, images[row], board): keys[row] for row in rows}
+        try:
+            for count, task in enumerate(as_completed(tasks), start=1):
+                found[tasks[task]] = task.result()
+                done(count)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return found
 
 
 def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> None:
