@@ -19,7 +19,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import normals
 from lpcal.surface.normals import Estimate
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Lit, Sight
 
 SAMPLE = 900
 ROUGHNESSES = (0.08, 0.15, 0.3)
@@ -57,18 +57,17 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     return np.asarray(np.where(nd > 0, D * smith(np.maximum(nd, 0)) * smith(nv) / (4 * nv), 0.0))
 
 
-def estimate(seen: Sight, d: Array, E: Array, usable: Mask, gloss: Gloss, start: Estimate) -> Estimate:
+def estimate(seen: Sight, lit: Lit, usable: Mask, gloss: Gloss, start: Estimate) -> Estimate:
     """Normals and albedo (see surface.normals) with the gloss taken off, from those at the start; a few rounds."""
     found, v = start, -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
-    B = d * E[..., None]
     for _ in range(ROUNDS):
         n = lambert.unit(np.where(np.isfinite(found.b), found.b, v))[0]
-        shine = gloss.ks * E * lobe(d, n, v, gloss.roughness)
-        found = replace(normals.estimate(seen, B, usable, normals.variances(seen, shine), shine), gloss=shine)
+        shine = gloss.ks * lit.E * lobe(lit.d, n, v, gloss.roughness)
+        found = replace(normals.estimate(seen, lit.B, usable, normals.variances(seen, shine), shine), gloss=shine)
     return found
 
 
-def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate, before: Gloss | None = None) -> Gloss | None:
+def fit(seen: Sight, lit: Lit, usable: Mask, start: Estimate, before: Gloss | None = None) -> Gloss | None:
     """The lobe of the object, None where it has none to speak of; the search begins from the one `before`."""
     from scipy import optimize
 
@@ -76,18 +75,18 @@ def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate, before: 
     if len(known) < normals.LEAST * 100:
         return None
     some = known[:: max(1, len(known) // SAMPLE)]
-    sample = Sight(seen.mask, seen.rays_C[some], seen.signal[:, some], seen.sigma[:, some], seen.usable[:, some], seen.central)
+    sample, light, usable = seen.at(some), lit.at(some), usable[:, some]
     begin = Estimate(start.b[some], start.inliers[:, some], start.covariance[some], start.chi2[some], start.cost[some])
-    d, E, usable = d[:, some], E[:, some], usable[:, some]
     albedo = float(np.median(np.linalg.norm(begin.b, axis=1)))
-    plain = _cost(sample, d, E, usable, normals.estimate(sample, d * E[..., None], usable, normals.variances(sample)))
+    plain = normals.misfit(sample, light.B, usable, normals.estimate(sample, light.B, usable, normals.variances(sample)))
 
     if plain < CLEAN:
         return None
 
     def cost(x: Array) -> float:
         trial = Gloss(albedo * float(np.exp(x[0])), float(np.clip(np.exp(x[1]), 0.03, 1.0)), 1.0)
-        return _cost(sample, d, E, usable, estimate(sample, d, E, usable, trial, begin))
+        found = estimate(sample, light, usable, trial, begin)
+        return normals.misfit(sample, light.B, usable, found, found.gloss)
 
     trials = [np.log([strength, roughness]) for strength in STRENGTHS for roughness in ROUGHNESSES]
     best = min(trials, key=cost) if before is None else np.log([before.ks / albedo, before.roughness])
@@ -97,10 +96,3 @@ def fit(seen: Sight, d: Array, E: Array, usable: Mask, start: Estimate, before: 
     found = optimize.minimize(cost, best, method="Nelder-Mead", options={"maxfev": TRIAL_STEPS, "initial_simplex": simplex})
     gain = float(found.fun) / plain
     return Gloss(albedo * float(np.exp(found.x[0])), float(np.clip(np.exp(found.x[1]), 0.03, 1.0)), gain) if gain < KEPT_BELOW else None
-
-
-def _cost(seen: Sight, d: Array, E: Array, usable: Mask, found: Estimate) -> float:
-    """Mean of min(r^2, OUTLIER^2) over the samples, by their plain variances."""
-    signal = seen.signal - (found.gloss if found.gloss is not None else 0.0)
-    square = (signal - lambert.predicted(d * E[..., None], np.nan_to_num(found.b))) ** 2 / normals.variances(seen)
-    return float(np.sum(np.where(usable, np.minimum(square, normals.OUTLIER**2), 0.0)) / max(usable.sum(), 1))

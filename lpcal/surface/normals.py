@@ -61,6 +61,10 @@ class Estimate:
         """Number of inliers (P,)."""
         return np.asarray(self.inliers.sum(axis=0))
 
+    def diffuse(self, sight: Sight) -> Array:
+        """Signals (L, P) without gloss."""
+        return sight.signal if self.gloss is None else np.maximum(sight.signal - self.gloss, 0.0)
+
 
 def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
     """Samples (L, P) that a light seems to reach unhindered."""
@@ -90,6 +94,13 @@ def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array
         np.concatenate([part.chi2 for part in parts]),
         np.concatenate([part.cost for part in parts]),
     )
+
+
+def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate, gloss: Array | None = None) -> float:
+    """Mean of min(r^2, OUTLIER^2) over the samples `usable` (L, P) of an estimate, by their plain variances; `gloss` is taken off."""
+    signal = sight.signal if gloss is None else sight.signal - gloss
+    square = (signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(sight)
+    return float(np.sum(np.where(usable, np.minimum(square, OUTLIER**2), 0.0)) / max(usable.sum(), 1))
 
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:

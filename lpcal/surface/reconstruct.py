@@ -1,31 +1,26 @@
-"""A surface from the linear images of a capture and the calibrated lights.
+"""A surface from the linear images of a capture and the calibrated lights: what is seen, the rounds, what is made of them.
 
-The rounds: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth. Without a camera, or with
-distant lights, the light does not tell the distance: parallel rays give a depth in pixels about zero, a camera one about the distance
-that is given or designed.
+Without a camera, or with distant lights, the light does not tell the distance: parallel rays give a depth in pixels about zero, a camera
+one about the distance that is given or designed.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.records.calibration import Calibration, Camera, Light
+from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, distance, gains, gloss, mask, normals, pieces, planes, shadow_anchor, sight, uncertainty
-from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
-from lpcal.surface.normals import Estimate
-from lpcal.surface.sight import Sight
+from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, uncertainty
+from lpcal.surface.integrate import Grid
+from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 
-ROUNDS = 5
-GLOSS_ROUNDS = (1, 3)
-FEWEST_PIXELS = 50
 AGREE_DEG = 2.0
 """A measured normal and that of the depth are averaged where they agree this well."""
 STATED_DISTANCE = 0.003
@@ -49,50 +44,6 @@ class Options:
     """Whether the object is to be found where no mask is given; else every pixel counts."""
 
 
-@dataclass(frozen=True)
-class State:
-    """Where the rounds are: P pixels."""
-
-    u: Array
-    """log depth, or depth in pixels without a camera."""
-    weight: Array
-    """Of the edges."""
-    normals: Array
-    found: Estimate
-    own: Own
-    gloss: gloss.Gloss | None = None
-    anchors: dict[int, shadow_anchor.Anchor] = field(default_factory=dict)
-    """What a piece's shadow did to its distance, by label."""
-
-
-@dataclass(frozen=True)
-class Scene:
-    """What stays as it is through the rounds."""
-
-    name: str
-    seen: Sight
-    grid: Grid
-    lights: tuple[Light, ...]
-    focus_C: Array | None
-    """Where lights act as they do there; None: they are near."""
-    distance_m: float | None = None
-    """Median depth of the largest piece, where it is known."""
-
-    @property
-    def near(self) -> bool:
-        """Whether the light tells the distance."""
-        return self.focus_C is None
-
-    def light_at(self, depth: Array) -> tuple[Array, Array]:
-        """Directions (L, P, 3) and irradiance (L, P) at depths (P,)."""
-        return sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C)
-
-    def B_at(self, depth: Array) -> Array:
-        """Light vectors (L, P, 3) at depths (P,)."""
-        d, E = self.light_at(depth)
-        return d * E[..., None]
-
-
 def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
     """The surface of a capture.
 
@@ -109,6 +60,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     central = calibration.camera is not None
     near = options.near and central and any(light.source_C is not None for light in lights)
     begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else DISTANCE_M)
+    focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
     object_mask = _object(background, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
@@ -116,10 +68,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
-    focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m)
     how = background.how if background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
-    state = _rounds(scene, float(begin), progress)
+    state = rounds.run(scene, float(begin), progress)
     if near and background is not None and background.planes and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, maps, rays_C, background.planes[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C)
@@ -142,7 +93,7 @@ def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall:
     shift = np.zeros(256)
     shift[list(anchors)] = [np.log(anchor.used) for anchor in anchors.values()]
     u = state.u + shift[label]
-    again = _round(scene, u, state, GLOSS_ROUNDS[-1])
+    again = rounds.once(scene, u, state)
     for one in anchors:  # the round's own distance is what the shadow overrules
         inside = label == one
         again.u[inside] += np.mean(u[inside]) - np.mean(again.u[inside])
@@ -168,54 +119,11 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
     return given
 
 
-def _rounds(scene: Scene, begin: float, progress: Progress) -> State:
-    seen = scene.seen
-    u = np.full(seen.pixels, np.log(begin) if seen.central else 0.0)
-    state = _round(scene, u, None, 0)
-    rounds = ROUNDS if scene.near else 1
-    for k in range(1, rounds):
-        progress(f"{scene.name}: normals and depth", k, rounds)
-        state = _round(scene, state.u, state, k)
-    progress(f"{scene.name}: normals and depth", rounds, rounds)
-    return state
-
-
-def _round(scene: Scene, u: Array, before: State | None, k: int) -> State:
-    seen, grid = scene.seen, scene.grid
-    depth = np.exp(u) if seen.central else np.ones_like(u)
-    d, E = scene.light_at(depth)
-    usable = normals.candidates(seen, E)
-    found = normals.estimate(seen, d * E[..., None], usable, normals.variances(seen))
-    shine = before.gloss if before else None
-    if k in GLOSS_ROUNDS or not scene.near:
-        shine = gloss.fit(seen, d, E, usable, found, shine)
-    if shine is not None:
-        found = gloss.estimate(seen, d, E, usable, shine, found)
-    known = np.isfinite(found.b[:, 0])
-    if known.sum() < FEWEST_PIXELS:
-        raise DegenerateError(
-            f"{known.sum()} pixels are lit by three lights",
-            where=scene.name,
-            needed=f"{FEWEST_PIXELS} at least",
-            todo="check the mask, the exposure and the ambient image",
-        )
-    n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
-    step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
-    own = distance.own_distance(scene.B_at, depth, seen, found) if scene.near else Own(np.full(seen.pixels, distance.WEAK), u)
-    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
-    weight = pieces.without_slivers(grid, weight, seen.mask)
-    u = settle(grid, step, sigma, own, u, weight)
-    if scene.distance_m is not None and seen.central:
-        largest = pieces.pieces(grid, weight, seen.mask) == 1
-        u = u + np.log(scene.distance_m) - np.median(u[largest])
-    return State(u, weight, n, found, own, shine)
-
-
 def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> Surface:
     seen, grid = scene.seen, scene.grid
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)
-    albedo = _albedo(radiance, scene, state, depth if seen.central else np.ones_like(depth))
+    albedo = _albedo(radiance, scene, state)
     whole = state.weight > pieces.BREAK_WEIGHT
     of_depth = bend.normals_of(grid, seen.shape_C(depth), whole)
     of_depth = np.where(np.isfinite(of_depth), of_depth, state.normals)
@@ -266,11 +174,10 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
     return tuple(found)
 
 
-def _albedo(radiance: Radiance, scene: Scene, state: State, depth: Array) -> Array:
+def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
     seen, lights = scene.seen, scene.lights
-    d, E = scene.light_at(depth)
-    shading = E * np.maximum(np.einsum("kpi,pi->kp", d, state.normals), 0.0)
+    shading = lambert.predicted(state.lit.B, state.normals)
     used = np.where(state.found.used >= normals.LEAST, state.found.inliers, seen.usable)
     below = np.sum(used * shading**2, axis=0)
     channels = radiance.signal[:, seen.mask].reshape(len(lights), seen.pixels, -1)
@@ -292,5 +199,6 @@ def _figures(state: State) -> dict[str, object]:
         "median_lights_used": float(np.median(found.used)),
         "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
         "gloss": None if state.gloss is None else asdict(state.gloss),
+        "reflectance": state.reflectance,
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }

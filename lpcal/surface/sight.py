@@ -7,7 +7,7 @@ light counts as one of intensity 1; of an RGB capture the channels are joined in
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -60,6 +60,10 @@ class Sight:
         found[self.mask] = values
         return found
 
+    def at(self, some: Indices) -> Sight:
+        """Some of the pixels; the mask stays that of all."""
+        return replace(self, rays_C=self.rays_C[some], signal=self.signal[:, some], sigma=self.sigma[:, some], usable=self.usable[:, some])
+
     def points_C(self, depth: Array) -> Array:
         """Points (P, 3) at depths (P,)."""
         return depth[:, None] * self.rays_C
@@ -70,6 +74,28 @@ class Sight:
             return self.points_C(depth)
         rows, columns = np.nonzero(self.mask)
         return np.stack([columns, rows, depth], axis=1).astype(float)
+
+
+@dataclass(frozen=True)
+class Lit:
+    """The light at each pixel: of the lights, and of what the object throws on itself."""
+
+    d: Array
+    """(L, P, 3) unit vectors to the lights."""
+    E: Array
+    """(L, P) irradiance."""
+    thrown: Array | None = None
+    """(L, P, 3) light vectors of what other parts of the object throw here (surface.bounce)."""
+
+    @property
+    def B(self) -> Array:
+        """Light vectors (L, P, 3), all light counted."""
+        own = self.d * self.E[..., None]
+        return own if self.thrown is None else own + self.thrown
+
+    def at(self, some: Indices) -> Lit:
+        """At some of the pixels."""
+        return Lit(self.d[:, some], self.E[:, some], None if self.thrown is None else self.thrown[:, some])
 
 
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:

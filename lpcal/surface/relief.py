@@ -1,0 +1,69 @@
+r"""A depth map as a body that stands in the way: whether a straight line between two points passes behind the surface.
+
+A point y of the line is hidden where the surface, seen along y's own ray, is nearer than y by more than a tolerance: what lies behind the
+front that the camera sees is taken for solid, to a certain thickness. Source: shadow maps, Williams 1978, Computer Graphics 12(3).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface.sight import Sight
+
+TOLERANCE = 0.003
+"""Of the depth: by how much a point must lie behind the surface to be hidden."""
+THICKNESS = 0.2
+"""Of the depth: how far behind its front a body still counts."""
+FIT_PIXELS = 2000
+
+
+@dataclass(frozen=True)
+class Relief:
+    """The front of a surface: its depth a pixel, and where a ray meets the image."""
+
+    front: Array
+    """(H, W) depth of the furthest of 3x3 pixels, so that steep slopes do not hide themselves; inf outside."""
+    pixel_of_ray: Array
+    """(6, 2) coefficients of columns and rows by the powers of a ray's x and y."""
+
+    @staticmethod
+    def of(seen: Sight, depth: Array) -> Relief:
+        """Of depths (P,) at the pixels of a camera."""
+        from scipy import ndimage
+
+        front = np.full(seen.mask.shape, np.inf)
+        front[seen.mask] = depth
+        some = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
+        rows, columns = (index[some] for index in np.nonzero(seen.mask))
+        powers = _powers(seen.rays_C[some, :2])
+        pixel_of_ray = np.linalg.lstsq(powers, np.stack([columns, rows], axis=1).astype(float), rcond=None)[0]
+        return Relief(ndimage.maximum_filter(front, 3, mode="constant", cval=np.inf), pixel_of_ray)
+
+    def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
+        """Whether the surface stands between points (N, 3) and (N, 3), tried at `steps` places."""
+        found = np.zeros(len(start_C), bool)
+        height, width = self.front.shape
+        for k in range(steps):
+            y_C = start_C + (k + 0.5) / steps * (end_C - start_C)
+            pixel = np.rint(_powers(y_C[:, :2] / y_C[:, 2:]) @ self.pixel_of_ray)
+            inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < width) & (pixel[:, 1] < height)
+            column, row = np.where(inside[:, None], pixel, 0).astype(np.intp).T
+            behind = y_C[:, 2] / self.front[row, column] - 1
+            found |= inside & (behind > TOLERANCE) & (behind < THICKNESS)
+        return found
+
+    def hidden_from(self, x_C: Array, source_C: Array, steps: int) -> Mask:
+        """Whether the surface stands between points x_C (N, 3) of it and a source (3,): only the way up to its nearest part counts."""
+        nearest = float(np.min(self.front))
+        fall = np.maximum(x_C[:, 2] - source_C[2], 1e-9)
+        share = np.clip((x_C[:, 2] - nearest) / fall, 0, 1)
+        return self.hidden(x_C, x_C + share[:, None] * (source_C - x_C), steps)
+
+
+def _powers(xy: Array) -> Array:
+    """Powers and products (N, 6) of rays' x and y (N, 2), to the second degree: lenses bend the map from rays to pixels a little."""
+    x, y = xy.T
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)

@@ -1,0 +1,156 @@
+"""The rounds of a reconstruction: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth.
+
+From the second round on the depth tells more: which lights the surface hides from a pixel, what its parts throw on each other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import Light
+from lpcal.records.outcome import Progress
+from lpcal.surface import bounce, distance, gloss, normals, pieces, shadow_anchor, sight
+from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
+from lpcal.surface.normals import Estimate
+from lpcal.surface.relief import Relief
+from lpcal.surface.sight import Lit, Sight
+
+ROUNDS = 5
+GLOSS_ROUNDS = (1, 3)
+HIDING_ROUND = 2
+"""From which on the depth is good enough to tell which lights it hides."""
+SHADOW_STEPS = 64
+SHADED = 0.6
+"""A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
+FEWEST_PIXELS = 50
+
+
+@dataclass(frozen=True)
+class State:
+    """Where the rounds are: P pixels."""
+
+    u: Array
+    """log depth, or depth in pixels without a camera."""
+    weight: Array
+    """Of the edges."""
+    normals: Array
+    found: Estimate
+    own: Own
+    lit: Lit
+    """The light that the normals were found in."""
+    gloss: gloss.Gloss | None = None
+    reflectance: float | None = None
+    """Of the object's median pixel, by the light that its parts throw on each other; None where that was not asked."""
+    anchors: dict[int, shadow_anchor.Anchor] = field(default_factory=dict)
+    """What a piece's shadow did to its distance, by label."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What stays as it is through the rounds."""
+
+    name: str
+    seen: Sight
+    grid: Grid
+    lights: tuple[Light, ...]
+    focus_C: Array | None
+    """Where lights act as they do there; None: they are near."""
+    distance_m: float | None = None
+    """Median depth of the largest piece, where it is known."""
+
+    @property
+    def near(self) -> bool:
+        """Whether the light tells the distance."""
+        return self.focus_C is None
+
+    def lit_at(self, depth: Array, thrown: Array | None = None) -> Lit:
+        """The light at depths (P,)."""
+        return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
+
+
+def run(scene: Scene, begin: float, progress: Progress) -> State:
+    """All rounds, from a plane at the distance `begin`."""
+    seen = scene.seen
+    state = once(scene, np.full(seen.pixels, np.log(begin) if seen.central else 0.0), None, 0)
+    rounds = ROUNDS if scene.near else 1
+    for k in range(1, rounds):
+        progress(f"{scene.name}: normals and depth", k, rounds)
+        state = once(scene, state.u, state, k)
+    progress(f"{scene.name}: normals and depth", rounds, rounds)
+    return state
+
+
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State:
+    """One round from u (P,) and the state before.
+
+    Raises
+    ------
+    DegenerateError
+        Too few pixels are lit by three lights.
+    """
+    seen, grid = scene.seen, scene.grid
+    depth = np.exp(u) if seen.central else np.ones_like(u)
+    lit = scene.lit_at(depth)
+    hidden = hidden_lights(scene, depth, before, lit) if before is not None and k >= HIDING_ROUND else None
+    usable = normals.candidates(seen, lit.E, hidden)
+    reflectance = None
+    if before is not None:
+        J = bounce.thrown(seen, depth, before.normals, before.found.diffuse(seen))
+        reflectance, albedo = bounce.reflectance(seen, lit, J, usable, before.found)
+        lit = replace(lit, thrown=reflectance / albedo * J)
+    found, shine = _estimated(scene, lit, usable, before, k)
+    known = np.isfinite(found.b[:, 0])
+    n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
+    step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
+    if scene.near:
+        own = distance.own_distance(lambda z: scene.lit_at(z, lit.thrown).B, depth, seen, found)
+    else:
+        own = Own(np.full(seen.pixels, distance.WEAK), u)
+    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
+    weight = pieces.without_slivers(grid, weight, seen.mask)
+    u = settle(grid, step, sigma, own, u, weight)
+    if scene.distance_m is not None and seen.central:
+        largest = pieces.pieces(grid, weight, seen.mask) == 1
+        u = u + np.log(scene.distance_m) - np.median(u[largest])
+    return State(u, weight, n, found, own, lit, shine, reflectance)
+
+
+def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
+    """Samples (L, P) whose light the surface hides, by its depths (P,) and by the picture: they are darker than with that light."""
+    seen = scene.seen
+    relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
+    albedo = np.linalg.norm(before.found.b, axis=1)
+    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), 0.0)
+    dark = ~(seen.signal > SHADED * expected)
+    for k, light in enumerate(scene.lights):
+        maybe = np.flatnonzero(dark[k])
+        if light.source_C is None:
+            dark[k] = False
+        else:
+            dark[k, maybe] = relief.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
+    return dark
+
+
+def _estimated(scene: Scene, lit: Lit, usable: Mask, before: State | None, k: int) -> tuple[Estimate, gloss.Gloss | None]:
+    """Normals and albedo, and the gloss that was taken off."""
+    seen = scene.seen
+    found = normals.estimate(seen, lit.B, usable, normals.variances(seen))
+    shine = before.gloss if before else None
+    if k in GLOSS_ROUNDS or not scene.near:
+        shine = gloss.fit(seen, lit, usable, found, shine)
+    if shine is not None:
+        found = gloss.estimate(seen, lit, usable, shine, found)
+    lit_pixels = int(np.isfinite(found.b[:, 0]).sum())
+    if lit_pixels < FEWEST_PIXELS:
+        raise DegenerateError(
+            f"{lit_pixels} pixels are lit by three lights",
+            where=scene.name,
+            needed=f"{FEWEST_PIXELS} at least",
+            todo="check the mask, the exposure and the ambient image",
+        )
+    return found, shine
