@@ -29,6 +29,28 @@ def camera_in_disc(H_PC: Array, H_PC_covariance: Array, H_PD: Array, H_PD_covari
     return H_CP @ H_PD, carry @ (H_PC_covariance + H_PD_covariance) @ carry.T
 
 
+def share_correction(
+    H_PC: Array, H_PC_covariance: Array, H_PD: Array, H_PD_covariance: Array, H_CD: Array, H_CD_covariance: Array
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """H_PC and H_PD with their covariances, after spheres have moved H_CD: each takes its share by its uncertainty.
+
+    With ``exp(d) = H_PC H_CD H_DP``, S the sum of both covariances and S' that of the H_CD found, carried to P::
+
+        a = -S_PC S^-1 d,   b = S_PD S^-1 d,   cov(a) = S_PC - S_PC S^-1 (S - S') S^-1 S_PC,   cov(b) alike
+
+    Source: the update of jointly Gaussian variables from a measurement of their difference.
+    """
+    d = se3.log(H_PC @ H_CD @ se3.inv(H_PD))
+    carry = se3.adjoint(H_PC)
+    total = H_PC_covariance + H_PD_covariance
+    learnt = total - carry @ H_CD_covariance @ carry.T
+    found = []
+    for H, covariance, sign in ((H_PC, H_PC_covariance, -1.0), (H_PD, H_PD_covariance, 1.0)):
+        gain = covariance @ np.linalg.inv(total)
+        found.append((se3.exp(sign * gain @ d) @ H, covariance - gain @ learnt @ gain.T))
+    return found[0], found[1]
+
+
 def design_lights(wings: Sequence[Wing], H_CD: Array, H_CD_covariance: Array, setting_sigma: Array, source_of_H_CD: str) -> Wings:
     """Every light as designed, jointly.
 

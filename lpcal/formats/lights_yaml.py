@@ -1,7 +1,9 @@
 """lights.yaml: the refined lights, as in calibration.yaml, and what they rest on.
 
 ``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual}],
-warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte).
+warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte). With covariances
+of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked; with ``joint_solve`` also ``H_PC,
+H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; null otherwise.
 """
 
 from __future__ import annotations
@@ -12,7 +14,9 @@ from typing import Any
 import numpy as np
 
 from lpcal.formats.calibration_yaml import light_document, light_from_document
+from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import LightsSolution, SphereFinding
 
 KIND = "lights"
@@ -24,6 +28,12 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
         "focus_m": solution.focus_C,
         "d_object_m": solution.d_object_m,
         "H_CD": solution.H_CD,
+        "H_CD_covariance": solution.H_CD_covariance,
+        "H_PC": solution.H_PC,
+        "H_PC_covariance": solution.H_PC_covariance,
+        "H_PD": solution.H_PD,
+        "H_PD_covariance": solution.H_PD_covariance,
+        "camera": None if solution.camera is None else camera_document(solution.camera),
         "lights": [light_document(light) for light in solution.lights],
         "spheres": [
             {
@@ -56,11 +66,20 @@ def read_lights(path: Path) -> LightsSolution:
 
 
 def _record_of(document: dict[str, Any]) -> LightsSolution:
+    def matrix(key: str) -> Array | None:
+        return None if document.get(key) is None else np.array(document[key], dtype=float)
+
     return LightsSolution(
         lights=tuple(light_from_document(entry) for entry in document["lights"]),
         focus_C=np.array(document["focus_m"]),
         d_object_m=document["d_object_m"],
-        H_CD=None if document["H_CD"] is None else np.array(document["H_CD"]),
+        H_CD=matrix("H_CD"),
+        H_CD_covariance=matrix("H_CD_covariance"),
+        H_PC=matrix("H_PC"),
+        H_PC_covariance=matrix("H_PC_covariance"),
+        H_PD=matrix("H_PD"),
+        H_PD_covariance=matrix("H_PD_covariance"),
+        camera=camera_from_document(document["camera"]) if document.get("camera") else None,
         spheres=tuple(
             SphereFinding(
                 name=entry["name"],

@@ -20,6 +20,8 @@ SPACING_RAD = float(np.radians(11.25))
 HALF_POWER_RAD = float(np.radians(15.0))
 """Full angle between the half-power directions of one LED."""
 ROLLS = 60
+FEW = 300
+"""Up to so many coordinates are taken with all LEDs at once."""
 
 
 def exponent(full_half_power_rad: float) -> float:
@@ -53,13 +55,19 @@ def cluster_field(x_L: Array, position_L: Array, axis_L: Array, power: Array, m:
 
     The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length.
     """
-    total = np.zeros(np.shape(x_L))
-    for place, axis, strength in zip(position_L, axis_L, power, strict=True):
-        to_led = place - x_L
-        r2 = np.sum(to_led * to_led, axis=-1)
-        r = np.sqrt(r2)
-        cosine = -(to_led @ axis) / r
-        lit = np.maximum(cosine, 1e-6)
-        total += to_led * (strength * np.exp(m * np.log(lit)) / (r2 * r))[..., None]
+    if np.size(x_L) <= FEW:
+        to_led = position_L - np.asarray(x_L)[..., None, :]
+        r = np.linalg.norm(to_led, axis=-1)
+        lit = np.maximum(-np.sum(to_led * axis_L, axis=-1) / r, 1e-6)
+        total = np.sum(to_led * (power * np.exp(m * np.log(lit)) / r**3)[..., None], axis=-2)
+    else:  # a LED at a time: many points times many LEDs do not fit the cache
+        total = np.zeros(np.shape(x_L))
+        for place, axis, strength in zip(position_L, axis_L, power, strict=True):
+            to_led = place - x_L
+            r2 = np.sum(to_led * to_led, axis=-1)
+            r = np.sqrt(r2)
+            cosine = -(to_led @ axis) / r
+            lit = np.maximum(cosine, 1e-6)
+            total += to_led * (strength * np.exp(m * np.log(lit)) / (r2 * r))[..., None]
     irradiance = np.linalg.norm(total, axis=-1)
     return total / np.maximum(irradiance, 1e-300)[..., None], irradiance

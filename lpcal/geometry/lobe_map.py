@@ -39,7 +39,15 @@ def evaluate(angle_rad: Array, around_rad: Array, node_rad: Array, value: Array)
     return np.asarray(np.sum(np.ravel(value)[index] * weight, axis=-1))
 
 
-def smooth_covariance(node_rad: Array, sd: float, length_rad: float) -> Array:
-    """Covariance (n*n, n*n) of a Gaussian process over the nodes: standard deviation sd, correlation exp(-distance^2 / 2 length^2)."""
-    one = np.exp(-0.5 * ((node_rad[:, None] - node_rad) / length_rad) ** 2)
-    return sd**2 * np.kron(one, one) + (1e-3 * sd) ** 2 * np.eye(len(node_rad) ** 2)
+def modes(node_rad: Array, sd: float, length_rad: float, least: float) -> Array:
+    """Modes (n*n, m) of a Gaussian process over the nodes, each times its standard deviation: it is their sum with standard normal weights.
+
+    The process has standard deviation sd and correlation exp(-distance^2 / 2 length^2); modes of less than `least` of the largest variance
+    are left out.
+    """
+    variance, along = np.linalg.eigh(np.exp(-0.5 * ((node_rad[:, None] - node_rad) / length_rad) ** 2))
+    both = np.outer(variance, variance).ravel()
+    kept = np.flatnonzero(both > least * both.max())
+    first, second = np.divmod(kept, len(node_rad))
+    shape = along[:, None, first] * along[None, :, second]
+    return np.asarray(sd * np.sqrt(both[kept]) * shape.reshape(-1, len(kept)))

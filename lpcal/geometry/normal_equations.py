@@ -20,6 +20,9 @@ from lpcal.geometry.residual_terms import Block, Term
 SINGULAR = 1e-13
 """Least eigenvalue of the information, its diagonal scaled to 1, below which it counts as singular."""
 
+WELL = 1e-9
+"""Least pivot of a scaled information above which it is solved by Cholesky's factors."""
+
 FEW = 4
 """Observations a group, from which on a product a group is faster than one an observation."""
 
@@ -186,10 +189,23 @@ def step_of(system: System, layout: Layout, damping: float) -> tuple[Array, Arra
     step = np.zeros(layout.total)
     scale = 1 / np.sqrt(np.maximum(np.diag(S)[free], 1e-300))
     scaled = S[np.ix_(free, free)] * np.outer(scale, scale)
-    step[free] = scale * np.linalg.lstsq(scaled, scale * g[free], rcond=SINGULAR)[0]
+    step[free] = scale * _solved(scaled, scale * g[free])
     step_e = -np.einsum("iab,ib->ia", C_inverse, system.gradient_e) - CB @ step if len(system.C) else system.gradient_e
     expected = -0.5 * float(system.gradient @ step + np.sum(system.gradient_e * step_e))
     return step, step_e, expected
+
+
+def _solved(S: Array, g: Array) -> Array:
+    """S^-1 g of a scaled information matrix; directions that it leaves undetermined stay where they are."""
+    try:
+        root = np.linalg.cholesky(S)
+    except np.linalg.LinAlgError:
+        root = np.zeros((0, 0))
+    if root.size and np.diag(root).min() ** 2 > WELL:
+        from scipy.linalg import cho_solve
+
+        return np.asarray(cho_solve((root, True), g))
+    return np.linalg.lstsq(S, g, rcond=SINGULAR)[0]
 
 
 def inverse(S: Array, labels: list[str]) -> Array:

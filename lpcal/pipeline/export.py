@@ -55,6 +55,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
     H_PC = read_handeye(workspace.calib("handeye.yaml")).H_PC if wings_stage.tracks_panel(workspace) else None
     solution = _lights(workspace)
+    camera, H_PC = solution.camera or camera, H_PC if solution.H_PC is None else solution.H_PC
     calibration = Calibration(
         rig.name, solution.lights, camera, H_PC, solution.d_object_m, solution.focus_C if camera is not None else None
     )

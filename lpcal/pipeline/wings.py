@@ -108,12 +108,17 @@ def disc_in_camera(workspace: Workspace, panel: PanelSection) -> tuple[Array, Ar
         H_CD[:3, 3] = -np.array(panel.camera.position)
         return H_CD, np.diag([mount_sigma_rad**2] * 3 + [mount_sigma_m**2] * 3), "the camera's place as drawn"
     handeye = read_handeye(workspace.calib("handeye.yaml"))
-    if panel.markers and mocap.file:
-        stream = recording(workspace, mocap)
-        H_PD, H_PD_covariance, _ = h_pd_from_markers(stream, panel.markers)
-        return *camera_in_disc(handeye.H_PC, handeye.H_PC_covariance, H_PD, H_PD_covariance), "hand-eye and the markers' tracks"
-    covariance = np.diag([P_IS_D_SIGMA[0] ** 2] * 3 + [P_IS_D_SIGMA[1] ** 2] * 3)
-    return *camera_in_disc(handeye.H_PC, handeye.H_PC_covariance, np.eye(4), covariance), "hand-eye, the tracked body taken for the disc"
+    H_PD, H_PD_covariance, source = disc_in_body(workspace, panel)
+    return *camera_in_disc(handeye.H_PC, handeye.H_PC_covariance, H_PD, H_PD_covariance), f"hand-eye{source}"
+
+
+def disc_in_body(workspace: Workspace, panel: PanelSection) -> tuple[Array, Array, str]:
+    """H_PD, its covariance, and where it comes from: the markers' tracks, or the tracked body taken for the disc."""
+    mocap = workspace.rig_file.rig.mocap
+    if panel.markers and mocap is not None and mocap.file:
+        H_PD, H_PD_covariance, _ = h_pd_from_markers(recording(workspace, mocap), panel.markers)
+        return H_PD, H_PD_covariance, " and the markers' tracks"
+    return np.eye(4), np.diag([P_IS_D_SIGMA[0] ** 2] * 3 + [P_IS_D_SIGMA[1] ** 2] * 3), ", the tracked body taken for the disc"
 
 
 def _lines(wings: Wings) -> list[str]:

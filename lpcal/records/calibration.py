@@ -291,6 +291,15 @@ class LightsSolution:
     spheres: tuple[SphereFinding, ...]
     warnings: tuple[str, ...] = ()
     evidence: dict[str, object] = field(default_factory=dict)
+    H_CD_covariance: Array | None = None
+    camera: Camera | None = None
+    """The camera as the joint solve has it; None: it was taken as it is."""
+    H_PC: Array | None = None
+    H_PC_covariance: Array | None = None
+    """The hand-eye transform as the joint solve has it; None: it was taken as it is."""
+    H_PD: Array | None = None
+    H_PD_covariance: Array | None = None
+    """The disc in the tracked body, where one was tracked."""
 
 
 @dataclass(frozen=True)

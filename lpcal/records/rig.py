@@ -174,6 +174,8 @@ class Rig(Section):
     lights: dict[str, LightSection] = {}
     spheres: dict[str, SphereSection] = {}
     objects: dict[str, str] = {}
+    joint_solve: bool = False
+    """Whether refine solves for the camera and H_PC too, with what the boards said of them as prior."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ centres C_s, radial bias b of the outlines (one for chrome, one for matte)::
     source_C = H_CD H_DL(q) [0, 0, e]                                    or free, for a light that is no wing
     highlight:  A (P / (P . u) - u) / sigma,   P the mirror point of the source in the sphere, u the ray of the pixel seen
     outline:    W (C_s - measured_s - by_bias_s b)
+    camera:     with its parameters free, u + U d for u and measured_s + C_s d for measured_s (`core`)
     priors:     H_CD, q about the drawing; e about -15 +- 30 mm; b about -0.25 +- 0.15 px (chrome), 0.03 +- 0.04 px (matte)
 
 The bias of a chrome outline is real: its rim mirrors what is behind it. Source: maximum a posteriori estimation, Alhazen's mirror
@@ -14,16 +15,18 @@ point by Newton's method inside the derivative.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from lpcal.chain.refine_lights import residuals
+from lpcal.chain.refine_lights.core import ray_slope
 from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projection
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Index
 from lpcal.geometry.least_squares import POSE, Block, Options, Solution, Term, compile_residual, independent_prior, prior, solve
 from lpcal.geometry.wing import wing_jacobian, wing_transform
 from lpcal.records.calibration import Camera, Wings
@@ -57,6 +60,9 @@ class GeometryFit:
     settings_std: Array
     """(W, 4)."""
     H_CD: Array | None
+    H_CD_covariance: Array | None
+    core: Array
+    """(P,) change of the camera's parameters, where they are free."""
     source_offset_m: dict[int, float]
     """By LED mode; 0 where the mode is not stated."""
     centres_C: Array
@@ -98,6 +104,11 @@ class _Problem:
         return {wing.name: k for k, wing in enumerate(self.wings.wings)} if self.wings else {}
 
     @property
+    def core(self) -> int:
+        """How many of the camera's parameters are free."""
+        return self.measured[0].by_core.shape[1]
+
+    @property
     def free(self) -> list[str]:
         return [light for light in self.lights if light not in self.rows]
 
@@ -114,6 +125,8 @@ class _Problem:
             blocks["H_CD"] = Block(self.wings.H_CD[None])
             blocks["setting"] = Block(settings_of(self.wings))
             blocks["offset"] = Block(np.full((len(self.modes), 1), SOURCE_OFFSET_M))
+        if self.core:
+            blocks["core"] = Block(np.zeros((1, self.core)))
         if self.free:
             blocks["source"] = Block(np.array([start_of_free_light(light, self.views, self.measured, self.camera) for light in self.free]))
         return blocks
@@ -129,17 +142,17 @@ class _Problem:
                 independent_prior("setting", settings_of(self.wings), self.wings.setting_sigma),
                 independent_prior("offset", offset, np.array([SOURCE_OFFSET_SIGMA_M])),
             ]
+        if self.core:
+            assert self.camera.covariance is not None
+            terms.append(prior("core", blocks["core"], np.zeros(self.core), self.camera.covariance))
         if self.free:
             terms.append(independent_prior("source", blocks["source"].value, np.array([FREE_SIGMA_M] * 3)))
         terms += [term for term in (self._wing_highlights(), self._free_highlights()) if term is not None]
         return terms
 
     def _outlines(self) -> Term:
-        data = np.array(
-            [np.concatenate([m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel()]) for m in self.measured]
-        )
         kinds = np.array([KINDS.index(view.kind) for view in self.views])
-        return Term(compile_residual(residuals.outline, (3, 1), data.shape[1]), ("centre", "bias"), (np.arange(len(data)), kinds), data)
+        return outline_term(self.measured, kinds)
 
     def _seen(self, among: Sequence[str]) -> list[tuple[int, str]]:
         return [(s, light) for s, view in enumerate(self.views) for light in view.highlights_px if light in among]
@@ -150,30 +163,29 @@ class _Problem:
             return None
         row = np.array([self.rows[light] for _, light in seen])
         mode = np.array([self.modes.index(self.wings.wings[k].leds or 0) for k in row])
-        model = compile_residual(residuals.wing_highlight, (POSE, 4, 1, 3), 10)
-        return Term(
-            model,
-            ("H_CD", "setting", "offset", "centre"),
-            (0, row, mode, np.array([s for s, _ in seen])),
-            highlight_data(self.views, seen, self.camera),
-            robust=ROBUST,
-            group=2,
+        which = np.array([s for s, _ in seen])
+        return self._highlights(
+            residuals.wing_highlight, ("H_CD", "setting", "offset", "centre"), (POSE, 4, 1, 3), (0, row, mode, which), seen
         )
 
     def _free_highlights(self) -> Term | None:
         seen = self._seen(self.free)
         if not seen:
             return None
-        row = np.array([self.free.index(light) for _, light in seen])
-        model = compile_residual(residuals.free_highlight, (3, 3), 10)
-        return Term(
-            model,
-            ("source", "centre"),
-            (row, np.array([s for s, _ in seen])),
-            highlight_data(self.views, seen, self.camera),
-            robust=ROBUST,
-            group=2,
-        )
+        row, which = np.array([self.free.index(light) for _, light in seen]), np.array([s for s, _ in seen])
+        return self._highlights(residuals.free_highlight, ("source", "centre"), (3, 3), (row, which), seen)
+
+    def _highlights(
+        self,
+        residual: Callable[..., Any],
+        names: tuple[str, ...],
+        sizes: tuple[int, ...],
+        index: tuple[Index | int, ...],
+        seen: list[tuple[int, str]],
+    ) -> Term:
+        data = highlight_data(self.views, seen, self.camera, core=self.core > 0)
+        model = compile_residual(residual, (*sizes, *with_free_core(self.core)), data.shape[1])
+        return Term(model, (*names, *["core"] * (self.core > 0)), (*index, *[0] * (self.core > 0)), data, robust=ROBUST, group=2)
 
     def result(self, solution: Solution) -> GeometryFit:
         names = [name for name in ("H_CD", "setting", "offset", "source", "centre") if name in solution.blocks]
@@ -216,6 +228,8 @@ class _Problem:
             settings=solution["setting"] if "setting" in names else np.zeros((0, 4)),
             settings_std=np.sqrt(np.diag(solution.covariance("setting"))).reshape(-1, 4) if "setting" in names else np.zeros((0, 4)),
             H_CD=solution["H_CD"][0] if "H_CD" in names else None,
+            H_CD_covariance=solution.covariance("H_CD") if "H_CD" in names else None,
+            core=solution["core"][0] if self.core else np.zeros(0),
             source_offset_m={mode: float(solution["offset"][k, 0]) for k, mode in enumerate(self.modes)},
             centres_C=solution["centre"],
             centres_sigma_m=np.sqrt(np.diag(centre_block).reshape(-1, 3).mean(axis=1)),
@@ -232,6 +246,19 @@ class _Problem:
                     P = sphere.mirror_point(centres_C[s], view.radius_m, source_C[self.lights.index(light)])
                     misses[view.name, light] = float(np.linalg.norm(self.camera.project(P) - seen))
         return misses
+
+
+def with_free_core(core: int) -> tuple[int, ...]:
+    """The size of the block of the camera's parameters, if they are free."""
+    return (core,) if core else ()
+
+
+def outline_term(measured: Sequence[CentreMeasurement], kinds: Index) -> Term:
+    """Centres against their outlines; `kinds` (S,) the row in KINDS of each sphere."""
+    rows = [[m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel(), m.by_core.ravel()] for m in measured]
+    data, core = np.array([np.concatenate(row) for row in rows]), measured[0].by_core.shape[1]
+    model = compile_residual(residuals.outline, (3, 1, *with_free_core(core)), data.shape[1])
+    return Term(model, ("centre", "bias", *["core"] * (core > 0)), (np.arange(len(data)), kinds, *[0] * (core > 0)), data)
 
 
 def start_of_free_light(light: str, views: Sequence[SphereView], measured: Sequence[CentreMeasurement], camera: Camera) -> Array:
@@ -265,13 +292,14 @@ def start_of_free_light(light: str, views: Sequence[SphereView], measured: Seque
     return np.asarray(found if in_front else guess)
 
 
-def highlight_data(views: Sequence[SphereView], seen: Sequence[tuple[int, str]], camera: Camera) -> Array:
-    """Data (N, 10) of highlights, each the row of its sphere and its light, as `residuals` has them."""
+def highlight_data(views: Sequence[SphereView], seen: Sequence[tuple[int, str]], camera: Camera, *, core: bool) -> Array:
+    """Data (N, 10 or more) of highlights, each the row of its sphere and its light, as `residuals` has them."""
     pixels = np.array([views[s].highlights_px[light] for s, light in seen])
     sigma = np.array([views[s].highlight_sigma_px[light] for s, light in seen])
     u_C = camera.unproject(pixels)
     A = local_projection(camera, u_C) / sigma[:, None, None]
-    return np.column_stack([u_C, A.reshape(-1, 6), np.array([views[s].radius_m for s, _ in seen])])
+    slope = ray_slope(camera, pixels).reshape(len(seen), -1) if core else np.zeros((len(seen), 0))
+    return np.column_stack([u_C, A.reshape(-1, 6), np.array([views[s].radius_m for s, _ in seen]), slope])
 
 
 def settings_of(wings: Wings) -> Array:

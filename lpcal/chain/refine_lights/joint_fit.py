@@ -10,20 +10,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.chain.refine_lights import led_fit, residuals
-from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, KINDS, ROBUST, GeometryFit, highlight_data, settings_of
+from lpcal.chain.refine_lights import led_fit
+from lpcal.chain.refine_lights.core import ray_slope
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, KINDS, ROBUST, GeometryFit, highlight_data, outline_term, settings_of
 from lpcal.chain.refine_lights.led_fit import Cluster
 from lpcal.chain.refine_lights.measure import CentreMeasurement
 from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, ShadingFit
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.arrays import Array, Index
-from lpcal.geometry.least_squares import Block, Options, Solution, Term, compile_residual, independent_prior, prior, solve
+from lpcal.geometry.least_squares import Block, Options, Solution, Term, independent_prior, prior, solve
 from lpcal.geometry.wing import wing_transform
 from lpcal.records.calibration import Camera, LedCluster, Light, Lobe, Wings
 from lpcal.records.observations import SphereView
 
-ROUNDS = 2
+FIRST_SHARE = 3
+"""One block of so many is used in the rough solve."""
 ALBEDO_SD = 3.0
 STEP = 1e-6
 
@@ -35,6 +37,9 @@ class JointFit:
     lights: tuple[Light, ...]
     """Without standard deviations and colour."""
     H_CD: Array
+    H_CD_covariance: Array
+    core: Array
+    """(P,) change of the camera's parameters, where they are free."""
     settings: Array
     centres_C: Array
     bias_px: dict[str, float]
@@ -70,15 +75,14 @@ def fit_jointly(
     focus_C: Array,
     intensity_sd: float,
 ) -> JointFit:
-    """Solve, twice: the second time with the blocks' curvature under the lights that the first found."""
+    """Solve, twice: roughly, from some of the blocks; then with all of them, their curvature under the lights that were found so."""
     problem = _Problem(tuple(start.lights), tuple(views), tuple(measured), camera, wings, intensity_sd)
-    blocks = problem.start(start, first, samples)
-    for round_ in range(ROUNDS):
-        solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=Options(iterations=100, tolerance=1e-6))
-        blocks = dict(solution.blocks)
-        if round_ + 1 < ROUNDS:
-            samples = sample_blocks(views, solution["centre"], camera, problem.lights_of(blocks))
-            blocks["delta"] = Block(np.zeros((int(np.unique(samples.block).size), 1)))
+    few = samples.some(samples.block % FIRST_SHARE == 0)
+    blocks = problem.start(start, first, samples) | {"delta": _deltas(few)}
+    rough = solve(blocks, problem.terms(blocks, few), eliminate="delta", options=Options(iterations=100, tolerance=1e-3))
+    samples = sample_blocks(views, rough["centre"], camera, problem.lights_of(dict(rough.blocks)))
+    blocks = dict(rough.blocks) | {"delta": _deltas(samples)}
+    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=Options(iterations=100, tolerance=1e-5))
     return problem.result(solution, focus_C)
 
 
@@ -96,6 +100,11 @@ class _Problem:
         """Row in the wings of each light."""
         order = [wing.name for wing in self.wings.wings]
         return np.array([order.index(name) for name in self.names])
+
+    @property
+    def core(self) -> int:
+        """How many of the camera's parameters are free."""
+        return self.measured[0].by_core.shape[1]
 
     @property
     def leds(self) -> list[int]:
@@ -130,16 +139,13 @@ class _Problem:
             "albedo": Block(np.array([[first.log_albedo.get(s, 0.0)] for s in range(len(self.views))])),
             "centre": Block(fit.centres_C),
             "bias": Block(np.array([[fit.bias_px[kind]] for kind in KINDS])),
-            "delta": Block(np.zeros((int(np.unique(samples.block).size), 1))),
         }
+        blocks |= {"core": Block(fit.core[None])} if self.core else {}
         return blocks | {f"led{mode}": Block(np.zeros((len(self.names), 3 * mode))) for mode in self.modes}
 
     def terms(self, blocks: dict[str, Block], samples: Samples) -> list[Term]:
         """Observations and priors."""
         count, wings = len(self.names), self.wings
-        outlines = np.array(
-            [np.concatenate([m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel()]) for m in self.measured]
-        )
         kinds = np.array([KINDS.index(view.kind) for view in self.views])
         terms = [
             prior("H_CD", blocks["H_CD"], wings.H_CD, wings.H_CD_covariance),
@@ -150,13 +156,11 @@ class _Problem:
             independent_prior("albedo", blocks["albedo"].value, np.array([ALBEDO_SD])),
             independent_prior("delta", np.zeros_like(blocks["delta"].value), np.array([TEXTURE_SD])),
             independent_prior("bias", np.array([[BIAS_PX[kind][0]] for kind in KINDS]), np.array([[BIAS_PX[kind][1]] for kind in KINDS])),
-            Term(
-                compile_residual(residuals.outline, (3, 1), outlines.shape[1]),
-                ("centre", "bias"),
-                (np.arange(len(outlines)), kinds),
-                outlines,
-            ),
+            outline_term(self.measured, kinds),
         ]
+        if self.core:
+            assert self.camera.covariance is not None
+            terms.append(prior("core", blocks["core"], np.zeros(self.core), self.camera.covariance))
         for mode in self.modes:
             cluster, rows = Cluster(mode), [k for k, leds in enumerate(self.leds) if leds == mode]
             mean, covariance = led_fit.led_prior(count, mode)
@@ -175,7 +179,8 @@ class _Problem:
             return None
         light = np.array([self.names.index(name) for _, name in seen])
         where = (light, self.wing[light], self.mode[light], np.array([s for s, _ in seen]))
-        return led_fit.highlights(cluster, where, highlight_data(self.views, seen, self.camera), ROBUST)
+        data = highlight_data(self.views, seen, self.camera, core=self.core > 0)
+        return led_fit.highlights(cluster, where, data, ROBUST, self.core)
 
     def _shading(self, cluster: Cluster, rows: list[int], samples: Samples) -> Term | None:
         own = np.isin(samples.light, rows)
@@ -186,8 +191,10 @@ class _Problem:
         radius = np.array([view.radius_m for view in self.views])[which]
         scale = np.log(_axis_level(cluster))
         target = samples.log_data[own] - samples.log_curve[own] + scale
-        data = np.column_stack([samples.ray_C[own], radius, target, 1 / np.hypot(samples.relative_sigma[own], MODEL_SD)])
-        return led_fit.shading(cluster, (light, self.wing[light], self.mode[light], which, which, block), data, ROBUST)
+        rays = samples.ray_C[own]
+        slope = ray_slope(self.camera, self.camera.project(rays)).reshape(len(rays), -1) if self.core else np.zeros((len(rays), 0))
+        data = np.column_stack([rays, radius, target, 1 / np.hypot(samples.relative_sigma[own], MODEL_SD), slope])
+        return led_fit.shading(cluster, (light, self.wing[light], self.mode[light], which, which, block), data, ROBUST, self.core)
 
     def lights_of(self, blocks: dict[str, Block]) -> list[Light]:
         """The lights as they stand."""
@@ -221,6 +228,8 @@ class _Problem:
         return JointFit(
             lights=tuple(lights),
             H_CD=solution["H_CD"][0],
+            H_CD_covariance=solution.covariance("H_CD"),
+            core=solution["core"][0] if self.core else np.zeros(0),
             settings=solution["setting"],
             centres_C=solution["centre"],
             bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
@@ -286,6 +295,10 @@ class _Problem:
                     P = sphere.mirror_point(centres_C[s], view.radius_m, light.source_C)
                     misses[view.name, name] = float(np.linalg.norm(self.camera.project(P) - seen))
         return misses
+
+
+def _deltas(samples: Samples) -> Block:
+    return Block(np.zeros((int(np.unique(samples.block).size), 1)))
 
 
 def _axis_level(cluster: Cluster) -> float:

@@ -14,18 +14,22 @@ mean place, weighted with their light. Source: maximum a posteriori estimation; 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from lpcal.chain.refine_lights import residuals
+from lpcal.chain.refine_lights.geometry_fit import with_free_core
 from lpcal.geometry import led_cluster
 from lpcal.geometry.arrays import Array, Index
-from lpcal.geometry.least_squares import POSE, Term, compile_residual
+from lpcal.geometry.least_squares import POSE, Model, Term, compile_residual
 
 POWER_SD, TILT_SD_RAD = 0.04, float(np.radians(0.5))
 DOME_M, DOME_SIGMA_M = np.array([-0.025, 0.027]), np.array([0.030, 0.010])
 """Height of the dome's centre on the axis and its radius, and how surely."""
+SHADING_DATA = 6
+"""Numbers of a block's data but for the derivative by the camera's parameters."""
 ROLLS_RAD = np.radians(np.arange(0.0, 60.0, 5.0))
 
 
@@ -70,11 +74,18 @@ class Cluster:
         return found
 
 
-def highlights(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: float) -> Term:
+def highlights(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: float, core: int) -> Term:
     """Chrome highlights: `where` rows of the light, its wing, its mode, and the sphere; data as in `residuals.wing_highlight`."""
     light, wing, mode, centre = where
+    more = core > 0
+    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "centre", *["core"] * more)
+    items: tuple[Index | int, ...] = (0, wing, mode, light, light, centre, *[0] * more)
+    return Term(_highlight_model(cluster, core, data.shape[1]), blocks, items, data, robust=robust, group=2)
 
-    def residual(H_CD: Any, setting: Any, dome: Any, roll: Any, led: Any, centre: Any, seen: Any) -> Any:
+
+@cache
+def _highlight_model(cluster: Cluster, core: int, width: int) -> Model:
+    def residual(H_CD: Any, setting: Any, dome: Any, roll: Any, led: Any, centre: Any, *seen: Any) -> Any:
         H_CL = H_CD @ wing_frame(setting)
         x_L = H_CL[:3, :3].T @ (centre - H_CL[:3, 3])
         weight, mean = 0, 0
@@ -82,25 +93,31 @@ def highlights(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: 
             light_here = power * _lit(place, axis, x_L, cluster.exponent)
             weight, mean = weight + light_here, mean + light_here * place
         source = H_CL[:3, :3] @ (mean / weight) + H_CL[:3, 3]
-        return residuals.free_highlight(source, centre, seen)
+        return residuals.free_highlight(source, centre, *seen)
 
-    model = compile_residual(residual, (POSE, 4, 2, 1, 3 * cluster.leds, 3), data.shape[1])
-    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "centre")
-    return Term(model, blocks, (0, wing, mode, light, light, centre), data, robust=robust, group=2)
+    return compile_residual(residual, (POSE, 4, 2, 1, 3 * cluster.leds, 3, *with_free_core(core)), width)
 
 
-def shading(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: float) -> Term:
+def shading(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: float, core: int) -> Term:
     """Matte blocks: `where` rows of the light, its wing, its mode, the sphere, the sphere's albedo, the block.
 
-    Data: ray u (3), radius, log(data / c), 1 / sigma.
+    Data: ray u (3), radius, log(data / c), 1 / sigma; with `core` of the camera's parameters free, the ray's derivative by them (3xP).
     """
+    light, wing, mode, centre, albedo, block = where
+    more = core > 0
+    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "intensity", "albedo", "centre", "delta", *["core"] * more)
+    items: tuple[Index | int, ...] = (0, wing, mode, light, light, light, albedo, centre, block, *[0] * more)
+    return Term(_shading_model(cluster, core, data.shape[1]), blocks, items, data, robust=robust)
+
+
+@cache
+def _shading_model(cluster: Cluster, core: int, width: int) -> Model:
     import casadi as ca
 
-    light, wing, mode, centre, albedo, block = where
-
     def residual(
-        H_CD: Any, setting: Any, dome: Any, roll: Any, led: Any, intensity: Any, albedo: Any, centre: Any, delta: Any, seen: Any
+        H_CD: Any, setting: Any, dome: Any, roll: Any, led: Any, intensity: Any, albedo: Any, centre: Any, delta: Any, *rest: Any
     ) -> Any:
+        seen = residuals.moved_ray(SHADING_DATA, *rest)
         u, radius = seen[:3], seen[3]
         along = u.T @ centre
         P = u * (along - ca.sqrt(along**2 - centre.T @ centre + radius**2))
@@ -113,9 +130,7 @@ def shading(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: flo
             total += power * _lit(place, axis, x_L, cluster.exponent) * (n_L.T @ to_led) / ca.norm_2(to_led)
         return (seen[4] - ca.log(total) - intensity - albedo - delta) * seen[5]
 
-    model = compile_residual(residual, (POSE, 4, 2, 1, 3 * cluster.leds, 1, 1, 3, 1), data.shape[1])
-    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "intensity", "albedo", "centre", "delta")
-    return Term(model, blocks, (0, wing, mode, light, light, light, albedo, centre, block), data, robust=robust)
+    return compile_residual(residual, (POSE, 4, 2, 1, 3 * cluster.leds, 1, 1, 3, 1, *with_free_core(core)), width)
 
 
 def wing_frame(setting: Any) -> Any:

@@ -8,10 +8,11 @@ about as large as the shift, of one wave, that cannot be told from the sphere's 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from lpcal.chain.refine_lights.core import core_size, steps, with_core
 from lpcal.errors import DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
@@ -32,10 +33,12 @@ class CentreMeasurement:
     centre_C: Array
     covariance: Array
     by_bias: Array
+    by_core: Array = field(default_factory=lambda: np.zeros((3, 0)))
+    """(3, P) by the camera's parameters, where these are to be solved for too."""
 
 
-def measure_centre(view: SphereView, camera: Camera) -> CentreMeasurement:
-    """The centre of a sphere from its outline.
+def measure_centre(view: SphereView, camera: Camera, *, free_core: bool = False) -> CentreMeasurement:
+    """The centre of a sphere from its outline; `free_core`: and how it moves with the camera's parameters.
 
     Raises
     ------
@@ -44,8 +47,8 @@ def measure_centre(view: SphereView, camera: Camera) -> CentreMeasurement:
     """
     points = view.outline_px
 
-    def centre_of(moved: Array) -> Array:
-        return sphere.from_outline(camera.unproject(moved), view.radius_m)
+    def centre_of(moved: Array, lens: Camera = camera) -> Array:
+        return sphere.from_outline(lens.unproject(moved), view.radius_m)
 
     try:
         centre_C = centre_of(points)
@@ -60,7 +63,11 @@ def measure_centre(view: SphereView, camera: Camera) -> CentreMeasurement:
     lateral_px, bias_px = max(LATERAL_PX[view.kind], bend_px), max(OWN_BIAS_PX[view.kind], bend_px / 2)
     formal = view.outline_sigma_px**2 * np.linalg.inv(J.T @ J * len(points) / len(J))
     covariance = SCATTER_FACTOR**2 * formal + lateral_px**2 * by_shift @ by_shift.T + bias_px**2 * np.outer(by_bias, by_bias)
-    return CentreMeasurement(centre_C, covariance, by_bias)
+    by_core = np.zeros((3, 0))
+    if free_core and core_size(camera):
+        ahead, behind = ([centre_of(points, with_core(camera, sign * step)) for step in steps(camera)] for sign in (1, -1))
+        by_core = np.subtract(ahead, behind).T / (2 * steps(camera).sum(axis=1))
+    return CentreMeasurement(centre_C, covariance, by_bias, by_core)
 
 
 def _bend(points: Array, drawn: Array) -> float:

@@ -26,7 +26,7 @@ from lpcal.records.observations import SphereView
 PLACES = {"left": -0.55, "": 0.0, "right": 0.55}
 HEIGHTS = {"top": -0.55, "": 0.0, "bottom": 0.55}
 """Of the sphere's middle, in half image sides."""
-DISTANCES = (0.8, 0.9, 1.0, 1.1, 1.2)
+DISTANCES = (0.8, 1.0, 1.2)
 """Over that of the focus."""
 MARGIN_PX = 8
 HIGHLIGHT_PX, OUTLINE_PX, COMMON_BIAS_PX = 0.015, 0.05, 0.05

@@ -48,6 +48,10 @@ class Samples:
     colour: Array
     """(N, C) mean data a channel over the grey mean."""
 
+    def some(self, kept: Mask) -> Samples:
+        """Those of the mask (N,)."""
+        return Samples(*(getattr(self, one.name)[kept] for one in fields(Samples)))
+
 
 def sample_blocks(views: Sequence[SphereView], centres_C: Array, camera: Camera, lights: Sequence[Light]) -> Samples:
     """Block means of all matte spheres under all lights, which are near ones as far as they are known yet.
@@ -80,13 +84,15 @@ class _Sphere:
 
     def __init__(self, view: SphereView, shading: Radiance, centre_C: Array, camera: Camera) -> None:
         self.shading, self.centre_C, self.radius_m = shading, centre_C, view.radius_m
-        self.rows, self.columns = _box(view.outline_px, shading.saturated.shape[1:])
-        self.u_C = camera.unproject(np.stack([self.columns, self.rows], axis=-1).astype(float))
-        self.P_C, self.n_C = sphere.meet(self.u_C, centre_C, view.radius_m)
-        self.facing: Mask = np.nan_to_num(-np.sum(self.n_C * self.u_C, axis=-1), nan=-1.0) > FACING_CAMERA
-        across = 1 + int(self.columns.max() - self.columns.min()) // BLOCK_PX
-        self.block = (self.rows - self.rows.min()) // BLOCK_PX * across + (self.columns - self.columns.min()) // BLOCK_PX
-        self.members = np.bincount(self.block.ravel())
+        rows, columns = _box(view.outline_px, shading.saturated.shape[1:])
+        across = 1 + int(columns.max() - columns.min()) // BLOCK_PX
+        block = (rows - rows.min()) // BLOCK_PX * across + (columns - columns.min()) // BLOCK_PX
+        self.members = np.bincount(block.ravel())
+        u_C = camera.unproject(np.stack([columns, rows], axis=-1).astype(float))
+        P_C, n_C = sphere.meet(u_C, centre_C, view.radius_m)
+        facing: Mask = np.nan_to_num(-np.sum(n_C * u_C, axis=-1), nan=-1.0) > FACING_CAMERA
+        self.rows, self.columns, self.block = rows[facing], columns[facing], block[facing]
+        self.u_C, self.P_C, self.n_C = u_C[facing], P_C[facing], n_C[facing]
 
     def samples(self, lights: Sequence[Light]) -> Samples | None:
         """Of every light that the sphere's images show; None where no block is lit."""
@@ -103,24 +109,23 @@ class _Sphere:
         assert light.H_CL is not None
         source_d, r, angle = light_field.near_light(self.P_C, light.source_C, light.axis_C)
         cosine = np.sum(self.n_C * source_d, axis=-1)
-        with np.errstate(invalid="ignore"):
-            good: Mask = self.facing & (cosine > FACING_LIGHT) & ~self.shading.saturated[k, self.rows, self.columns]
-        data = self.shading.signal[k, self.rows, self.columns].astype(float)
-        sigma = self.shading.sigma[k, self.rows, self.columns].astype(float)
-        channels = data[..., None] if data.ndim == 2 else data
-        grey = channels.mean(axis=-1)
-        noise = sigma if sigma.ndim == 2 else np.sqrt(np.mean(sigma**2, axis=-1) / sigma.shape[-1])
-        number = np.bincount(self.block[good], minlength=len(self.members))
+        good = np.flatnonzero((cosine > FACING_LIGHT) & ~self.shading.saturated[k, self.rows, self.columns])
+        rows, columns, block = self.rows[good], self.columns[good], self.block[good]
+        data = self.shading.signal[k, rows, columns].astype(float)
+        sigma = self.shading.sigma[k, rows, columns].astype(float)
+        channels = data[..., None] if data.ndim == 1 else data
+        noise = sigma if sigma.ndim == 1 else np.sqrt(np.mean(sigma**2, axis=-1) / sigma.shape[-1])
+        number = np.bincount(block, minlength=len(self.members))
 
         def mean(value: Array) -> Array:
-            return np.bincount(self.block[good], weights=value[good], minlength=len(self.members)) / np.maximum(number, 1)
+            return np.bincount(block, weights=value, minlength=len(self.members)) / np.maximum(number, 1)
 
-        level, spread = mean(grey), np.sqrt(mean(noise**2) / np.maximum(number, 1))
+        level, spread = mean(channels.mean(axis=-1)), np.sqrt(mean(noise**2) / np.maximum(number, 1))
         keep = np.flatnonzero((number >= BLOCK_SHARE * self.members) & (number > 0) & (level > SIGNIFICANT * spread))
-        middle = np.stack([mean(self.u_C[..., axis])[keep] for axis in range(3)], axis=1)
+        middle = np.stack([mean(self.u_C[good, axis])[keep] for axis in range(3)], axis=1)
         middle /= np.linalg.norm(middle, axis=1, keepdims=True)
-        d_C, irradiance = light.field(self.P_C)
-        model = mean(irradiance.mean(axis=-1) * np.sum(self.n_C * d_C, axis=-1))[keep]
+        d_C, irradiance = light.field(self.P_C[good])
+        model = mean(irradiance.mean(axis=-1) * np.sum(self.n_C[good] * d_C, axis=-1))[keep]
         x_L = se3.apply(se3.inv(light.H_CL), sphere.meet(middle, self.centre_C, self.radius_m)[0])
         return Samples(
             light=np.full(keep.size, row),
@@ -128,8 +133,8 @@ class _Sphere:
             block=keep,
             log_data=np.log(level[keep]),
             relative_sigma=spread[keep] / level[keep],
-            log_geometry=np.log(mean(cosine / r**2)[keep]),
-            angle_rad=mean(angle)[keep],
+            log_geometry=np.log(mean(cosine[good] / r[good] ** 2)[keep]),
+            angle_rad=mean(angle[good])[keep],
             around_rad=np.arctan2(x_L[:, 1], x_L[:, 0]),
             ray_C=middle,
             log_curve=np.log(model / self._model_at(light, middle)),

@@ -27,11 +27,12 @@ TEXTURE_SD, MODEL_SD = 0.02, 0.003
 KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
 LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
 UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
-MAP_SD, MAP_LENGTH_RAD, MAP_SPACING_RAD = 0.03, float(np.radians(5)), float(np.radians(2.5))
+MAP_SD, MAP_LENGTH_RAD, MAP_SPACING_RAD, MAP_LEAST = 0.03, float(np.radians(5)), float(np.radians(2.5)), 1e-3
 DARKEST = 1e-6
 """A known lobe is not darker: its logarithm is used."""
 ROBUST = 3.0
-ROUNDS = 8
+ROUNDS, SETTLED = 8, 0.01
+"""Rounds at most, and the relative change of every sample's weight that ends them."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,9 @@ class ShadingFit:
     """(L,) largest angle from each light's axis that the spheres saw, NaN for a light that they did not."""
 
 
-def fit_shading(samples: Samples, known: Sequence[Lobe | None], names: Sequence[str], intensity_sd: float) -> ShadingFit:
+def fit_shading(
+    samples: Samples, known: Sequence[Lobe | None], names: Sequence[str], intensity_sd: float, *, with_maps: bool = True
+) -> ShadingFit:
     """Intensities, lobes and albedos from block means.
 
     Parameters
@@ -64,76 +67,96 @@ def fit_shading(samples: Samples, known: Sequence[Lobe | None], names: Sequence[
     known : the lobe that each light is known by beforehand, None where nothing is; lights of one lobe share what is found of it
     names : the spheres' names
     intensity_sd : prior of the relative intensity of a light
+    with_maps : whether a light may be other than round; not needed where its LEDs are found one by one after
     """
     count = len(known)
-    layout = _Layout(samples, known, intensity_sd)
+    layout = _Layout(samples, known, intensity_sd, with_maps)
     target = samples.log_data - samples.log_geometry - layout.known
     block = np.unique(samples.block, return_inverse=True)[1]
     sigma = np.hypot(samples.relative_sigma, MODEL_SD)
-    found, covariance, residual = _solve_with_blocks(layout.design, target, sigma, block, layout.prior)
+    found, covariance, residual = _solve_with_blocks(layout.parts, target, sigma, block, layout.prior)
     intensity, std = _intensities(samples, found[:count], covariance[:count, :count])
     lobes = [layout.lobe(m, found) for m in range(len(layout.shapes))]
-    rows = slice(layout.lobe_start, None)
+    lobe_alone = np.where(np.arange(found.size) < layout.lobe_start, 0.0, found)
     return ShadingFit(
         intensity=intensity,
         intensity_std=std,
         lobes=tuple(layout.with_map(lobes[m], k, found) for k, m in enumerate(layout.shape_of_light)),
         residual={names[s]: float(np.sqrt(np.mean(residual[samples.sphere == s] ** 2))) for s in layout.spheres},
-        log_lobe=layout.known + layout.design[:, rows] @ found[rows] + residual,
+        log_lobe=layout.known + _modelled(layout.parts, lobe_alone, target.size) + residual,
         log_intensity=found[:count],
         log_albedo={int(s): float(found[count + k]) for k, s in enumerate(layout.spheres)},
         seen_rad=np.array([max(samples.angle_rad[samples.light == k], default=np.nan) for k in range(count)]),
     )
 
 
-class _Layout:
-    """The unknowns in order: log intensity a light, log albedo a sphere, lobe deviations a shape, the exponent of an unknown shape."""
+@dataclass(frozen=True)
+class _Part:
+    """The design of one light: its samples (n,), the unknowns that they know (c,), and the derivatives (n, c)."""
 
-    def __init__(self, samples: Samples, known: Sequence[Lobe | None], intensity_sd: float) -> None:
-        self.samples, count = samples, len(known)
+    rows: Index
+    columns: Index
+    design: Array
+
+
+class _Layout:
+    """The unknowns, their prior, and the design, a light a part.
+
+    In order: log intensity a light, log albedo a sphere, deviations a shape of lobe, the exponent of an unknown shape, map's modes a light.
+    """
+
+    def __init__(self, samples: Samples, known: Sequence[Lobe | None], intensity_sd: float, with_maps: bool) -> None:
+        self.samples, self.count = samples, len(known)
         self.shapes = list({id(lobe): lobe for lobe in known}.values())
         self.unknown = [m for m, lobe in enumerate(self.shapes) if lobe is None]
         self.shape_of_light = np.array([next(m for m, lobe in enumerate(self.shapes) if lobe is own) for own in known])
         self.spheres = np.unique(samples.sphere)
-        self.lobe_start = count + len(self.spheres)
-        own = [self.shape_of_light[samples.light] == m for m in range(len(self.shapes))]
-        weights, log_cosine = _interpolation(samples.angle_rad)[:, 1:], np.log(np.maximum(np.cos(samples.angle_rad), 1e-3))
+        self.lobe_start = self.count + len(self.spheres)
+        self.exponent_start = self.lobe_start + len(self.shapes) * (len(KNOTS_RAD) - 1)
+        self.map_start = self.exponent_start + len(self.unknown)
         self.known = np.zeros(samples.light.size)
-        for mine, lobe in zip(own, self.shapes, strict=True):
+        for k, lobe in enumerate(known):
             if lobe is not None:
-                self.known += np.where(mine, np.log(np.maximum(lobe(samples.angle_rad), DARKEST)), 0.0)
-        self.design = np.column_stack(
-            [
-                np.eye(count)[samples.light],
-                (samples.sphere[:, None] == self.spheres).astype(float),
-                *(weights * mine[:, None] for mine in own),
-                *(log_cosine * own[m] for m in self.unknown),
-            ]
-        )
-        self.node_rad = lobe_map.nodes(float(samples.angle_rad.max()) + MAP_SPACING_RAD, MAP_SPACING_RAD)
-        self.map_start, self.map_size = self.design.shape[1], len(self.node_rad) ** 2
-        self.design = np.hstack([self.design, self._map_columns(count)])
-        self.prior = np.zeros((self.design.shape[1],) * 2)
-        map_precision = np.linalg.inv(lobe_map.smooth_covariance(self.node_rad, MAP_SD, MAP_LENGTH_RAD))
-        for k in range(count):
-            rows = slice(self.map_start + k * self.map_size, self.map_start + (k + 1) * self.map_size)
-            self.prior[rows, rows] += map_precision
-        self.prior[:count, :count] += np.eye(count) / intensity_sd**2
+                own = samples.light == k
+                self.known[own] = np.log(np.maximum(lobe(samples.angle_rad[own]), DARKEST))
+        self.node_rad, self.modes = np.zeros(0), np.zeros((0, 0))
+        if with_maps:
+            self.node_rad = lobe_map.nodes(float(samples.angle_rad.max()) + MAP_SPACING_RAD, MAP_SPACING_RAD)
+            self.modes = lobe_map.modes(self.node_rad, MAP_SD, MAP_LENGTH_RAD, MAP_LEAST)
+        self.parts = [self._part(k) for k in range(self.count)]
+        self.prior = self._prior(intensity_sd)
+
+    def _part(self, k: int) -> _Part:
+        own, m, size = np.flatnonzero(self.samples.light == k), int(self.shape_of_light[k]), self.modes.shape[1]
+        angle_rad = self.samples.angle_rad[own]
+        lobe, exponent = self._lobe_rows(m), [self.exponent_start + self.unknown.index(m)] if m in self.unknown else []
+        around = np.arange(self.map_start + k * size, self.map_start + (k + 1) * size)
+        columns = np.concatenate([[k], np.arange(self.count, self.lobe_start), np.arange(lobe.start, lobe.stop), exponent, around])
+        design = [np.ones((own.size, 1)), (self.samples.sphere[own, None] == self.spheres).astype(float), _interpolation(angle_rad)[:, 1:]]
+        if exponent:
+            design.append(np.log(np.maximum(np.cos(angle_rad), 1e-3))[:, None])
+        if size:
+            index, weight = lobe_map.corners(angle_rad, self.samples.around_rad[own], self.node_rad)
+            design.append(np.einsum("nc,ncm->nm", weight, self.modes[index]))
+        return _Part(own, columns.astype(np.intp), np.hstack(design))
+
+    def _prior(self, intensity_sd: float) -> Array:
+        prior = np.eye(self.map_start + self.count * self.modes.shape[1])
+        prior[: self.map_start] = 0.0
+        prior[: self.count, : self.count] = np.eye(self.count) / intensity_sd**2
         for m, lobe in enumerate(self.shapes):
             sd = UNKNOWN_LOBE_SD if lobe is None else LOBE_SD
-            self.prior[self._lobe_rows(m), self._lobe_rows(m)] += np.linalg.inv(_smooth_covariance(sd))
-        for row in range(self.map_start - len(self.unknown), self.map_start):
-            self.prior[row, row] += 1 / EXPONENT_SD**2
-
-    def _map_columns(self, count: int) -> Array:
-        index, weight = lobe_map.corners(self.samples.angle_rad, self.samples.around_rad, self.node_rad)
-        columns = np.zeros((len(index), count * self.map_size))
-        np.add.at(columns, (np.arange(len(index))[:, None], self.samples.light[:, None] * self.map_size + index), weight)
-        return columns
+            prior[self._lobe_rows(m), self._lobe_rows(m)] = np.linalg.inv(_smooth_covariance(sd))
+        for row in range(self.exponent_start, self.map_start):
+            prior[row, row] = 1 / EXPONENT_SD**2
+        return prior
 
     def with_map(self, lobe: Lobe, k: int, found: Array) -> Lobe:
         """The lobe with the factor over the directions of a light."""
-        own = found[self.map_start + k * self.map_size : self.map_start + (k + 1) * self.map_size]
+        if not self.node_rad.size:
+            return lobe
+        size = self.modes.shape[1]
+        own = self.modes @ found[self.map_start + k * size : self.map_start + (k + 1) * size]
         return replace(lobe, node_rad=self.node_rad, factor=np.exp(own).reshape(len(self.node_rad), -1))
 
     def _lobe_rows(self, m: int) -> slice:
@@ -148,7 +171,7 @@ class _Layout:
         if known is not None:
             base = known(KNOTS_RAD)
         else:
-            exponent = found[self.map_start - len(self.unknown) + self.unknown.index(m)]
+            exponent = found[self.exponent_start + self.unknown.index(m)]
             base = np.maximum(np.cos(KNOTS_RAD), 0.0) ** max(float(exponent), 0.0)
         return Lobe("table", angle_rad=KNOTS_RAD, value=base * np.exp(deviation))
 
@@ -189,22 +212,39 @@ def _smooth_covariance(sd: float) -> Array:
     return K[1:, 1:] - np.outer(K[1:, 0], K[0, 1:]) / K[0, 0] + (1e-4 * sd) ** 2 * np.eye(len(KNOTS_RAD) - 1)
 
 
-def _solve_with_blocks(design: Array, target: Array, sigma: Array, block: Index, prior: Array) -> tuple[Array, Array, Array]:
-    """Robust least squares with one more unknown a block (sd TEXTURE_SD), eliminated: estimate, covariance, residual."""
-    from scipy.sparse import csr_array
+def _modelled(parts: Sequence[_Part], found: Array, size: int) -> Array:
+    """What the unknowns make of every sample (N,)."""
+    model = np.zeros(size)
+    for part in parts:
+        model[part.rows] = part.design @ found[part.columns]
+    return model
 
-    D = csr_array(design)
-    members = csr_array((np.ones(block.size), (block, np.arange(block.size))))
-    weight = 1 / sigma**2
-    found, residual, N = np.zeros(design.shape[1]), target, prior
+
+def _solve_with_blocks(parts: Sequence[_Part], target: Array, sigma: Array, block: Index, prior: Array) -> tuple[Array, Array, Array]:
+    """Robust least squares with one more unknown a block (sd TEXTURE_SD), eliminated: estimate, covariance, residual.
+
+    A light sees a block once at most.
+    """
+    from scipy.linalg import cho_factor, cho_solve
+
+    blocks, weight = int(block.max()) + 1, 1 / sigma**2
     for _ in range(ROUNDS):
-        WD = D.multiply(weight[:, None]).tocsr()
-        own = members @ weight + 1 / TEXTURE_SD**2
-        mixed = members @ WD
-        N = (D.T @ WD - mixed.T @ mixed.multiply(1 / own[:, None]).tocsr()).toarray() + prior
-        found = np.linalg.solve(N, WD.T @ target - mixed.T @ ((members @ (weight * target)) / own))
-        left = target - D @ found
-        residual = left - ((members @ (weight * left)) / own)[block]
+        N, g, mixed = prior.copy(), np.zeros(len(prior)), np.zeros((blocks, len(prior)))
+        own = np.bincount(block, weights=weight, minlength=blocks) + 1 / TEXTURE_SD**2
+        for part in parts:
+            weighted = part.design * weight[part.rows, None]
+            N[np.ix_(part.columns, part.columns)] += part.design.T @ weighted
+            g[part.columns] += weighted.T @ target[part.rows]
+            mixed[np.ix_(block[part.rows], part.columns)] += weighted
+        g -= mixed.T @ (np.bincount(block, weights=weight * target, minlength=blocks) / own)
+        mixed /= np.sqrt(own)[:, None]
+        N -= mixed.T @ mixed
+        root = cho_factor(N)
+        found = cho_solve(root, g)
+        left = target - _modelled(parts, found, target.size)
+        residual = left - (np.bincount(block, weights=weight * left, minlength=blocks) / own)[block]
         scale = np.maximum(1.4826 * np.median(np.abs(residual / sigma)), 1.0)
-        weight = 1 / (sigma * scale) ** 2 / (1 + (residual / (ROBUST * sigma * scale)) ** 2)
-    return found, np.linalg.inv(N), residual
+        before, weight = weight, 1 / (sigma * scale) ** 2 / (1 + (residual / (ROBUST * sigma * scale)) ** 2)
+        if np.max(np.abs(weight / before - 1)) < SETTLED:
+            break
+    return found, cho_solve(root, np.eye(len(prior))), residual

@@ -30,8 +30,6 @@ def refuse_swapped(
     DisagreementError
         Two lights or more are swapped; they are named.
     """
-    from scipy.optimize import linear_sum_assignment
-
     names = [wing.name for wing in wings.wings if wing.name in lights]
     rows = [k for k, wing in enumerate(wings.wings) if wing.name in lights]
     cost = np.zeros((len(names), len(names)))
@@ -43,8 +41,10 @@ def refuse_swapped(
             if name in view.highlights_px:
                 cost[k] += np.sum((foretold - view.highlights_px[name]) ** 2, axis=1)
                 seen[k] += 1
-    if not seen.all():
+    if not seen.all() or np.array_equal(np.argmin(cost, axis=1), np.arange(len(names))):  # each nearest to its own: nothing is swapped
         return
+    from scipy.optimize import linear_sum_assignment
+
     image, wing = linear_sum_assignment(cost)
     stated, best = float(np.trace(cost)), float(cost[image, wing].sum())
     if stated < BETTER * best or np.array_equal(image, wing):

@@ -1,0 +1,177 @@
+"""From fits to lights: place, axis, intensity and lobe of each, with their standard deviations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit
+from lpcal.chain.refine_lights.joint_fit import JointFit
+from lpcal.chain.refine_lights.shading import ShadingFit, lobe_of_leds
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
+
+DIRECTION_FLOOR_RAD = float(np.radians(0.02))
+"""LEDs that stand a little askew move the source seen from different places: what a point source cannot follow."""
+COMMON_SHARE = 0.5
+"""So much of what the blocks are off by is taken as common to all blocks of a light."""
+UNSURE = 0.3
+"""A free light whose distance is less sure than this share of itself is told."""
+
+
+def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> LightsSolution:
+    """The lights as the drawing has them, for a rig without spheres: sources where LightBlobs have theirs, give or take."""
+    rows = [k for k, wing in enumerate(wings.wings) if wing.name in lights]
+    focus_C = nearest_to_axes(wings.H_CL[rows])
+    found = []
+    for k in rows:
+        H_CL, block = wings.H_CL[k], wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
+        axis_C = H_CL[:3, 2]
+        source_C = H_CL[:3, 3] + SOURCE_OFFSET_M * axis_C
+        carry = _point_by_twist(source_C)
+        covariance = carry @ block @ carry.T + SOURCE_OFFSET_SIGMA_M**2 * np.outer(axis_C, axis_C)
+        origin = _point_by_twist(H_CL[:3, 3])
+        found.append(
+            Light(
+                name=wings.wings[k].name,
+                direction_C=unit(source_C - focus_C),
+                intensity=np.ones(1),
+                H_CL=H_CL,
+                source_C=source_C,
+                axis_C=axis_C,
+                lobe=lobe_of_leds(wings.wings[k].leds) or Lobe(),
+                position_std_m=_per_axis(origin @ block @ origin.T),
+                direction_std_rad=_direction_std(source_C - focus_C, covariance),
+                intensity_std=intensity_sd,
+            )
+        )
+    return LightsSolution(
+        tuple(found), focus_C, d_object_of(wings.H_CD, focus_C), wings.H_CD, (), ("no spheres: the lights are as designed, not refined",)
+    )
+
+
+def near_lights(
+    fit: GeometryFit, lights: Sequence[str], known: Sequence[Lobe | None], focus_C: Array, intensity_sd: float
+) -> tuple[list[Light], list[str]]:
+    """The lights as the geometry alone has them, each with the lobe that it is known by beforehand; and warnings."""
+    found, warnings = [], []
+    axes = _axes(fit, focus_C)
+    for k, name in enumerate(lights):
+        covariance, row, away = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], fit.wing_of[k], fit.source_C[k] - focus_C
+        light = Light(
+            name=name,
+            direction_C=unit(away),
+            intensity=np.ones(1),
+            H_CL=fit.H_CL[k] if row is not None else _frame_at(fit.source_C[k], axes[k]),
+            source_C=fit.source_C[k],
+            axis_C=axes[k],
+            lobe=known[k] or Lobe(),
+            position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
+            direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
+            intensity_std=intensity_sd,
+        )
+        distance_std = float(np.sqrt(unit(away) @ covariance @ unit(away))) / float(np.linalg.norm(away))
+        if row is None and distance_std > UNSURE:
+            warnings.append(f"{name}: its distance is known to {100 * distance_std:.0f} % only: spread the spheres")
+        found.append(light)
+    return found, warnings
+
+
+def with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
+    """The lights with the intensities and round lobes of the shading."""
+    misfit = rms(list(shading.residual.values()))
+    return [
+        replace(
+            light,
+            intensity=shading.intensity[k],
+            lobe=replace(shading.lobes[k], seen_rad=float(shading.seen_rad[k])),
+            intensity_std=float(np.hypot(shading.intensity_std[k], misfit)),
+        )
+        for k, light in enumerate(lights)
+    ]
+
+
+def with_leds(joint: JointFit, shading: ShadingFit) -> list[Light]:
+    """The lights of the joint fit with the colour of the shading, mean intensity 1."""
+    colour = shading.intensity / shading.intensity.mean(axis=1, keepdims=True)
+    intensity = np.array([light.intensity[0] for light in joint.lights])[:, None] * colour
+    intensity /= intensity.mean()
+    misfit = rms(list(joint.shading.values()))
+    return [
+        replace(
+            light,
+            intensity=intensity[k],
+            lobe=replace(light.lobe, seen_rad=float(shading.seen_rad[k])),
+            position_std_m=float(joint.position_std_m[k]),
+            direction_std_rad=float(np.hypot(joint.direction_std_rad[k], DIRECTION_FLOOR_RAD)),
+            intensity_std=float(np.hypot(joint.intensity_std[k], COMMON_SHARE * misfit)),
+        )
+        for k, light in enumerate(joint.lights)
+    ]
+
+
+def leds_of(fit: GeometryFit, k: int, wings: Wings | None) -> int | None:
+    """LED mode of a light, None where it is not stated."""
+    row = fit.wing_of[k]
+    return None if row is None or wings is None else wings.wings[row].leds
+
+
+def focus_of(fit: GeometryFit, wings: Wings | None) -> Array:
+    """Where the wings' axes (nearly) meet; without wings, the middle of the spheres."""
+    rows = [k for k, row in enumerate(fit.wing_of) if row is not None]
+    return nearest_to_axes(fit.H_CL[rows]) if wings is not None and len(rows) > 1 else np.mean(fit.centres_C, axis=0)
+
+
+def nearest_to_axes(H_CL: Array) -> Array:
+    """The point (3,) nearest to the emission axes of frames (L, 4, 4)."""
+    across = np.eye(3) - H_CL[:, :3, 2:3] * H_CL[:, None, :3, 2]
+    return np.linalg.lstsq(across.sum(axis=0), np.sum(across @ H_CL[:, :3, 3:], axis=0)[:, 0], rcond=None)[0]
+
+
+def d_object_of(H_CD: Array | None, focus_C: Array) -> float | None:
+    """Distance of the focus from the disc, in metres, or from the camera where there is no disc."""
+    return float(np.linalg.norm(focus_C)) if H_CD is None else float(se3.apply(se3.inv(H_CD), focus_C[None])[0, 2])
+
+
+def _axes(fit: GeometryFit, focus_C: Array) -> Array:
+    """Emission axes (L, 3); a free light is taken to face the focus."""
+    return np.array([fit.H_CL[k, :3, 2] if row is not None else unit(focus_C - fit.source_C[k]) for k, row in enumerate(fit.wing_of)])
+
+
+def _frame_at(source_C: Array, axis_C: Array) -> Array:
+    """A frame with its origin at a source and its z along an axis, x as near to that of C as can be."""
+    x = unit(np.array([1.0, 0.0, 0.0]) - axis_C[0] * axis_C)
+    return se3.transform(np.stack([x, np.cross(axis_C, x), axis_C], axis=1), source_C)
+
+
+def _origin_covariance(fit: GeometryFit, k: int) -> Array:
+    carry = _point_by_twist(fit.H_CL[k, :3, 3])
+    return carry @ fit.frame_covariance[k] @ carry.T
+
+
+def _direction_std(away: Array, covariance: Array) -> float:
+    """Standard deviation a tangent axis, in radians, of the direction of a vector with this covariance."""
+    d = unit(away)
+    across = np.eye(3) - np.outer(d, d)
+    return float(np.sqrt(np.trace(across @ covariance @ across) / 2) / np.linalg.norm(away))
+
+
+def _point_by_twist(x: Array) -> Array:
+    return np.hstack([-se3.hat(x), np.eye(3)])
+
+
+def _per_axis(covariance: Array) -> float:
+    return float(np.sqrt(np.trace(covariance) / 3))
+
+
+def unit(v: Array) -> Array:
+    """A vector of length 1."""
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def rms(values: list[float]) -> float:
+    """Root of the mean square; NaN of nothing."""
+    return float(np.sqrt(np.mean(np.square(values)))) if values else float("nan")
