@@ -19,6 +19,7 @@ from lpcal.formats.lights_yaml import KIND, write_lights
 from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
+from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
 from lpcal.pipeline.sensor import flat_field_path, has_lens, sensor_of_camera, sensor_of_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
@@ -43,6 +44,7 @@ def inputs(workspace: Workspace) -> list[Path]:
     flat = flat_field_path(workspace)
     found += [flat] if flat and not has_lens(workspace) else []
     found += [path for _, path in _lobe_files(workspace)]
+    found += wings_stage.inputs(workspace) if wings_stage.wanted(workspace) and workspace.rig_file.rig.joint_solve else []
     for name, sphere in workspace.rig_file.rig.spheres.items():
         folder = workspace.path(sphere.images, f"spheres.{name}.images")
         found += sorted(path for path in folder.iterdir() if path.is_file())
@@ -58,6 +60,7 @@ def settings(workspace: Workspace) -> dict[str, Any]:
         "lights": {name: light.lobe for name, light in rig.lights.items()},
         "intensity": rig.panel.tolerance.intensity if rig.panel else None,
         "levels": levels,
+        "joint_solve": rig.joint_solve,
     }
 
 
@@ -84,13 +87,22 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
     panel = workspace.rig_file.rig.panel
-    lobes = {name: read_lobe(path) for name, path in _lobe_files(workspace)}
-    solution = refine(views, lights, camera, wings, intensity_sd=panel.tolerance.intensity if panel else 0.5, lobes=lobes)
+    read = {path: read_lobe(path) for _, path in _lobe_files(workspace)}
+    solution = refine(
+        views,
+        lights,
+        camera,
+        wings,
+        intensity_sd=panel.tolerance.intensity if panel else 0.5,
+        lobes={name: read[path] for name, path in _lobe_files(workspace)},
+        free_core=workspace.rig_file.rig.joint_solve,
+    )
+    solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
     solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings))
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
-        summary=summary_of(solution),
+        summary=[*summary_of(solution), *summary_of_handeye(workspace, solution), *_advice(solution)],
         document={
             "file": str(workspace.calib(FILE)),
             "lights": {light.name: light.direction_C for light in solution.lights},
@@ -117,6 +129,15 @@ def summary_of(solution: LightsSolution) -> list[str]:
                 f"{light.name:<6} source {_numbers(1e3 * light.source_C, 1)} mm  position +- {1e3 * light.position_std_m:.1f} mm  {turn}"
             )
     return lines
+
+
+def _advice(solution: LightsSolution) -> list[str]:
+    """Which sphere to add next, and what it gains."""
+    advice = solution.evidence.get("next_sphere")
+    if not isinstance(advice, dict):
+        return []
+    before, after = (advice[key] for key in ("direction_std_deg", "with_it_deg"))
+    return [f"one more chrome sphere tells most {advice['where']}: directions from +- {before:.3f} to +- {after:.3f} deg"]
 
 
 def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:

@@ -7,9 +7,21 @@ from dataclasses import replace
 
 import numpy as np
 
+from lpcal.chain.refine_lights.assemble import (
+    d_object_of,
+    focus_of,
+    leds_of,
+    near_lights,
+    nearest_to_axes,
+    rms,
+    unit,
+    with_leds,
+    with_shading,
+)
 from lpcal.chain.refine_lights.clicks import Click, fit_with_clicks
+from lpcal.chain.refine_lights.core import with_core
 from lpcal.chain.refine_lights.distant import refine_distant
-from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit, fit_geometry
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
 from lpcal.chain.refine_lights.next_sphere import advise
@@ -17,17 +29,13 @@ from lpcal.chain.refine_lights.samples import sample_blocks
 from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, lobe_of_leds
 from lpcal.chain.refine_lights.swaps import refuse_swapped
 from lpcal.errors import ConvergenceError, DegenerateError
-from lpcal.geometry import se3, sphere
+from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, Lobe, SphereFinding, Wings
 from lpcal.records.observations import SphereView
 
-DIRECTION_FLOOR_RAD = float(np.radians(0.02))
-"""LEDs that stand a little askew move the source seen from different places: what a point source cannot follow."""
 WORST_HIGHLIGHT_PX = 1.0
 REFUSED_HIGHLIGHT_PX, DOUBTED_PX, DOUBTED_SIGMAS = 2.0, 0.25, 3.0
-UNSURE = 0.3
-"""A free light whose distance is less sure than this share of itself is told."""
 
 
 def refine(
@@ -38,6 +46,7 @@ def refine(
     *,
     intensity_sd: float = 0.10,
     lobes: Mapping[str, Lobe] | None = None,
+    free_core: bool = False,
 ) -> LightsSolution:
     """Position, axis, intensity and lobe of every light from spheres, with the wings as prior.
 
@@ -48,6 +57,7 @@ def refine(
     camera : None: orthographic, distant lights
     intensity_sd : prior of a light's relative intensity
     lobes : how lights emit by angle as their makers say; the prior of what is found
+    free_core : whether the camera's parameters are solved for too, their covariance as prior
 
     Raises
     ------
@@ -58,7 +68,7 @@ def refine(
         raise DegenerateError("no sphere could be used", needed="one chrome sphere at least", todo="add spheres: to panel.yaml")
     if camera is None:
         return refine_distant(views, lights)
-    used, refused = _measured(views, camera)
+    used, refused = _measured(views, camera, free_core)
     if wings is not None:
         refuse_swapped(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     fit, used, more = _fit_without_outliers(lights, used, camera, wings)
@@ -66,61 +76,33 @@ def refine(
     clicks: list[Click] = []
     if wings is not None and any(view.highlights_px for view, _ in used):
         fit, wings, clicks = fit_with_clicks(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
-    focus_C = _focus(fit, wings)
+    focus_C = focus_of(fit, wings)
     kept = [view for view, _ in used]
-    known = [(lobes or {}).get(name) or lobe_of_leds(_leds(fit, k, wings)) for k, name in enumerate(lights)]
-    found, warnings = _near_lights(fit, lights, known, focus_C, intensity_sd)
+    known = [(lobes or {}).get(name) or lobe_of_leds(leds_of(fit, k, wings)) for k, name in enumerate(lights)]
+    found, warnings = near_lights(fit, lights, known, focus_C, intensity_sd)
     warnings = [*(click.message() for click in clicks), *warnings]
     samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
     if samples is None:
         return _solution(found, focus_C, fit, None, views, kept, refused, warnings, camera, wings)
-    shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd)
-    if wings is None or not can_fit(kept, wings, lights):
-        found = _with_shading(found, shading)
+    of_leds = wings is not None and can_fit(kept, wings, lights)
+    shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd, with_maps=not of_leds)
+    if wings is None or not of_leds:
+        found = with_shading(found, shading)
         return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings)
     joint = fit_jointly(fit, shading, samples, kept, [m for _, m in used], camera, wings, focus_C, intensity_sd)
-    found = _with_leds(joint, shading)
-    focus_C = _nearest_to_axes(np.array([light.H_CL for light in found]))
+    found = with_leds(joint, shading)
+    focus_C = nearest_to_axes(np.array([light.H_CL for light in found]))
     found = [replace(light, direction_C=light.field(focus_C[None])[0][0]) for light in found]
     return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings, joint)
 
 
-def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> LightsSolution:
-    """The lights as the drawing has them, for a rig without spheres: sources where LightBlobs have theirs, give or take."""
-    rows = [k for k, wing in enumerate(wings.wings) if wing.name in lights]
-    focus_C = _nearest_to_axes(wings.H_CL[rows])
-    found = []
-    for k in rows:
-        H_CL, block = wings.H_CL[k], wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
-        axis_C = H_CL[:3, 2]
-        source_C = H_CL[:3, 3] + SOURCE_OFFSET_M * axis_C
-        carry = _point_by_twist(source_C)
-        covariance = carry @ block @ carry.T + SOURCE_OFFSET_SIGMA_M**2 * np.outer(axis_C, axis_C)
-        origin = _point_by_twist(H_CL[:3, 3])
-        found.append(
-            Light(
-                name=wings.wings[k].name,
-                direction_C=_unit(source_C - focus_C),
-                intensity=np.ones(1),
-                H_CL=H_CL,
-                source_C=source_C,
-                axis_C=axis_C,
-                lobe=lobe_of_leds(wings.wings[k].leds) or Lobe(),
-                position_std_m=_per_axis(origin @ block @ origin.T),
-                direction_std_rad=_direction_std(source_C - focus_C, covariance),
-                intensity_std=intensity_sd,
-            )
-        )
-    return LightsSolution(
-        tuple(found), focus_C, _d_object(wings.H_CD, focus_C), wings.H_CD, (), ("no spheres: the lights are as designed, not refined",)
-    )
-
-
-def _measured(views: Sequence[SphereView], camera: Camera) -> tuple[list[tuple[SphereView, CentreMeasurement]], dict[str, str]]:
+def _measured(
+    views: Sequence[SphereView], camera: Camera, free_core: bool
+) -> tuple[list[tuple[SphereView, CentreMeasurement]], dict[str, str]]:
     used, refused = [], {}
     for view in views:
         try:
-            used.append((view, measure_centre(view, camera)))
+            used.append((view, measure_centre(view, camera, free_core=free_core)))
         except DegenerateError as error:
             refused[view.name] = error.found
     return used, refused
@@ -142,71 +124,6 @@ def _fit_without_outliers(
             f"its highlights lie {np.median(by_sphere[worst]):.1f} px from where the other spheres put the lights; is its radius right?"
         )
         used = [(view, m) for view, m in used if view.name != worst]
-
-
-def _leds(fit: GeometryFit, k: int, wings: Wings | None) -> int | None:
-    row = fit.wing_of[k]
-    return None if row is None or wings is None else wings.wings[row].leds
-
-
-def _near_lights(
-    fit: GeometryFit, lights: Sequence[str], known: Sequence[Lobe | None], focus_C: Array, intensity_sd: float
-) -> tuple[list[Light], list[str]]:
-    """The lights as the geometry alone has them, each with the lobe that it is known by beforehand; and warnings."""
-    found, warnings = [], []
-    axes = _axes(fit, focus_C)
-    for k, name in enumerate(lights):
-        covariance, row, away = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], fit.wing_of[k], fit.source_C[k] - focus_C
-        light = Light(
-            name=name,
-            direction_C=_unit(away),
-            intensity=np.ones(1),
-            H_CL=fit.H_CL[k] if row is not None else _frame_at(fit.source_C[k], axes[k]),
-            source_C=fit.source_C[k],
-            axis_C=axes[k],
-            lobe=known[k] or Lobe(),
-            position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
-            direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
-            intensity_std=intensity_sd,
-        )
-        distance_std = float(np.sqrt(_unit(away) @ covariance @ _unit(away))) / float(np.linalg.norm(away))
-        if row is None and distance_std > UNSURE:
-            warnings.append(f"{name}: its distance is known to {100 * distance_std:.0f} % only: spread the spheres")
-        found.append(light)
-    return found, warnings
-
-
-def _with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
-    """The lights with the intensities and round lobes of the shading."""
-    misfit = _rms(list(shading.residual.values()))
-    return [
-        replace(
-            light,
-            intensity=shading.intensity[k],
-            lobe=replace(shading.lobes[k], seen_rad=float(shading.seen_rad[k])),
-            intensity_std=float(np.hypot(shading.intensity_std[k], misfit)),
-        )
-        for k, light in enumerate(lights)
-    ]
-
-
-def _with_leds(joint: JointFit, shading: ShadingFit) -> list[Light]:
-    """The lights of the joint fit with the colour of the shading, mean intensity 1."""
-    colour = shading.intensity / shading.intensity.mean(axis=1, keepdims=True)
-    intensity = np.array([light.intensity[0] for light in joint.lights])[:, None] * colour
-    intensity /= intensity.mean()
-    misfit = _rms(list(joint.shading.values()))
-    return [
-        replace(
-            light,
-            intensity=intensity[k],
-            lobe=replace(light.lobe, seen_rad=float(shading.seen_rad[k])),
-            position_std_m=float(joint.position_std_m[k]),
-            direction_std_rad=float(np.hypot(joint.direction_std_rad[k], DIRECTION_FLOOR_RAD)),
-            intensity_std=float(np.hypot(joint.intensity_std[k], misfit)),
-        )
-        for k, light in enumerate(joint.lights)
-    ]
 
 
 def _solution(
@@ -240,12 +157,23 @@ def _solution(
         "outline_bias_px": joint.bias_px if joint else fit.bias_px,
         "settings": _setting_report(settings, wings),
         "lobe_seen_deg": dict(zip(fit.lights, np.degrees(shading.seen_rad).tolist(), strict=True)) if shading else None,
-        "highlight_rms_px": _rms(list(highlights.values())),
-        "shading_rms": _rms(list(misfit.values())),
+        "highlight_rms_px": rms(list(highlights.values())),
+        "shading_rms": rms(list(misfit.values())),
         "next_sphere": _next_sphere(fit, joint, focus_C, kept, camera),
     }
     told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings, *_doubts(joint.bias_px if joint else fit.bias_px, highlights))
-    return LightsSolution(tuple(lights), focus_C, _d_object(H_CD, focus_C), H_CD, tuple(spheres), told, evidence)
+    solved = joint or fit
+    return LightsSolution(
+        lights=tuple(lights),
+        focus_C=focus_C,
+        d_object_m=d_object_of(H_CD, focus_C),
+        H_CD=H_CD,
+        spheres=tuple(spheres),
+        warnings=told,
+        evidence=evidence,
+        H_CD_covariance=solved.H_CD_covariance,
+        camera=with_core(camera, solved.core) if solved.core.size else None,
+    )
 
 
 def _next_sphere(
@@ -269,7 +197,7 @@ def _doubts(bias_px: dict[str, float], highlights: dict[tuple[str, str], float])
     ConvergenceError
         The highlights are nowhere near where the lights put them.
     """
-    rms_px = _rms(list(highlights.values()))
+    rms_px = rms(list(highlights.values()))
     if rms_px > REFUSED_HIGHLIGHT_PX:
         worst = max(highlights, key=highlights.__getitem__)
         raise ConvergenceError(
@@ -303,44 +231,10 @@ def _finding(
     directions = {}
     for light, pixel in view.highlights_px.items():
         P, n = sphere.meet(camera.unproject(pixel), centre_C, view.radius_m)
-        directions[light] = sphere.reflect(_unit(P), n)
-    residual = _rms([px for (name, _), px in highlights.items() if name == view.name])
+        directions[light] = sphere.reflect(unit(P), n)
+    residual = rms([px for (name, _), px in highlights.items() if name == view.name])
     residual = misfit.get(view.name, float("nan")) if view.kind == "matte" else residual
     return SphereFinding(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
-
-
-def _axes(fit: GeometryFit, focus_C: Array) -> Array:
-    """Emission axes (L, 3); a free light is taken to face the focus."""
-    return np.array([fit.H_CL[k, :3, 2] if row is not None else _unit(focus_C - fit.source_C[k]) for k, row in enumerate(fit.wing_of)])
-
-
-def _focus(fit: GeometryFit, wings: Wings | None) -> Array:
-    """Where the wings' axes (nearly) meet; without wings, the middle of the spheres."""
-    rows = [k for k, row in enumerate(fit.wing_of) if row is not None]
-    return _nearest_to_axes(fit.H_CL[rows]) if wings is not None and len(rows) > 1 else np.mean(fit.centres_C, axis=0)
-
-
-def _nearest_to_axes(H_CL: Array) -> Array:
-    across = np.eye(3) - H_CL[:, :3, 2:3] * H_CL[:, None, :3, 2]
-    return np.linalg.lstsq(across.sum(axis=0), np.sum(across @ H_CL[:, :3, 3:], axis=0)[:, 0], rcond=None)[0]
-
-
-def _frame_at(source_C: Array, axis_C: Array) -> Array:
-    """A frame with its origin at a source and its z along an axis, x as near to that of C as can be."""
-    x = _unit(np.array([1.0, 0.0, 0.0]) - axis_C[0] * axis_C)
-    return se3.transform(np.stack([x, np.cross(axis_C, x), axis_C], axis=1), source_C)
-
-
-def _origin_covariance(fit: GeometryFit, k: int) -> Array:
-    carry = _point_by_twist(fit.H_CL[k, :3, 3])
-    return carry @ fit.frame_covariance[k] @ carry.T
-
-
-def _direction_std(away: Array, covariance: Array) -> float:
-    """Standard deviation a tangent axis, in radians, of the direction of a vector with this covariance."""
-    d = _unit(away)
-    across = np.eye(3) - np.outer(d, d)
-    return float(np.sqrt(np.trace(across @ covariance @ across) / 2) / np.linalg.norm(away))
 
 
 def _setting_report(settings: Array, wings: Wings | None) -> dict[str, object]:
@@ -349,23 +243,3 @@ def _setting_report(settings: Array, wings: Wings | None) -> dict[str, object]:
     names = ("azimuth_deg", "joint_angle_deg", "d1_m", "d2_m")
     scale = np.array([180 / np.pi, 180 / np.pi, 1, 1])
     return {wing.name: dict(zip(names, (settings[k] * scale).tolist(), strict=True)) for k, wing in enumerate(wings.wings)}
-
-
-def _d_object(H_CD: Array | None, focus_C: Array) -> float | None:
-    return float(np.linalg.norm(focus_C)) if H_CD is None else float(se3.apply(se3.inv(H_CD), focus_C[None])[0, 2])
-
-
-def _point_by_twist(x: Array) -> Array:
-    return np.hstack([-se3.hat(x), np.eye(3)])
-
-
-def _per_axis(covariance: Array) -> float:
-    return float(np.sqrt(np.trace(covariance) / 3))
-
-
-def _unit(v: Array) -> Array:
-    return np.asarray(v / np.linalg.norm(v))
-
-
-def _rms(values: list[float]) -> float:
-    return float(np.sqrt(np.mean(np.square(values)))) if values else float("nan")
