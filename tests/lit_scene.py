@@ -29,6 +29,8 @@ class Scene:
     albedo: tuple[float, ...] = (0.7,)
     wall_albedo: float = 0.35
     gloss: float = 0.0
+    room: float = 0.0
+    """Light from all sides, a unit of albedo, more than first harmonics; 0: a glow that is everywhere the same."""
 
 
 def calibration(lights: int = 6, ring: float = 0.16) -> Calibration:
@@ -56,7 +58,7 @@ def draw(scene: Scene, lights: Calibration, seed: int = 0, noise: float = 0.002,
     rng = np.random.default_rng(seed)
     stack = np.mean([_signals(scene, lights, dx, dy) for dx in (-1 / 3, 0, 1 / 3) for dy in (-1 / 3, 0, 1 / 3)], axis=0)
     stack *= 0.75 / stack.max()
-    ambient = 0.05 * np.ones_like(stack[0])
+    ambient = room_light(scene) if scene.room else 0.05 * np.ones_like(stack[0])
     full = 2**bits - 1
 
     def stored(linear: np.ndarray) -> np.ndarray:
@@ -71,6 +73,14 @@ def draw(scene: Scene, lights: Calibration, seed: int = 0, noise: float = 0.002,
         np.ones(1),
         step=1 / full,
     )
+
+
+def room_light(scene: Scene) -> np.ndarray:
+    """What the room adds to every image."""
+    column, row = np.meshgrid(np.arange(SIZE[0], dtype=float), np.arange(SIZE[1], dtype=float))
+    _, n, albedo, _ = _surface(scene, column, row)
+    light = scene.room * (1 - 0.3 * n[..., 1] + 0.1 * n[..., 0] + 0.15 * n[..., 0] * n[..., 2])
+    return 0.75 * (albedo * light[..., None] if len(scene.albedo) == 3 else albedo[..., 0] * light)
 
 
 def _signals(scene: Scene, lights: Calibration, dx: float, dy: float) -> np.ndarray:

@@ -120,6 +120,25 @@ def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
     assert (rig / "surfaces/ball/surface.npz").is_file()
 
 
+def test_without_an_ambient_image_the_rooms_light_is_estimated_and_said(lpcal, rig, quick):
+    lit = draw(Scene(room=0.25), calibration())
+    write_capture(rig / "objects/lit", lit)
+    (rig / "objects/lit/ambient.png").unlink()
+    code, _, told = lpcal("reconstruct", "objects/lit", "--mask", quick, cwd=rig)
+    assert code == 0, told
+    assert "no ambient image: the room's light was estimated" in told
+    assert "not taken away" not in told
+    summary = json.loads((rig / "surfaces/lit/summary.json").read_text())
+    assert summary["counts_and_residuals"]["ambient"]["estimated"] is True
+    depth = truth(Scene())[1]
+    surface = read_surface(rig / "surfaces/lit")
+    assert abs(np.nanmedian(surface.depth - depth)) < 0.004
+
+
+def spoil_ambient(rig: Path) -> None:
+    cv2.imwrite(str(rig / "objects/first/ambient.png"), np.full((SIZE[1], SIZE[0]), 60000, np.uint16))
+
+
 def spoil_mask_size(rig: Path) -> None:
     cv2.imwrite(str(rig / "objects/first/mask.png"), np.full((20, 30), 255, np.uint8))
 
@@ -176,6 +195,7 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_image_missing, 6, "no image of L3"),
         (spoil_image_size, 6, "images of 160x104"),
         (spoil_saturated, 4, "saturated"),
+        (spoil_ambient, 6, "the ambient image is brighter than the lit ones"),
         (spoil_calibration_nan, 3, "light L0"),
         (spoil_calibration_cut, 3, "calibration.yaml"),
         (spoil_calibration_gone, 3, "lpcal export"),

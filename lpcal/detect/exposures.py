@@ -11,11 +11,14 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.detect.radiometry import Sensor, noise_model
+from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records.observations import Radiance, RawCapture
 
 DRIFT_SHARE = 0.05
 """Of the ambient light, or of the light of the lamps where that is less: a change that is worth a word."""
+BRIGHTER = 0.98
+"""Lit images under this share of the ambient one are darker, beyond noise."""
 
 
 def with_short_exposures(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> Radiance:
@@ -54,6 +57,28 @@ def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[
     if level > lamps > 0:
         found.append(f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene")
     return tuple(found)
+
+
+def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
+    """Refuse an ambient image that is brighter than the images of all lights: they were not taken alike.
+
+    Raises
+    ------
+    DisagreementError
+        It is.
+    """
+    if raw.ambient is None:
+        return
+    axes = tuple(range(1, raw.images.ndim))
+    lit = sensor.linear(raw.images).mean(axis=axes) / raw.exposure_s
+    ambient = sensor.linear(raw.ambient).mean(axis=axes) / raw.ambient_exposure_s
+    if ambient.min() > 0 and lit.max() < BRIGHTER * ambient.min():
+        raise DisagreementError(
+            f"the ambient image is brighter than the lit ones: {100 * ambient.min() / lit.max():.0f} % of the brightest of them",
+            where=raw.name,
+            needed="an ambient image with all lights off, at the exposure of the others or with its own stated",
+            todo="take it anew, or state exposure: and exposures: in capture.yaml",
+        )
 
 
 def _saturated(image: Image, sensor: Sensor, step: float) -> Mask:

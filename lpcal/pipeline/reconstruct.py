@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lpcal import __version__
-from lpcal.detect.exposures import ambient_notes, with_short_exposures
+from lpcal.detect.exposures import ambient_notes, refuse_bright_ambient, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
@@ -105,19 +105,37 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
     camera = calibration.camera
     sensor = Sensor(camera.black_level, camera.white_level, camera.gamma, camera.flat_field) if camera else Sensor()
+    refuse_bright_ambient(raw, sensor)
     plain = to_radiance(raw, sensor)
     radiance = with_short_exposures(plain, raw, sensor)
     radiance = replace(radiance, notes=(*radiance.notes, *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in {"auto", "none"} else None
-    options = Options(near=wishes.near, distance_m=wishes.distance_m, mask=given, automatic_mask=wishes.mask == "auto")
+    options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", ambient_known=raw.ambient is not None)
     if wishes.mask == "none":
         radiance = replace(radiance, mask=None)
     read = time.perf_counter()
     surface = reconstruct(radiance, calibration, options, progress)
     solved = time.perf_counter()
-    document = document_of(surface, task, calibration_path, wishes, radiance.notes, {"reading": read - begun, "solving": solved - read})
+    notes = _with_ambient_said(radiance.notes, surface)
+    document = document_of(surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read})
+    if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
+        distant = reconstruct(radiance, calibration, replace(options, near=False, mask=surface.mask), progress)
+        document["flatness_distant"] = flatness(distant)
     write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
     return document
+
+
+def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
+    """The notes with what became of the room's light where there is no image of it."""
+    found: Any = surface.figures.get("ambient")
+    if not found:
+        return notes
+    others = tuple(note for note in notes if not note.startswith("no ambient image"))
+    if not found["estimated"]:
+        return (*others, found["note"])
+    percent, doubt = 100 * found["share_of_signal"], 100 * found["relative_std"]
+    said = f"no ambient image: the room's light was estimated, {percent:.0f} % of the images within {doubt:.0f} % of that, and taken away"
+    return (*others, said)
 
 
 def document_of(
@@ -167,7 +185,18 @@ def line_of(document: dict[str, Any], target: Path) -> str:
         f"{document['name']}: {figures['pixels']} px in {len(pieces)} piece{'s' * (len(pieces) != 1)}"
         + (f" at {where}" if document["units"] == "metres" else "")
         + f", {document['times_s']['solving']:.1f} s -> {from_here(target)}"
+        + _flat_said(document)
     )
+
+
+def _flat_said(document: dict[str, Any]) -> str:
+    """How flat a nearly flat piece came out, by lights where they are and by distant ones."""
+    near, distant = document["flatness"], document.get("flatness_distant")
+    if not near:
+        return ""
+    said = f"\n  nearly flat: {near['plane_rms_mm']:.2f} mm rms from a plane, {near['plane_peak_to_valley_mm']:.2f} mm from peak to valley"
+    said += f" over {near['extent_mm']:.0f} mm"
+    return said + (f"; with distant lights it would be {distant['plane_peak_to_valley_mm']:.1f} mm" if distant else "")
 
 
 def from_here(target: Path) -> Path:

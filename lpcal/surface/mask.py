@@ -74,7 +74,7 @@ def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     everywhere = look_at(coarse, coarse_rays, np.ones(shape, bool), central=True)
     bright = strength(coarse)
     lit = np.sum(coarse.signal > LIT_SIGMAS * coarse.sigma, axis=0) >= 3
-    border = _border(shape)
+    border = border_band(shape)
     wall = planes.fit(look_at(coarse, coarse_rays, border & lit, central=True), lights, distance_m)
     if wall is None or wall.misfit > FIT_SIGMAS or np.mean(lit[border]) < 0.2:
         return None
@@ -121,7 +121,8 @@ def _without_support(left: Mask, support: Mask, border: Mask, bright: Image) -> 
     return _tidy(object_ & ~dark)
 
 
-def _border(shape: tuple[int, ...]) -> Mask:
+def border_band(shape: tuple[int, ...]) -> Mask:
+    """The image's rim (H, W), where the background is looked for."""
     width = max(2, round(BORDER_SHARE * min(shape)))
     border = np.ones(shape, bool)
     border[width:-width, width:-width] = False

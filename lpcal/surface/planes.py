@@ -82,7 +82,7 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
 
     if seen.pixels < 30:
         return None
-    some = _thinned(seen)
+    some = thinned(seen)
 
     def cost(q: Array) -> Array:
         r, _ = residuals(some, foretold(q, some.rays_C, lights), shaded=False)
@@ -103,10 +103,6 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
     return Plane(q, float(np.sqrt(np.median(misfit(some, foretold(q, some.rays_C, lights), shaded=False)[0]))))
 
 
-def _thinned(seen: Sight) -> Sight:
+def thinned(seen: Sight) -> Sight:
     """Every so many pixels, FIT_PIXELS at most."""
-    every = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
-    thin = np.zeros_like(seen.mask)
-    rows, columns = np.nonzero(seen.mask)
-    thin[rows[every], columns[every]] = True
-    return Sight(thin, seen.rays_C[every], seen.signal[:, every], seen.sigma[:, every], seen.usable[:, every], seen.central)
+    return seen.at(np.arange(0, seen.pixels, max(1, seen.pixels // FIT_PIXELS)))

@@ -17,7 +17,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, uncertainty
+from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, uncertainty, without_ambient
 from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 
@@ -42,6 +42,8 @@ class Options:
     mask: Mask | None = None
     automatic_mask: bool = True
     """Whether the object is to be found where no mask is given; else every pixel counts."""
+    ambient_known: bool = True
+    """Whether the ambient light has been taken away; else it is estimated."""
 
 
 def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
@@ -61,6 +63,14 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     near = options.near and central and any(light.source_C is not None for light in lights)
     begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else DISTANCE_M)
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
+    if not options.ambient_known and not gains.unmeasured(lights):
+        given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
+        known = replace(options, ambient_known=True)
+
+        def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
+            return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress)
+
+        return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve)
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
     object_mask = _object(background, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
