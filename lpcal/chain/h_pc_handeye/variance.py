@@ -4,10 +4,10 @@ Symbols: residual r_j with the weight w_j = 1/sigma_j^2 and leverage h_j (the sh
 
     sigma_g^2 <- sum_g r_j^2 / f_j  /  sum_g (1 - h_j)          variance components, a group g of measurements (Forstner 1979)
     f_k = sum_l correlation(t_k - t_l)                           views that stand for one, where mocap errors drift slowly
-    cov = S^-1 ( sum_b g_b g_b^T ) S^-1                          block-robust: g_b the gradient that the views of a stretch b give
+    cov = (B-1)/B sum_b (x_b - mean)(x_b - mean)^T               block jackknife: x_b without the views of stretch b of B
 
 Mocap errors are coloured: differences of the stream understate them fifty times. Sources: Forstner, Ein Verfahren zur Schatzung von
-Varianz- und Kovarianzkomponenten (1979); Liang & Zeger, Longitudinal data analysis using generalized linear models (1986).
+Varianz- und Kovarianzkomponenten (1979); Kunsch, The jackknife and the bootstrap for general stationary observations (1989).
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import itertools
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Sigmas, Views
+from lpcal.errors import DegenerateError
 from lpcal.geometry.arrays import Array
 
 LAGS_S = (0.0, 0.15, 0.3, 0.6, 1.2, 2.5, 5.0, 10.0)
@@ -29,9 +29,10 @@ LEAST_FREEDOM = 6.0
 """Redundancy under which a group keeps the sigma it has."""
 SHRINK = 0.2
 """The least that a sigma may become in one step, as a share of what it was: a component that collapses stays away from zero."""
-BLOCK_S = 2.0
-BLOCK_VIEWS = 15
-FEWEST_BLOCKS = 8
+BLOCKS = (10, 20)
+"""Stretches of equally many views that the recording is cut into."""
+BEYOND_CHANCE = 3.0
+"""Standard deviations of the jackknife's own scatter, beyond which it counts."""
 FLOOR_PX = 1e-3
 
 
@@ -97,28 +98,28 @@ def deflation(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array) -> Arra
 
 
 def block_factor(views: Views, found: Estimate, t_s: Array | None) -> float:
-    """Factor on the covariance of H_PC and H_OB by which stretches of neighbouring views scatter more than their noise; at least 1.
+    """Factor on the covariance by which stretches of neighbouring views move H_PC more than their noise; at least 1.
 
-    Counted only where the scatter is beyond chance, so that white noise keeps its covariance.
+    What correlation of neighbours misses: errors that last, and a model that is not all there is. Counted only where it is beyond chance,
+    so that white noise keeps its covariance.
     """
     solution = found.solution
-    blocks = _blocks(views.count, t_s)
-    number = int(blocks.max()) + 1
-    if number < FEWEST_BLOCKS:
-        return 1.0
-    at = solution.columns("H_PC", "H_OB")
-    scores = np.zeros((number, len(solution.scores(0)[0])))
-    for place, kind in enumerate(found.order):
-        if kind == "camera":
-            continue
-        np.add.at(scores, blocks[found.views_of(kind)], solution.scores(place))
-    formal = solution.covariance("H_PC", "H_OB")
-    whole = solution.covariance_of_all()
-    influence = scores @ whole[:, at]
-    robust = influence.T @ influence * number / (number - 1)
-    ratio = float(np.trace(np.linalg.solve(formal, robust))) / len(at)
-    chance = np.sqrt(2 / (number * 6))
-    return ratio if ratio > 1 + 2 * chance else 1.0
+    at, formal = solution.columns("H_PC"), solution.covariance("H_PC")
+    place = np.argsort(np.argsort(t_s)) if t_s is not None else np.arange(views.count)
+    factor = 1.0
+    for number in BLOCKS:
+        if number > views.count:
+            break
+        block = place * number // views.count
+        try:
+            without = np.array([solution.without(found.of_views(block == b))[at] for b in range(number)])
+        except DegenerateError:  # one stretch alone shows a direction
+            break
+        moved = without - without.mean(axis=0)
+        ratio = (number - 1) / number * float(np.trace(np.linalg.solve(formal, moved.T @ moved))) / len(at)
+        if ratio > 1 + BEYOND_CHANCE * np.sqrt(2 / (number * len(at))):
+            factor = max(factor, ratio)
+    return factor
 
 
 def _updated(sigma: float, r: Array, free: Array) -> float:
@@ -126,18 +127,3 @@ def _updated(sigma: float, r: Array, free: Array) -> float:
     if freedom < LEAST_FREEDOM:
         return sigma
     return float(max(np.sqrt(np.sum(r**2) / freedom), SHRINK * sigma))
-
-
-def _blocks(count: int, t_s: Array | None) -> npt.NDArray[np.intp]:
-    """Stretches of views next to each other in time (or in order): up to some seconds, or views, long."""
-    if t_s is None:
-        return np.arange(count) // max(1, count // 15)
-    blocks = np.zeros(count, dtype=np.intp)
-    order = np.argsort(t_s)
-    number, first, size = 0, t_s[order[0]], 0
-    for k in order:
-        if t_s[k] - first > BLOCK_S or size >= 4 * BLOCK_VIEWS:
-            number, first, size = number + 1, t_s[k], 0
-        blocks[k] = number
-        size += 1
-    return blocks
