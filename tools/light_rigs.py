@@ -257,7 +257,8 @@ def _outline(camera: Camera, kind: str, centre_C: np.ndarray, radius_m: float, b
 
 
 def _highlight(camera: Camera, light: LedLight, centre_C: np.ndarray, radius_m: float) -> np.ndarray:
-    ray = centre_C - light.position_C
+    """The mirror image of the LEDs' mean place, as they shine at where the sphere mirrors the dome's centre."""
+    ray = sphere.mirror_point(centre_C, radius_m, light.source_C) - light.position_C
     r = np.linalg.norm(ray, axis=1)
     weight = light.power * np.maximum(np.sum(ray * light.axis_C, axis=1) / r, 0) ** light.exponent / r**2
     source_C = np.average(light.position_C, axis=0, weights=weight)

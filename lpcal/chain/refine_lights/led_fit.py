@@ -7,8 +7,9 @@ all blobs of a mode. Block b of matte sphere s, ray u, point P::
     r = [log data - log I_k - log rho_s - delta_b - log c - log sum_i p_i cos^m(a_i, P - x_i) (n . d_i) / |P - x_i|^2] / sigma
 
 ``c`` is what the mean over the block's own pixels is to its centre, kept from the last round. delta_b (sd 2 %) cancels the texture,
-powers (sd 4 %) and tilts (sd 0.5 deg) are priors. A highlight is the mirror image of the LEDs as they shine at the sphere: of their
-mean place, weighted with their light. Source: maximum a posteriori estimation; LED pattern and scatter from the datasheet.
+powers (sd 4 %) and tilts (sd 0.5 deg) are priors. A highlight is the mirror image of the LEDs' mean place, weighted
+with how they shine at where the sphere mirrors the dome's centre. Source: maximum a posteriori estimation; LED pattern and scatter from the
+datasheet.
 """
 
 from __future__ import annotations
@@ -87,7 +88,8 @@ def highlights(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: 
 def _highlight_model(cluster: Cluster, core: int, width: int) -> Model:
     def residual(H_CD: Any, setting: Any, dome: Any, roll: Any, led: Any, centre: Any, *seen: Any) -> Any:
         H_CL = H_CD @ wing_frame(setting)
-        x_L = H_CL[:3, :3].T @ (centre - H_CL[:3, 3])
+        mirror_C = residuals.mirror_point(centre, seen[-1][9], H_CL[:3, 3] + dome[0] * H_CL[:3, 2])
+        x_L = H_CL[:3, :3].T @ (mirror_C - H_CL[:3, 3])
         weight, mean = 0, 0
         for place, axis, power in cluster.symbolic(roll, led, dome):
             light_here = power * _lit(place, axis, x_L, cluster.exponent)
