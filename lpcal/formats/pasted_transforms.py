@@ -43,20 +43,10 @@ def forms(H_AB: Array, parent: str, child: str) -> dict[str, Any]:
     }
 
 
-def paste_lines(H_AB: Array, parent: str, child: str) -> list[str]:
-    """The same as lines to read and copy."""
-    q, x = se3.quaternion(H_AB[:3, :3]), H_AB[:3, 3]
-    return [
-        *(
-            f"  {'matrix' if k == 0 else '':<16}{'[[' if k == 0 else ' ['}{numbers(row, 6)}]{']' if k == 3 else ','}"
-            for k, row in enumerate(H_AB)
-        ),
-        f"  position        {numbers(MM * x, 2)} mm",
-        f"  quaternion      {numbers(q, 6)} (x, y, z, w)",
-        f"  rotation vector {numbers(se3.rotation_vector(H_AB[:3, :3]), 6)} rad",
-        f'  URDF            xyz="{numbers(x, 6, " ")}" rpy="{numbers(rpy(H_AB), 6, " ")}"',
-        f"  ROS             {_ros(H_AB, parent, child)}",
-    ]
+def matrix_lines(H_AB: Array) -> list[str]:
+    """The matrix as lines to read and copy."""
+    last = len(H_AB) - 1
+    return [f"{' ' if k else '['}[{numbers(row, 6)}]{']' if k == last else ','}" for k, row in enumerate(H_AB)]
 
 
 def both_ways(H_PC: Array, H_OB: Array, body: str) -> dict[str, dict[str, Any]]:

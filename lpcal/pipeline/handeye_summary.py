@@ -1,4 +1,4 @@
-"""What ``lpcal handeye`` says: the transforms as people paste them, how sure they are, and which views were left out."""
+"""What ``lpcal handeye`` says: H_PC, how sure it is, and which views were left out; all else stands in handeye.yaml."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.formats.pasted_transforms import CAMERA, both_ways, numbers, paste_lines
+from lpcal.formats.pasted_transforms import both_ways, matrix_lines, numbers
 from lpcal.geometry import se3
 from lpcal.pipeline.handeye_inputs import HandEyeInputs
 from lpcal.records.calibration import HandEye
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
-NAMED_VIEWS = 6
+NAMED_VIEWS, NAMED_REASONS = 6, 3
 EASY_HANDEYE = "handeye.easy_handeye.yaml"
 
 
@@ -27,21 +27,19 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     used = [view for view in handeye.views if view.used]
     sigma = np.sqrt(np.diag(handeye.H_PC_covariance))
     body = body_name(given)
+    H_PC = handeye.H_PC
+    q = se3.quaternion(H_PC[:3, :3])
     lines = [
-        f"H_PC        camera coordinates to those of {body}; position is the camera's centre in it:",
-        *paste_lines(handeye.H_PC, body, CAMERA),
-        f"H_CP        its inverse: coordinates of {body} to the camera's:",
-        *paste_lines(se3.inv(handeye.H_PC), CAMERA, body),
+        f"H_PC        camera in {body}: position {numbers(1e3 * H_PC[:3, 3], 2)} mm, quaternion {numbers(q, 6)} xyzw",
+        *(f"            {line}" for line in matrix_lines(H_PC)),
         f"sigma       {numbers(np.degrees(sigma[:3]), 3)} deg, {numbers(1e3 * sigma[3:], 2)} mm, an axis",
-        f"            {handeye.evidence['weakest']}",
-        f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m; all forms of it and of H_BO: handeye.yaml, transforms",
+        f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m",
         _clock(handeye, given),
-        f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}",
-        *_held_out(handeye),
+        f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}{_held_out(handeye)}",
         *_left_out(handeye),
-        *_noise(handeye),
+        f"noise       {_noise(handeye)}",
         *([f"mocap file  {'; '.join(given.notes)}"] if given.notes else []),
-        f"written     calib/handeye.yaml, calib/H_OP.yaml, calib/{EASY_HANDEYE}",
+        f"written     calib/handeye.yaml (all forms, both ways; what would sharpen it), calib/H_OP.yaml, calib/{EASY_HANDEYE}",
     ]
     return Outcome(
         summary=lines,
@@ -72,35 +70,33 @@ def _rms_words(handeye: HandEye) -> str:
 
 
 def _left_out(handeye: HandEye) -> list[str]:
-    lines: dict[str, list[str]] = {}
+    """The views that were not used, in one line; handeye.yaml says why of each."""
+    why: dict[str, list[str]] = {}
     for view in handeye.views:
         if not view.used:
-            lines.setdefault(str(view.why), []).append(view.image)
-    texts = []
-    for why, images in list(lines.items())[:NAMED_VIEWS]:
-        more = f" and {len(images) - NAMED_VIEWS} more" if len(images) > NAMED_VIEWS else ""
-        texts.append(f"  without:  {why}: {', '.join(images[:NAMED_VIEWS])}{more}")
-    rest = list(lines.values())[NAMED_VIEWS:]
-    return texts + [f"  without:  {sum(map(len, rest))} more, see handeye.yaml"] * bool(rest)
+            why.setdefault(str(view.why).split(" by ")[0], []).append(view.image)
+    if not why:
+        return []
+    texts = [f"{reason}: {', '.join(images[:NAMED_VIEWS])}{_more(len(images) - NAMED_VIEWS)}" for reason, images in why.items()]
+    return [f"  without:  {'; '.join(texts[:NAMED_REASONS])}{'; and others' if len(texts) > NAMED_REASONS else ''}"]
 
 
-def _noise(handeye: HandEye) -> list[str]:
+def _more(count: int) -> str:
+    return f" and {count} more" if count > 0 else ""
+
+
+def _noise(handeye: HandEye) -> str:
     found: dict[str, Any] = handeye.evidence
     if "corner_sigma_px" in found:
-        return [
-            f"noise       mocap {found['mocap_sigma_deg']:.3f} deg, {1e3 * float(found['mocap_sigma_m']):.2f} mm; corners "
-            f"{found['corner_sigma_px']:.3f} px"
-        ]
+        mocap = f"mocap {found['mocap_sigma_deg']:.3f} deg, {1e3 * float(found['mocap_sigma_m']):.2f} mm"
+        return f"{mocap}; corners {found['corner_sigma_px']:.3f} px"
     across, depth = 1e3 * float(found["board_sigma_m"][0]), 1e3 * float(found["board_sigma_m"][2])
-    return [f"noise       {found['board_sigma_deg']:.3f} deg, {across:.2f} mm across, {depth:.2f} mm in depth, both sensors together"]
+    return f"{found['board_sigma_deg']:.3f} deg, {across:.2f} mm across, {depth:.2f} mm in depth, both sensors together"
 
 
-def _held_out(handeye: HandEye) -> list[str]:
+def _held_out(handeye: HandEye) -> str:
     errors = [1e3 * view.held_out_m for view in handeye.views if view.held_out_m is not None]
-    if not errors:
-        return []
-    worst = max((view for view in handeye.views if view.held_out_m is not None), key=lambda view: view.held_out_m or 0.0)
-    return [f"left out    a view that the solve did not see: median {np.median(errors):.2f}, worst {max(errors):.2f} mm ({worst.image})"]
+    return f"; left out of the solve by {np.median(errors):.2f} (median), {max(errors):.2f} mm" if errors else ""
 
 
 def _document(handeye: HandEye, body: str) -> dict[str, Any]:
