@@ -56,6 +56,14 @@ STEPS = [
     ((4, 2), (4, 4)),
 ]
 """Fewer and more spheres, (chrome, matte)."""
+SOLVE = """
+import pickle, resource, sys, time
+from lpcal.chain.refine_lights import refine
+given = pickle.load(open(sys.argv[1], "rb"))
+begun = time.perf_counter()
+refine(*given)
+print(time.perf_counter() - begun, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
 
 
 def lpcal(*words: str, rig: Path) -> float:
@@ -117,13 +125,8 @@ def speed() -> None:
     """Twelve lights under sixteen spheres."""
     seen = drawn(900, "lightpanel-12", 8, 8)
     (CACHE / "speed.pkl").write_bytes(pickle.dumps(([*seen.views], seen.names, seen.camera, seen.wings)))
-    script = (
-        "import pickle, resource, sys, time; from lpcal.chain.refine_lights import refine; given = pickle.load(open(sys.argv[1], 'rb'))\n"
-        "begun = time.perf_counter(); refine(*given); begun = time.perf_counter() - begun; peak = resource.getrusage(resource.RUSAGE_SELF)\n"
-        "print(begun, peak.ru_maxrss)"
-    )
     alone = subprocess.run(
-        [sys.executable, "-c", script, str(CACHE / "speed.pkl")], check=True, capture_output=True, text=True
+        [sys.executable, "-c", SOLVE, str(CACHE / "speed.pkl")], check=True, capture_output=True, text=True
     ).stdout.split()
     print(f"12 lights, 8 + 8 spheres: solve {float(alone[0]):.1f} s, {float(alone[1]) / 1e6:.2f} GB; wanted < 10 s, < 1 GB")
     rig = _speed_rig()
