@@ -8,7 +8,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from lpcal.pipeline.study import AMBIENT_PEAK, PAPER, trial
+from lpcal.pipeline.study import AMBIENT, PAPER, trial
 
 
 def test_wide_enough_and_not_too_wide():
@@ -16,12 +16,35 @@ def test_wide_enough_and_not_too_wide():
     assert at[34] < 0.5 * min(at[8], at[80])
 
 
-def test_plain_least_squares_wants_lights_nearer_to_the_axis():
-    angles = np.array([17.0, 23.0, 30.0, 38.0, 48.0])
-    plain = [trial(replace(PAPER, phase_deg=float(angle)), plain=True).mean for angle in angles]
-    own = [trial(replace(PAPER, phase_deg=float(angle))).mean for angle in angles]
-    assert angles[np.argmin(plain)] <= 30 <= angles[np.argmin(own)]
-    assert own[-1] < 0.5 * plain[-1]
+ANGLES = np.array([14.0, 18.0, 22.0, 26.0, 30.0, 34.0, 40.0, 48.0])
+
+
+def best(conditions, *, plain):
+    errors = [trial(replace(conditions, phase_deg=float(angle)), plain=plain).mean for angle in ANGLES]
+    return ANGLES[int(np.argmin(errors))], min(errors), errors
+
+
+def test_plain_least_squares_is_best_between_20_and_30_degrees_as_in_the_paper():
+    for conditions in (PAPER, replace(PAPER, noise=0.01)):
+        assert 20 <= best(conditions, plain=True)[0] <= 30
+
+
+def test_without_shadows_lights_may_stand_wider():
+    plain, own = best(PAPER, plain=True), best(PAPER, plain=False)
+    assert own[0] > plain[0]
+    assert own[2][-1] < 0.2 * plain[2][-1]
+
+
+def test_the_best_angle_moves_with_noise_and_with_the_rim():
+    assert best(replace(PAPER, noise=0.01), plain=True)[0] > best(PAPER, plain=True)[0] > best(replace(PAPER, rim=0.995), plain=True)[0]
+
+
+def test_ambient_light_lifts_faint_light_over_what_a_sensor_needs():
+    at = [trial(replace(AMBIENT, toe=0.05, ambient=level), plain=True).mean for level in (0.0, 0.2, 0.4)]
+    assert at[1] < 0.2 * at[0]
+    assert at[1] < 0.2 * at[2]
+    plain = [trial(replace(AMBIENT, ambient=level), plain=True).mean for level in (0.0, 0.2)]
+    assert plain[0] < 1.2 * plain[1]
 
 
 def test_noise_costs_and_bits_help():
@@ -29,7 +52,7 @@ def test_noise_costs_and_bits_help():
 
 
 def test_ambient_light_ruins_once_pixels_saturate():
-    dark, lit, burnt = (trial(replace(PAPER, peak=AMBIENT_PEAK, ambient=level)).mean for level in (0.0, 0.2, 0.95))
+    dark, lit, burnt = (trial(replace(AMBIENT, ambient=level)).mean for level in (0.0, 0.2, 0.95))
     assert lit < 1.3 * dark
     assert not burnt < 10 * dark
 

@@ -24,7 +24,7 @@ def plot_png(curves: Sequence[Curve], across: str) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    figure = Figure(figsize=(9, 4.2), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     for curve in curves:
@@ -32,7 +32,7 @@ def plot_png(curves: Sequence[Curve], across: str) -> bytes:
     axes.set_xlabel(across)
     axes.set_ylabel("mean relative error of the normals, %")
     axes.grid(visible=True, which="both", alpha=0.25)
-    axes.legend(frameon=False, fontsize="small")
+    figure.legend(frameon=False, fontsize="small", loc="outside right center")
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=130)
     return data.getvalue()

@@ -15,8 +15,6 @@ from lpcal.records.calibration import Light
 from lpcal.records.observations import RawCapture
 
 OVERSAMPLING = 3
-RIM = 0.995
-"""Radius (of the sphere) within which pixels count: they lie wholly on it."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +30,10 @@ class Conditions:
     peak: float = 0.98
     pixels: int = 64
     """Across the sphere."""
+    rim: float = 0.95
+    """Radius (of the sphere) within which pixels count: beyond it the normal turns by more than 6 degrees within one."""
+    toe: float = 0.0
+    """Fraction of full scale that the sensor needs before it shows anything."""
 
 
 def ring(conditions: Conditions) -> tuple[Light, ...]:
@@ -56,13 +58,13 @@ def capture(conditions: Conditions, seed: int) -> tuple[RawCapture, Array, Mask]
             room += on / OVERSAMPLING**2
 
     def stored(linear: Array) -> Image:
-        noisy = linear + conditions.noise * rng.standard_normal(linear.shape)
+        noisy = linear - conditions.toe + conditions.noise * rng.standard_normal(linear.shape)
         return (np.clip(np.rint(full * noisy), 0, full) / full).astype(np.float32)
 
     dark = conditions.ambient * room
     images = stored(conditions.peak * lit / lit.max() + dark)
     n, on = _normals(conditions.pixels, 0.0, 0.0)
-    mask = on & (np.hypot(n[..., 0], n[..., 1]) < RIM * (1 - 1.5 / conditions.pixels))
+    mask = on & (np.hypot(n[..., 0], n[..., 1]) < conditions.rim * (1 - 1.5 / conditions.pixels))
     names = tuple(light.name for light in lights)
     ones = np.ones(len(lights))
     return RawCapture("sphere", names, images, ones, stored(dark)[None], np.ones(1), mask=mask, step=1 / full), n, mask
