@@ -74,7 +74,8 @@ def test_a_cards_flatness_is_told_and_a_balls_is_not():
     middle[30:82, 50:110] = True
     near, distant = (flatness(reconstruct(card, calibration(), Options(mask=middle, near=way))) for way in (True, False))
     assert near["plane_rms_mm"] < 0.3
-    assert distant["plane_peak_to_valley_mm"] > 3.0
+    assert near["bowl_mm"] < 0.3
+    assert distant["bowl_mm"] > 3.0
     assert near["extent_mm"] > 100
     ball = reconstruct(to_radiance(draw(Scene(), calibration()), Sensor()), calibration(), Options(mask=truth(Scene())[0]))
     assert flatness(ball) is None

@@ -1,6 +1,7 @@
 """Normals of DiLiGenT by lpcal beside plain least squares on the same images.
 
-``python tools/bench_surface.py [FOLDER]``: FOLDER holds diligent_ball, diligent_bear (default: the recordings' surface folder).
+``python tools/bench_surface.py [FOLDER]``: FOLDER holds diligent_ball, diligent_bear (default: the recordings' surface folder);
+``python tools/bench_surface.py card`` is tools/bench_card.py.
 Angles in degrees; six lights are those nearest to six evenly spread azimuths at the median slant.
 """
 
@@ -57,6 +58,11 @@ def errors(folder: Path, names: list[str] | None) -> tuple[float, float, float]:
 
 def main() -> None:
     """Print the table."""
+    if sys.argv[1:2] == ["card"]:
+        from bench_card import main as card
+
+        card([int(word) for word in sys.argv[2:]])
+        return
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else DATA
     print(f"{'set':<15}{'lights':<14}{'lpcal':>8}{'plain':>8}{'s':>7}")
     for name, first in FIRST.items():

@@ -195,8 +195,8 @@ def _flat_said(document: dict[str, Any]) -> str:
     if not near:
         return ""
     said = f"\n  nearly flat: {near['plane_rms_mm']:.2f} mm rms from a plane, {near['plane_peak_to_valley_mm']:.2f} mm from peak to valley"
-    said += f" over {near['extent_mm']:.0f} mm"
-    return said + (f"; with distant lights it would be {distant['plane_peak_to_valley_mm']:.1f} mm" if distant else "")
+    said += f" over {near['extent_mm']:.0f} mm, a bowl of {near['bowl_mm']:.2f} mm"
+    return said + (f"; with distant lights it would be one of {distant['bowl_mm']:.1f} mm" if distant else "")
 
 
 def from_here(target: Path) -> Path:

@@ -1,6 +1,7 @@
 """How far a nearly flat surface strays from a plane: what a flat card shows of a wrong light model.
 
-Plane by total least squares on the points of the largest piece, its outermost pixels left out; deviations along its normal.
+Plane by total least squares on the points of the largest piece, its outermost pixels left out; deviations w along its normal. Bowl: what
+the best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ FEWEST = 100
 
 
 def flatness(surface: Surface) -> dict[str, Any] | None:
-    """Deviation from a plane of the largest piece, in mm, and its extent; None where it is not nearly flat, or depth is in pixels."""
+    """Deviation of the largest piece from a plane, mm, its bowl and extent; None where it is not nearly flat, or depth is in pixels."""
     from scipy import ndimage
 
     inside = ndimage.binary_erosion(surface.component == 1, iterations=RIM_PX)
@@ -32,7 +33,10 @@ def flatness(surface: Surface) -> dict[str, Any] | None:
     low, high = np.percentile(deviation, [0.5, 99.5])
     if high - low > NEARLY * extent:
         return None
+    round_C = np.sum((centred @ along[:, :2]) ** 2, axis=1)
+    k = np.linalg.lstsq(np.stack([np.ones_like(round_C), round_C], axis=1), deviation, rcond=None)[0][1]
     return {
+        "bowl_mm": float(1e3 * abs(k) * (extent / 2) ** 2),
         "plane_rms_mm": float(1e3 * deviation.std()),
         "plane_peak_to_valley_mm": float(1e3 * (high - low)),
         "extent_mm": 1e3 * extent,
