@@ -109,6 +109,13 @@ def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, 
     assert surface.lights_used.max() == 4
 
 
+def test_an_image_that_is_no_lights_is_left_out_and_named(lpcal, rig, quick):
+    cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
+    code, _, told = lpcal("reconstruct", "--mask", quick, cwd=rig)
+    assert code == 0, told
+    assert "left out: lamp9.png is no light's" in told
+
+
 def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
     dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
     write_capture(rig / "objects/dark", dark)
@@ -156,6 +163,11 @@ def spoil_image_size(rig: Path) -> None:
         cv2.imwrite(str(path), cv2.imread(str(path), cv2.IMREAD_UNCHANGED)[:-8])
 
 
+def spoil_one_images_size(rig: Path) -> None:
+    path = rig / "objects/first/L2.png"
+    cv2.imwrite(str(path), cv2.imread(str(path), cv2.IMREAD_UNCHANGED)[:, :-4])
+
+
 def spoil_saturated(rig: Path) -> None:
     for path in (rig / "objects/first").iterdir():
         cv2.imwrite(str(path), np.full((SIZE[1], SIZE[0]), 65535, np.uint16))
@@ -194,6 +206,7 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_mask_empty, 4, "the mask holds 0 pixels"),
         (spoil_image_missing, 6, "no image of L3"),
         (spoil_image_size, 6, "images of 160x104"),
+        (spoil_one_images_size, 6, "L2.png: 156x112 grey, but L0.png is 160x112 grey"),
         (spoil_saturated, 4, "saturated"),
         (spoil_ambient, 6, "the ambient image is brighter than the lit ones"),
         (spoil_calibration_nan, 3, "light L0"),

@@ -10,7 +10,7 @@ import pytest
 
 from lit_scene import SIZE, Scene, calibration, draw, truth
 from lpcal.detect.exposures import ambient_notes, with_short_exposures
-from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
@@ -66,6 +66,67 @@ def test_more_ambient_than_lamps_is_said():
     raw = draw(Scene(), calibration())
     bright = replace(raw, images=0.05 * raw.images + 0.7, ambient=0.05 * raw.ambient + 0.7)
     assert "more ambient light" in ambient_notes(to_radiance(bright, Sensor()), bright, Sensor())[0]
+
+
+def test_lights_of_different_colours_are_told_from_the_objects_colour():
+    scene = Scene(albedo=(0.8, 0.5, 0.2))
+    raw, lights, mask = draw(scene, calibration()), calibration().lights, truth(scene)[0]
+    tint = (1 + 0.35 * np.sin(np.arange(18).reshape(6, 3) * 1.7)) * [0.8, 1.0, 1.2]
+    ambient = raw.ambient[0]
+    tinted = replace(raw, images=(raw.images - ambient) * tint[:, None, None].astype(np.float32) + ambient)
+    told = tuple(replace(light, intensity=light.intensity * tint[k]) for k, light in enumerate(lights))
+    grey = tuple(replace(light, intensity=light.intensity.mean(keepdims=True)) for light in told)
+    colour = {}
+    for name, known in (("told", told), ("grey", grey)):
+        found = reconstruct(to_radiance(tinted, Sensor()), replace(calibration(), lights=known), Options(mask=mask))
+        middle = np.nanmedian(found.albedo[found.mask], axis=0)
+        colour[name] = middle / middle[0] / [1, 0.625, 0.25] - 1
+    assert np.abs(colour["told"]).max() < 0.03
+    assert np.abs(colour["grey"]).max() > 0.1
+
+
+def test_twelve_bits_low_in_sixteen_need_the_white_level():
+    raw, mask = overexposed(), truth(Scene())[0]
+    low = replace(raw, images=raw.images / 16, ambient=raw.ambient / 16, short={}, short_exposure_s={}, step=1 / 65535)
+    full, told, untold = to_radiance(raw, Sensor()), to_radiance(low, Sensor(white_level=0.0625)), to_radiance(low, Sensor())
+    assert (full.saturated & mask).sum() > 500
+    assert np.array_equal(told.saturated, full.saturated)
+    assert np.allclose(told.signal, full.signal, atol=1e-3)
+    assert not untold.saturated.any()  # what is cut off is taken for shading
+    n = truth(Scene())[2]
+    error = {}
+    for name, radiance in (("told", told), ("untold", untold)):
+        found = reconstruct(radiance, calibration(), Options(mask=mask))
+        error[name] = np.nanmean(np.linalg.norm(found.normals - n, axis=-1)[mask & found.mask])
+    assert error["untold"] > 1.5 * error["told"]
+
+
+def test_more_ambient_images_mean_less_noise():
+    raw = draw(Scene(), calibration(), noise=0.01)
+    rng = np.random.default_rng(3)
+    eight = np.float32(0.05) + 0.01 * rng.standard_normal((8, *raw.ambient.shape[1:])).astype(np.float32)
+    true = to_radiance(draw(Scene(), calibration(), noise=0.0, bits=16), Sensor()).signal
+    one = to_radiance(raw, Sensor())
+    many = to_radiance(replace(raw, ambient=eight, ambient_exposure_s=np.ones(8)), Sensor())
+    assert np.median(many.sigma) < 0.85 * np.median(one.sigma)
+    assert np.std(many.signal - true) < 0.85 * np.std(one.signal - true)
+    assert np.std(many.signal - true) == pytest.approx(np.median(many.sigma), rel=0.2)
+
+
+def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness():
+    row, column = np.indices(SIZE[::-1])
+    fall = (1 - 0.55 * (((row - 56) ** 2 + (column - 80) ** 2) / 97**2)).astype(np.float32)
+    raw = draw(Scene(centre=None, wall_z=0.35, wall_albedo=0.7), calibration())
+    dimmed = replace(raw, images=raw.images * fall, ambient=raw.ambient * fall)
+    flat = fit_flat_field(0.6 * fall, Sensor())
+    middle = np.zeros(SIZE[::-1], bool)
+    middle[20:92, 30:130] = True
+    spread = {}
+    for name, sensor in (("flat", Sensor(flat_field=flat)), ("none", Sensor())):
+        found = reconstruct(to_radiance(dimmed, sensor), calibration(), Options(mask=middle))
+        spread[name] = float(np.nanstd(found.albedo[middle]) / np.nanmean(found.albedo[middle]))
+    assert spread["flat"] < 0.02
+    assert spread["none"] > 0.04
 
 
 def test_a_cards_flatness_is_told_and_a_balls_is_not():
