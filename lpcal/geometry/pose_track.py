@@ -57,6 +57,8 @@ class PoseTrack:
     ends_s: Array
     dropped: dict[str, int]
     """Samples left out, by why."""
+    variance: Array | None = None
+    """(N, 6) of the rotation's and the origin's errors along the axes of A, over what is usual; None: all alike."""
 
     @cached_property
     def rows(self) -> Array:
@@ -97,6 +99,8 @@ class TrackPoses:
     """None where the pose is to be trusted."""
     steady: Mask
     """(N,) where the body stood still around the time, so that the pose is a mean over the dwell."""
+    variance: Array | None = None
+    """(N, 6) as that of the track."""
 
     @property
     def trusted(self) -> Mask:
@@ -104,14 +108,14 @@ class TrackPoses:
         return np.array([why is None for why in self.why], dtype=bool)
 
 
-def clean(t_s: Array, H_AB: Array, error_m: Array) -> PoseTrack:
+def clean(t_s: Array, H_AB: Array, error_m: Array, variance: Array | None = None) -> PoseTrack:
     """Samples H_AB (N, 4, 4) at increasing times (N,), without swapped markers, jumps, short runs; cut into runs.
 
-    `error_m` (N,) is the tracking system's own marker error, NaN where it gives none.
+    `error_m` (N,) is the tracking system's own marker error, NaN where it gives none; `variance` (N, 6) as `PoseTrack`'s.
     """
     interval = float(np.median(np.diff(t_s))) if len(t_s) > 1 else 1.0
     swapped = _swapped(error_m)
-    t_s, H_AB = t_s[~swapped], H_AB[~swapped]
+    t_s, H_AB, variance = t_s[~swapped], H_AB[~swapped], None if variance is None else variance[~swapped]
     dropped = {"markers swapped, by the system's own error": int(swapped.sum())}
     if len(t_s) < 2:
         return PoseTrack(t_s, H_AB, np.zeros(len(t_s), dtype=np.intp), t_s, t_s, dropped)
@@ -134,7 +138,8 @@ def clean(t_s: Array, H_AB: Array, error_m: Array) -> PoseTrack:
     ends_s = t_s[end] - guard * (end < len(t_s) - 1)
     of_run = np.zeros(len(kept), dtype=np.intp)
     of_run[kept] = number[1]
-    return PoseTrack(t_s[of_sample], H_AB[of_sample], of_run[run[of_sample]], starts_s, ends_s, dropped)
+    variance = None if variance is None else variance[of_sample]
+    return PoseTrack(t_s[of_sample], H_AB[of_sample], of_run[run[of_sample]], starts_s, ends_s, dropped, variance)
 
 
 def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
@@ -154,7 +159,7 @@ def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
     H_AB = se3.interpolate(track.H, track.t_s, held)
     H_dwell, steady = _dwells(track, t, np.where(inside, of, -1))
     velocity = np.where(steady[:, None], 0.0, _velocity(track, held))
-    return TrackPoses(t, np.where(steady[:, None, None], H_dwell, H_AB), velocity, why, steady)
+    return TrackPoses(t, np.where(steady[:, None, None], H_dwell, H_AB), velocity, why, steady, _variance(track, held))
 
 
 def _swapped(error_m: Array) -> Mask:
@@ -238,6 +243,13 @@ def _velocity(track: PoseTrack, t: Array) -> Array:
     noise_m, noise_rad = track.sample_noise
     moved = (np.linalg.norm(shift, axis=1) > MOVED_SIGMAS * noise_m) | (np.linalg.norm(turn, axis=1) > MOVED_SIGMAS * noise_rad)
     return np.where(moved[:, None], np.concatenate([turn, shift], axis=1) / dt, 0.0)
+
+
+def _variance(track: PoseTrack, t: Array) -> Array | None:
+    """Variance (N, 6) between that of the samples around times (N,)."""
+    if track.variance is None:
+        return None
+    return np.stack([np.interp(t, track.t_s, column) for column in track.variance.T], axis=1)
 
 
 def _dwells(track: PoseTrack, t: Array, run: npt.NDArray[np.intp]) -> tuple[Array, Mask]:

@@ -50,6 +50,8 @@ class Views:
     """(M, 3)."""
     corner_scale: Array | None = None
     """(N, M) factor on the corners' sigma; None: 1."""
+    pose_variance: Array | None = None
+    """(N, 6) of each mocap pose, over that of the sigmas; None: 1."""
 
     @property
     def count(self) -> int:
@@ -60,6 +62,7 @@ class Views:
         """Some of the views."""
         corners = None if self.corners_px is None else self.corners_px[rows]
         scale = None if self.corner_scale is None else self.corner_scale[rows]
+        variance = None if self.pose_variance is None else self.pose_variance[rows]
         return Views(
             self.H_CB[rows],
             self.H_OP[rows],
@@ -69,7 +72,13 @@ class Views:
             corners,
             self.points_B,
             scale,
+            variance,
         )
+
+    def mocap_sigmas(self, sigmas: Sigmas) -> Array:
+        """One standard deviation (N, 6) of each view's mocap pose by itself."""
+        usual = np.stack([np.array(sigmas.mocap_rad), np.array(sigmas.mocap_m)], axis=1)[self.noise_class]
+        return np.repeat(usual, 3, axis=1) * (1.0 if self.pose_variance is None else np.sqrt(self.pose_variance))
 
 
 @dataclass(frozen=True)
@@ -169,8 +178,7 @@ def estimate(
 
 
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
-    rad, metre = np.array(sigmas.mocap_rad)[views.noise_class], np.array(sigmas.mocap_m)[views.noise_class]
-    weight = np.repeat(1 / np.stack([rad**2, metre**2], axis=1), 3, axis=1) / views.deflation[:, None]
+    weight = views.mocap_sigmas(sigmas) ** -2 / views.deflation[:, None]
     data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity], axis=1)
     return Term(_mocap_model(), ("H_OP", "clock"), (np.arange(views.count), 0), data, weight=weight)
 

@@ -59,6 +59,7 @@ class State:
             self.corners_px,
             self.boards.points_B,
             self.corner_scale,
+            self.panel.variance,
         )
         return whole.of(self.inliers)
 

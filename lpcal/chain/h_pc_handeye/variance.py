@@ -48,6 +48,7 @@ def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
         )
     place = found.term("mocap")
     r, leverage = found.solution.residuals[place], found.solution.leverage(place)
+    r = r if views.pose_variance is None else r / np.sqrt(views.pose_variance)
     free = 1 - leverage
     rad, metre = list(sigmas.mocap_rad), list(sigmas.mocap_m)
     for group in np.unique(views.noise_class):
@@ -65,8 +66,7 @@ def row_sigmas(views: Views, sigmas: Sigmas, kind: str) -> Array:
     if kind == "board":
         row = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
         return np.tile(np.array(row), (views.count, 1))
-    both = np.stack([np.array(sigmas.mocap_rad), np.array(sigmas.mocap_m)], axis=1)[views.noise_class]
-    return np.asarray(np.repeat(both, 3, axis=1))
+    return views.mocap_sigmas(sigmas)
 
 
 def change(before: Sigmas, after: Sigmas) -> float:
