@@ -24,7 +24,7 @@ SOFT_PX = 1.6
 SCATTER_PX, SCATTER_AND_FAINT = 1.2, (0.5, 15.0)
 """An outline whose points scatter so far (of a large one further), or so far with so little contrast, is none."""
 SECOND_RAYS, SECOND_CONTRAST, SECOND_SCATTER_PX = 0.75, 14.0, 0.6
-SECOND_SIZE = (0.5, 2.0)
+SECOND_SIZE, SECOND_SUPPORT, SECOND_TRIED = (0.5, 2.0), 0.1, 2
 POSSIBLE_M = (0.02, 20.0)
 """Nearer or farther than this no sphere stands."""
 SHARP_EDGE = 0.15
@@ -48,6 +48,8 @@ def refuse_bad_outline(outline: Outline, image: Image) -> None:
         raise _cut(f"{100 * outside:.0f} % of its outline, {where}, lies outside")
     if outline.blur_px > BLURRED * BLURS_PX[1] * outline.scale:
         raise _out_of_focus(f"its outline, {where}, is blurred by {outline.blur_px:.1f} px or more")
+    if blur_of(image) > BLURRED * BLURS_PX[1] * outline.scale:
+        raise _out_of_focus(f"nothing in the picture is sharp, its best edges are blurred by {blur_of(image):.1f} px")
 
 
 def is_vague(outline: Outline) -> bool:
@@ -68,31 +70,55 @@ def why_none(image: Image, radius_px: tuple[float, float] | None) -> DegenerateE
     return _no_outline(image)
 
 
-def refuse_second(first: Outline, starts: Sequence[Array], refine: Callable[[Array, str], Outline]) -> None:
+def refuse_second(first: Outline, starts: Sequence[Array], refines: Sequence[Callable[[Array, str], Outline]]) -> None:
     """Refuse a picture in which another outline of either kind, apart from the first, is about as clear.
+
+    Parameters
+    ----------
+    refines : how a start becomes an outline, under some of the lights each; a shadow is not there under all of them
 
     Raises
     ------
     DegenerateError
         Two spheres; both places are named.
     """
-    for start in starts:
-        apart = np.linalg.norm(start[:2] - first.centre_px) > 0.9 * (start[2] + first.radius_px)
-        if not (apart and SECOND_SIZE[0] < start[2] / first.radius_px < SECOND_SIZE[1]):
-            continue
+    for start in starts[:SECOND_TRIED]:
         for kind in INNER_SHARE:
-            try:
-                other = refine(start, kind)
-            except DegenerateError:
-                continue
-            whole = len(other.points_px) > SECOND_RAYS * RAYS and other.contrast > SECOND_CONTRAST
-            if whole and other.sigma_px < SECOND_SCATTER_PX * other.scale and abs(other.radius_px / start[2] - 1) < 0.2:
-                places = [_place(one.centre_px, one.radius_px) for one in (first, other)]
+            others = []
+            for refine in refines:
+                other = _second(start, kind, refine)
+                if other is None:
+                    break
+                others.append(other)
+            if len(others) == len(refines):
+                places = [_place(one.centre_px, one.radius_px) for one in (first, others[0])]
                 raise DegenerateError(
                     f"two spheres in the picture: {', and '.join(places)}",
                     needed="one sphere a folder",
-                    todo=f"say which: hint: [{_pixels(first)}] or hint: [{_pixels(other)}] in panel.yaml",
+                    todo=f"say which: hint: [{_pixels(first)}] or hint: [{_pixels(others[0])}] in panel.yaml",
                 )
+
+
+def rivals(first: Outline, starts: Sequence[Array], image: Image) -> list[Array]:
+    """Those of the starts that lie apart from an outline, are about as large, and have an edge about as strong all round."""
+    itself = np.array([*first.centre_px, first.radius_px])
+    support = sphere_start.supports(image, [itself, *starts])
+    found = []
+    for start, own in zip(starts, support[1:], strict=True):
+        apart = np.linalg.norm(start[:2] - first.centre_px) > 0.9 * (start[2] + first.radius_px)
+        if apart and SECOND_SIZE[0] < start[2] / first.radius_px < SECOND_SIZE[1] and own > SECOND_SUPPORT * support[0]:
+            found.append(start)
+    return found
+
+
+def _second(start: Array, kind: str, refine: Callable[[Array, str], Outline]) -> Outline | None:
+    try:
+        other = refine(start, kind)
+    except DegenerateError:
+        return None
+    whole = len(other.points_px) > SECOND_RAYS * RAYS and other.contrast > SECOND_CONTRAST
+    there = np.linalg.norm(other.centre_px - start[:2]) < 0.2 * start[2] and abs(other.radius_px / start[2] - 1) < 0.2
+    return other if whole and there and other.sigma_px < SECOND_SCATTER_PX * other.scale else None
 
 
 def refuse_far(distance_m: float, radius_m: float, expected_m: tuple[float, float] | None) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from lpcal.errors import DegenerateError
@@ -41,6 +43,12 @@ def search_beyond(image: Image, radius_px: tuple[float, float] | None = None) ->
     found = _search(np.pad(levelled, pad, mode="edge"), (low, high), SEEN_SHARE)
     inside = [circle - [pad, pad, 0] for circle in found]
     return sorted(inside, key=lambda circle: -_support(levelled, circle, SEEN_SHARE_BEYOND))
+
+
+def supports(image: Image, circles: Sequence[Array]) -> list[float]:
+    """How much each circle (x, y, radius) is an edge all round, in units of its own."""
+    levelled = _levelled(image)
+    return [_support(levelled, circle, SEEN_SHARE) for circle in circles]
 
 
 def _range(image: Image, radius_px: tuple[float, float] | None) -> tuple[float, float]:

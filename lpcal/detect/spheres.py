@@ -12,7 +12,7 @@ from lpcal.detect.sphere_highlights import Highlight, find_highlight, without_la
 from lpcal.detect.sphere_outline import Outline
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import sphere
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance, SphereView
 
@@ -64,7 +64,11 @@ def _view_of(radiance: Radiance, expected: Expected, outline: Outline) -> Sphere
 
 def mean_image(radiance: Radiance) -> Image:
     """Mean over the lights (H, W), grey, ambient light included."""
-    mean = np.mean(radiance.signal, axis=0) + radiance.ambient
+    return _shown(radiance, np.ones(len(radiance.lights), dtype=bool))
+
+
+def _shown(radiance: Radiance, lights: Mask) -> Image:
+    mean = np.mean(radiance.signal[lights], axis=0) + radiance.ambient
     return np.asarray(mean.mean(axis=2) if mean.ndim == 3 else mean, dtype=np.float32)
 
 
@@ -74,8 +78,8 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     if camera is not None and expected.radius_m is not None:
         curve = sphere_outline.perspective_curve(camera, expected.radius_m)
 
-    def refine(start: Array, kind: str = expected.kind) -> Outline:
-        return sphere_outline.refine_outline(image, kind, start, curve)
+    def refine(start: Array, kind: str = expected.kind, shown: Image = image) -> Outline:
+        return sphere_outline.refine_outline(shown, kind, start, curve)
 
     told = expected.hint_px is not None or radiance.mask is not None
     radius_px = _radius_range(expected, camera)
@@ -93,8 +97,10 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     if outline is None or sphere_checks.is_vague(outline):
         raise sphere_checks.why_none(image, radius_px)
     sphere_checks.refuse_bad_outline(outline, image)
-    if not told:
-        sphere_checks.refuse_second(outline, starts, refine)
+    rivals = sphere_checks.rivals(outline, starts, image) if not told and len(radiance.lights) > 1 else []
+    if rivals:
+        parts = [_shown(radiance, np.arange(len(radiance.lights)) % 3 != third) for third in range(3)]
+        sphere_checks.refuse_second(outline, rivals, [lambda start, kind, shown=shown: refine(start, kind, shown) for shown in parts])
     if camera is not None and expected.radius_m is not None:
         centre_C = sphere.from_outline(camera.unproject(outline.points_px), expected.radius_m)
         sphere_checks.refuse_far(float(np.linalg.norm(centre_C)), expected.radius_m, expected.distance_m)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.refine_lights import refine
+from lpcal.chain.refine_lights import refine_judged
 from lpcal.detect.exposures import ambient_notes, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
@@ -82,13 +82,13 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
             views.append(_view(raw, sensor, section, camera, distance_m))
             notes += views[-1].notes
         except (DegenerateError, DisagreementError) as error:
-            if len(spheres) == 1:
-                raise
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
+    if not views:
+        raise next(iter(bad.values()))
     panel = workspace.rig_file.rig.panel
     read = {path: read_lobe(path) for _, path in _lobe_files(workspace)}
-    solution = refine(
+    solution = refine_judged(
         views,
         lights,
         camera,

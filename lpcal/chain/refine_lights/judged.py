@@ -1,0 +1,90 @@
+"""The lights as `refine` finds them, judged: what the spheres leave open, what contradicts them, how well they foretell a sphere.
+
+Free lights whose distance the spheres do not tell become distant ones (`far`); when the fit does not settle, or settles badly, the
+mistake that explains it is looked for (`explain`); the shading and a sphere held out are compared with what the lights foretell
+(`diagnosis`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lpcal.chain.refine_lights.diagnosis import diagnose, refuse_matte_radius
+from lpcal.chain.refine_lights.explain import refuse_at_sight, refuse_other_orders, refuse_what_explains
+from lpcal.chain.refine_lights.far import far_lights, with_far
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
+from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
+from lpcal.chain.refine_lights.refine import refine
+from lpcal.errors import ConvergenceError, DegenerateError
+from lpcal.records.calibration import Camera, LightsSolution, Lobe, Wings
+from lpcal.records.observations import SphereView
+
+DOUBTED_PX, DOUBTED_SHADING, DOUBTED_SIGMAS = 0.25, 0.01, 3.0
+"""Highlights and shading that agree no better, or outlines so far from their usual bias, are worth a look for a mistake."""
+
+
+def refine_judged(
+    views: Sequence[SphereView],
+    lights: Sequence[str],
+    camera: Camera | None,
+    wings: Wings | None,
+    *,
+    intensity_sd: float = 0.10,
+    lobes: Mapping[str, Lobe] | None = None,
+    free_core: bool = False,
+) -> LightsSolution:
+    """The lights from spheres, as `refine`; distant where nothing tells their distance; what is wrong named.
+
+    Raises
+    ------
+    DegenerateError
+        No sphere; or a light that the data leave undetermined.
+    DisagreementError
+        Images under each other's names, a sphere of another radius, a moved camera.
+    ConvergenceError
+        The highlights or a sphere held out are nowhere near what the lights foretell, and nothing explains it.
+    """
+    if camera is None or not views:
+        return refine(views, lights, camera, wings)
+    used = _measured(views, camera)
+    if wings is None:
+        refuse_other_orders(used, camera)
+    drawn = {wing.name for wing in wings.wings} if wings else set()
+    far = far_lights([light for light in lights if light not in drawn], used, camera)
+    near = [light for light in lights if light not in far]
+    if not near:
+        return with_far(None, far, lights, views, used, camera)
+    refuse_at_sight(near, used, camera, wings)
+    try:
+        solution = refine(views, near, camera, wings, intensity_sd=intensity_sd, lobes=lobes, free_core=free_core)
+    except ConvergenceError:
+        refuse_what_explains(near, used, camera, wings)
+        raise
+    if _doubtful(solution):
+        refuse_what_explains(near, used, camera, wings)
+        chrome = [view for view in views if view.highlights_px]
+        if len(chrome) < len(views) and chrome:
+            refuse_matte_radius(refine(chrome, near, camera, wings, intensity_sd=intensity_sd), used, camera)
+    solution = diagnose(solution, used, camera, wings)
+    return with_far(solution, far, lights, views, used, camera) if far else solution
+
+
+def _doubtful(solution: LightsSolution) -> bool:
+    """Whether highlights, shading or the outlines' biases are not as they should be."""
+    highlight_px, shading, bias_px = (solution.evidence.get(key) for key in ("highlight_rms_px", "shading_rms", "outline_bias_px"))
+    if isinstance(highlight_px, float) and highlight_px > DOUBTED_PX:
+        return True
+    if isinstance(shading, float) and shading > DOUBTED_SHADING:
+        return True
+    biased = bias_px if isinstance(bias_px, dict) else {}
+    return any(abs(biased[kind] - mean) > DOUBTED_SIGMAS * sigma for kind, (mean, sigma) in BIAS_PX.items() if kind in biased)
+
+
+def _measured(views: Sequence[SphereView], camera: Camera) -> list[tuple[SphereView, CentreMeasurement]]:
+    used = []
+    for view in views:
+        try:
+            used.append((view, measure_centre(view, camera)))
+        except DegenerateError:
+            continue
+    return used
