@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -22,7 +23,7 @@ from lpcal.formats.images import read_image
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3, sphere
 from lpcal.pipeline.wings import wing_of
-from lpcal.records.calibration import Camera, LightsSolution
+from lpcal.records.calibration import Camera, LightsSolution, Wings
 from lpcal.records.observations import SphereView
 
 RIG = Path(__file__).resolve().parent.parent / "calib_data" / "demo_rig"
@@ -54,17 +55,34 @@ def views(camera: Camera) -> list[SphereView]:
     ]
 
 
-@pytest.fixture(scope="module")
-def solution(views: list[SphereView], camera: Camera) -> LightsSolution:
+def drawn_wings(clicked: str = "", clicks: int = 0) -> Wings:
+    """The wings as drawn, one joint stated some clicks of 10 degrees off."""
     rig = read_rig(RIG / "panel.yaml").rig
-    true = truth("handeye.yaml")
-    H_CD = se3.inv(np.array(true["H_DC"]))
+    H_CD = se3.inv(np.array(truth("handeye.yaml")["H_DC"]))
     wings = [wing_of(name, light, rig.panel) for name, light in rig.lights.items()]
+    wings = [replace(w, joint_angle_rad=w.joint_angle_rad + np.radians(10 * clicks * (w.name == clicked))) for w in wings]
     sigma = np.array([np.radians(0.5), np.radians(1), 5e-4, 5e-4])
     rng = np.random.default_rng(5)
     disc_sigma = np.array([1e-3] * 3 + [3e-4] * 3)
-    drawn = design_lights(wings, se3.exp(rng.normal(size=6) * disc_sigma) @ H_CD, np.diag(disc_sigma**2), sigma, "test")
-    return refine(views, list(rig.lights), camera, drawn, intensity_sd=0.1)
+    return design_lights(wings, se3.exp(rng.normal(size=6) * disc_sigma) @ H_CD, np.diag(disc_sigma**2), sigma, "test")
+
+
+@pytest.fixture(scope="module")
+def solution(views: list[SphereView], camera: Camera) -> LightsSolution:
+    wings = drawn_wings()
+    return refine(views, [wing.name for wing in wings.wings], camera, wings, intensity_sd=0.1)
+
+
+@pytest.mark.parametrize("clicks", [0, 1])
+def test_shading_tells_a_click_that_one_chrome_sphere_does_not(views: list[SphereView], camera: Camera, clicks: int) -> None:
+    some = [view for view in views if view.name != "chrome_1"]
+    wings = drawn_wings("L2", clicks)
+    found = refine(some, [wing.name for wing in wings.wings], camera, wings, intensity_sd=0.1)
+    said = [warning for warning in found.warnings if "joint at" in warning]
+    assert said == (["L2: joint at 30 deg, not 40; correct joint_angle in panel.yaml"] if clicks else [])
+    frames = {entry["name"]: np.array(entry["H_CL"]) for entry in truth("lights.yaml")["lights"]}
+    axis = [np.degrees(np.arccos(np.clip(light.H_CL[:3, 2] @ frames[light.name][:3, 2], -1, 1))) for light in found.lights]
+    assert np.sqrt(np.mean(np.square(axis))) < 1.0
 
 
 def test_outlines_lie_where_the_spheres_are(views: list[SphereView], camera: Camera) -> None:

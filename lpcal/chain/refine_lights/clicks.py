@@ -16,14 +16,16 @@ under one it gained up to 8; a true click gains 4.5 to 70. Source: Laplace's app
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from lpcal.chain.refine_lights.geometry_fit import GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.measure import CentreMeasurement
 from lpcal.errors import ConvergenceError, DegenerateError
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Wings
 from lpcal.records.observations import SphereView
 
@@ -32,6 +34,21 @@ ENOUGH, ENOUGH_UNDER_ONE = 4.0, 12.0
 """With two chrome spheres or more, and with one."""
 TRIES = 4
 """The most promising of all joints and both ways."""
+WORTH_A_TRY = -30.0
+"""Promise under shading: simulated, it is under -50 without a click and over -10 with one."""
+
+
+class _WithSettings(Protocol):
+    """A fit of the wings' settings."""
+
+    @property
+    def settings(self) -> Array: ...
+
+    @property
+    def settings_std(self) -> Array: ...
+
+    @property
+    def cost(self) -> float: ...
 
 
 @dataclass(frozen=True)
@@ -59,8 +76,8 @@ def fit_with_clicks(
     enough = ENOUGH if sum(bool(view.highlights_px) for view in views) > 1 else ENOUGH_UNDER_ONE
     rows = [row for row, wing in enumerate(wings.wings) if wing.name in shown]
     while rows:
-        promising = sorted(((row, step) for row in rows for step in (-1, 1)), key=lambda at: -_promise(fit, wings, *at))[:TRIES]
-        trials = [(row, step, *_tried(lights, views, measured, camera, _clicked(wings, row, step))) for row, step in promising]
+        promising = _promising(fit, wings, rows)[:TRIES]
+        trials = [(row, step, *_tried(lights, views, measured, camera, _clicked(wings, row, step))) for _, row, step in promising]
         row, step, trial, cost = min(trials, key=lambda trial: trial[3])
         gain = 2 * (fit.cost - cost)
         if trial is None or gain < enough:
@@ -72,7 +89,40 @@ def fit_with_clicks(
     return fit, wings, clicks
 
 
-def _promise(fit: GeometryFit, wings: Wings, row: int, step: int) -> float:
+def clicks_under_shading[Found: _WithSettings](
+    solved: Found, wings: Wings, solve: Callable[[Wings], Found], rows: Sequence[int]
+) -> tuple[Found, Wings, list[Click]]:
+    """The same where highlights alone are too few to tell, but shading was solved with them: a blob that emits 10 degrees off stands out.
+
+    Parameters
+    ----------
+    solved : the fit of highlights and shading under the wings as they stand
+    solve : the same under other wings
+    rows : of the wings that were seen
+    """
+    clicks: list[Click] = []
+    rows = list(rows)
+    while rows:
+        _, row, step = _promising(solved, wings, rows)[0]
+        if _promise(solved, wings, row, step) < WORTH_A_TRY:
+            break
+        trial = solve(_clicked(wings, row, step))
+        gain = 2 * (solved.cost - trial.cost)
+        if gain < ENOUGH_UNDER_ONE:
+            break
+        drawn = wings.wings[row].joint_angle_rad
+        clicks.append(Click(wings.wings[row].name, drawn, drawn + step * CLICK_RAD, gain))
+        solved, wings = trial, _clicked(wings, row, step)
+        rows.remove(row)
+    return solved, wings, clicks
+
+
+def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tuple[float, int, int]]:
+    """Promise, row and step of every click that may be, the best first."""
+    return sorted(((_promise(fit, wings, row, step), row, step) for row in rows for step in (-1, 1)), reverse=True)
+
+
+def _promise(fit: _WithSettings, wings: Wings, row: int, step: int) -> float:
     """The gain of a click to second order."""
     sigma, click = wings.setting_sigma[1], step * CLICK_RAD
     moved, variance = fit.settings[row, 1] - wings.wings[row].joint_angle_rad, fit.settings_std[row, 1] ** 2

@@ -41,6 +41,9 @@ class JointFit:
     core: Array
     """(P,) change of the camera's parameters, where they are free."""
     settings: Array
+    """(W, 4)."""
+    settings_std: Array
+    cost: float
     centres_C: Array
     bias_px: dict[str, float]
     dome_m: dict[int, list[float]]
@@ -231,6 +234,8 @@ class _Problem:
             H_CD_covariance=solution.covariance("H_CD"),
             core=solution["core"][0] if self.core else np.zeros(0),
             settings=solution["setting"],
+            settings_std=np.sqrt(np.diag(solution.covariance("setting"))).reshape(-1, 4),
+            cost=solution.cost,
             centres_C=solution["centre"],
             bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
             dome_m={mode: solution["dome"][k].tolist() for k, mode in enumerate(self.modes)},

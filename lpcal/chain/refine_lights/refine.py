@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from lpcal.chain.refine_lights.assemble import (
     with_leds,
     with_shading,
 )
-from lpcal.chain.refine_lights.clicks import Click, fit_with_clicks
+from lpcal.chain.refine_lights.clicks import Click, clicks_under_shading, fit_with_clicks
 from lpcal.chain.refine_lights.core import with_core
 from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, GeometryFit, fit_geometry
@@ -80,20 +80,68 @@ def refine(
     kept = [view for view, _ in used]
     known = [(lobes or {}).get(name) or lobe_of_leds(leds_of(fit, k, wings)) for k, name in enumerate(lights)]
     found, warnings = near_lights(fit, lights, known, focus_C, intensity_sd)
-    warnings = [*(click.message() for click in clicks), *warnings]
-    samples = sample_blocks(kept, fit.centres_C, camera, found) if any(view.shading for view in kept) else None
-    if samples is None:
-        return _solution(found, focus_C, fit, None, views, kept, refused, warnings, camera, wings)
-    of_leds = wings is not None and can_fit(kept, wings, lights)
-    shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd, with_maps=not of_leds)
-    if wings is None or not of_leds:
+    shaded, told = any(view.shading for view in kept), [click.message() for click in clicks]
+    if not shaded:
+        return _solution(found, focus_C, fit, None, views, kept, refused, [*told, *warnings], camera, wings)
+    if wings is None or not can_fit(kept, wings, lights):
+        samples = sample_blocks(kept, fit.centres_C, camera, found)
+        shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd)
         found = with_shading(found, shading)
-        return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings)
-    joint = fit_jointly(fit, shading, samples, kept, [m for _, m in used], camera, wings, focus_C, intensity_sd)
-    found = with_leds(joint, shading)
+        return _solution(found, focus_C, fit, shading, views, kept, refused, [*told, *warnings], camera, wings)
+    joint, late = _joint(fit, used, known, camera, wings, intensity_sd)
+    told += [click.message() for click in late]
+    found = with_leds(joint.fit, joint.shading)
     focus_C = nearest_to_axes(np.array([light.H_CL for light in found]))
     found = [replace(light, direction_C=light.field(focus_C[None])[0][0]) for light in found]
-    return _solution(found, focus_C, fit, shading, views, kept, refused, warnings, camera, wings, joint)
+    return _solution(found, focus_C, joint.start, joint.shading, views, kept, refused, [*told, *warnings], camera, wings, joint.fit)
+
+
+@dataclass(frozen=True)
+class _Joint:
+    """The joint fit, and the geometry and shading that it started from."""
+
+    start: GeometryFit
+    shading: ShadingFit
+    fit: JointFit
+
+    @property
+    def settings(self) -> Array:
+        return self.fit.settings
+
+    @property
+    def settings_std(self) -> Array:
+        return self.fit.settings_std
+
+    @property
+    def cost(self) -> float:
+        return self.fit.cost
+
+
+def _joint(
+    start: GeometryFit,
+    used: list[tuple[SphereView, CentreMeasurement]],
+    known: Sequence[Lobe | None],
+    camera: Camera,
+    wings: Wings,
+    intensity_sd: float,
+) -> tuple[_Joint, list[Click]]:
+    """Highlights and shading together; where too few highlights told clicks, the shading does."""
+    views, measured, lights = [view for view, _ in used], [m for _, m in used], start.lights
+
+    def solve(now: Wings, begun: GeometryFit | None = None) -> _Joint:
+        fit = begun or fit_geometry(lights, views, measured, camera, now)
+        focus_C = focus_of(fit, now)
+        near, _ = near_lights(fit, lights, known, focus_C, intensity_sd)
+        samples = sample_blocks(views, fit.centres_C, camera, near)
+        shading = fit_shading(samples, known, [view.name for view in views], intensity_sd, with_maps=False)
+        return _Joint(fit, shading, fit_jointly(fit, shading, samples, views, measured, camera, now, focus_C, intensity_sd))
+
+    joint = solve(wings, start)
+    if sum(bool(view.highlights_px) for view in views) > 1:
+        return joint, []
+    rows = [k for k, wing in enumerate(wings.wings) if wing.name in lights]
+    joint, _, clicks = clicks_under_shading(joint, wings, solve, rows)
+    return joint, clicks
 
 
 def _measured(
