@@ -63,8 +63,9 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
     assert found.figures["ambient"]["estimated"] is True
     (piece,) = found.components
     assert off_found < 2.5 * piece.scale_std * piece.mean_depth_m
-    assert piece.scale_std > told.components[0].scale_std
     assert np.nanmedian(found.normal_std_deg) > np.nanmedian(told.normal_std_deg)
+    more = without_ambient.doubted(found, replace(found, depth=1.024 * found.depth), room.Room(np.ones(4), room.PATCHY / 2), 0.1)
+    assert more.components[0].scale_std == pytest.approx(np.hypot(piece.scale_std, np.log(1.024) / 2), rel=1e-3)
 
 
 def test_a_dark_room_is_left_dark(maps):

@@ -42,15 +42,15 @@ def reconstruct(
         object_mask = mask.automatic(lamps, rays_C, lights, begin_m if near else None).mask
     depth = np.full(int(object_mask.sum()), begin_m if calibration.camera is not None else 1.0)
     surface, room = None, None
-    for _ in range(ROUNDS):
+    rounds = ROUNDS if near else 1
+    for k in range(rounds):
         seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
         found = room_light.on_object(seen, lights, depth, wall, focus_C) if seen.pixels >= room_light.FEWEST else None
         if found is None:
             break
         room, room_map[object_mask] = found
-        surface = solve(without(radiance, room_map, lights), given)
-        object_mask = surface.mask
-        depth = surface.depth[surface.mask].astype(float) if near else np.full(int(surface.mask.sum()), depth[0] if len(depth) else begin_m)
+        surface = solve(without(radiance, room_map, lights), given if k == rounds - 1 else object_mask)
+        object_mask, depth = surface.mask, surface.depth[surface.mask].astype(float)
     if surface is None or room is None:
         plain = solve(radiance, given)
         return replace(plain, figures={**plain.figures, "ambient": {"estimated": False, "note": UNDECIDED}})
