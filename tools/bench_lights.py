@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import resource
 import shutil
 import subprocess
 import sys
@@ -57,6 +56,13 @@ STEPS = [
     ((4, 2), (4, 4)),
 ]
 """Fewer and more spheres, (chrome, matte)."""
+COMMAND = """
+import resource, sys
+from lpcal.cli.main import main
+code = main(sys.argv[1:])
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+sys.exit(code)
+"""
 SOLVE = """
 import pickle, resource, sys, time
 from lpcal.chain.refine_lights import refine
@@ -68,11 +74,10 @@ print(time.perf_counter() - begun, resource.getrusage(resource.RUSAGE_SELF).ru_m
 
 
 def lpcal(*words: str, rig: Path) -> float:
-    """Run a command in a rig folder; peak memory in GB."""
-    subprocess.run(
-        [sys.executable, "-m", "lpcal", *words, "--rig", str(rig)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
+    """Run a command in a rig folder; its peak memory in GB."""
+    arguments = [sys.executable, "-c", COMMAND, *words, "--rig", str(rig)]
+    said = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
+    return float(said.splitlines()[-1]) / 1e6
 
 
 def rig_a() -> None:
