@@ -77,3 +77,11 @@ def test_command(tmp_path, lpcal):
     assert xi @ np.linalg.solve(found.H_PC_covariance, xi) < 25
     assert found.clock_offset_s is None
     assert all(view.used for view in found.views)
+
+
+def test_a_rest_in_a_trembling_hand_is_a_rest():
+    session, view = stop_and_shoot(np.random.default_rng(12), 20, noise=Noise(drift=0.9), dwell_s=0.8)
+    found = rests_of(track_of(session.stream))
+    period = 0.8 + 0.6
+    assert len(found.t_s) == view.max() + 1
+    assert np.abs(found.t_s - (np.arange(20) * period + 0.4))[:-1].max() < 0.1  # the last one goes on to the end

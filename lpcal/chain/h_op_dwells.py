@@ -20,14 +20,16 @@ import numpy.typing as npt
 
 from lpcal.errors import DisagreementError
 from lpcal.geometry import park, se3
-from lpcal.geometry.arrays import Array
-from lpcal.geometry.pose_track import PoseTrack, poses_at
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 
 STEP_S = 0.05
 SAME_M, SAME_RAD = 3e-3, np.deg2rad(0.5)
 """How far a rest's pose may wander."""
+MOMENT = 3
+"""Steps to either side over which the body is to stay."""
 SHORTEST_S = 0.2
-"""Time over which the body is seen to rest; the means reach 0.2 s further to either side."""
+"""Time over which the body is seen to rest, beside these steps."""
 ERROR_RAD, ERROR_M = np.deg2rad(0.3), 3e-3
 """Scales of the robust costs."""
 SKIPPED_VIEW, SKIPPED_REST = 4.0, 0.05
@@ -52,7 +54,8 @@ def rests_of(track: PoseTrack) -> Rests:
     t = np.arange(track.t_s[0], track.t_s[-1], STEP_S) if len(track.t_s) > 1 else np.zeros(0)
     found = poses_at(track, t)
     spans: list[tuple[int, int]] = []
-    for k in np.flatnonzero(found.steady):
+    still = _still(found)
+    for k in np.flatnonzero(still):
         goes_on = spans and k == spans[-1][1] + 1 and _same(found.H[spans[-1][0]], found.H[k])
         if goes_on:
             spans[-1] = (spans[-1][0], int(k))
@@ -65,7 +68,7 @@ def rests_of(track: PoseTrack) -> Rests:
         else:
             merged.append((first, last))
     long = [(first, last) for first, last in merged if t[last] - t[first] >= SHORTEST_S]
-    H_OP = [_mean(found.H[first : last + 1][found.steady[first : last + 1]]) for first, last in long]
+    H_OP = [_mean(found.H[first : last + 1][still[first : last + 1]]) for first, last in long]
     begin, end = (np.array([t[span[side]] for span in long]) for side in (0, 1))
     return Rests((begin + end) / 2, end - begin, np.array(H_OP).reshape(-1, 4, 4))
 
@@ -107,6 +110,17 @@ def match_rests(rests: Rests, H_CB: Array) -> npt.NDArray[np.intp]:
             todo="give the images' times: mocap.images, a csv of file,time_s; or check mocap.body and mocap.direction",
         )
     return match
+
+
+def _still(found: TrackPoses) -> Mask:
+    """Times (N,) about which the body is where it was a moment before and after, but for noise and a hand's tremor."""
+    still = np.zeros(len(found.H), dtype=bool)
+    before, after = found.H[: -2 * MOMENT], found.H[2 * MOMENT :]
+    near = np.linalg.norm(after[:, :3, 3] - before[:, :3, 3], axis=1) < SAME_M
+    turned = se3.angle_rad(after[:, :3, :3] @ np.swapaxes(before[:, :3, :3], 1, 2)) < SAME_RAD
+    trusted = found.trusted
+    still[MOMENT:-MOMENT] = near & turned & trusted[: -2 * MOMENT] & trusted[MOMENT:-MOMENT] & trusted[2 * MOMENT :]
+    return still
 
 
 def _same(H: Array, other: Array) -> bool:

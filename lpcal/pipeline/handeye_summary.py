@@ -51,7 +51,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
 
 def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
     if given.stream is None:
-        return "clock       none: one pose an image"
+        return f"clock       none: {'no times of the images' if given.body else 'one pose an image'}"
     if handeye.clock_offset_s is None:
         return "clock       the offset does not show in these data"
     if not handeye.clock_offset_std_s:
