@@ -179,11 +179,7 @@ def rigs(count: int = RIGS, ladder: int = LADDER_RIGS) -> None:
     """Errors beside sigmas, and what more spheres do."""
     most = [(4, 0), (4, 4)]
     found = _solved(drawn, range(ladder), LADDER)
-    more = _solved(drawn, range(ladder, count), most)
-    print(f"{count} drawn rigs of 6 lights; NEES wanted 0.5-1.2\n{HEADER}")
-    for chrome, matte in most:
-        print(table_row(f"{chrome} chrome, {matte} matte", found[chrome, matte] + more[chrome, matte]))
-    print(f"the first {ladder} of them\n{HEADER}")
+    print(f"{ladder} drawn rigs of 6 lights; NEES wanted 0.5-1.2\n{HEADER}")
     for (chrome, matte), errors in found.items():
         print(table_row(f"{chrome} chrome, {matte} matte", errors))
     print("more spheres: rms error after over before, wanted <= 1.05        direction  position")
@@ -193,7 +189,13 @@ def rigs(count: int = RIGS, ladder: int = LADDER_RIGS) -> None:
             / rms(np.concatenate([getattr(one, key).ravel() for one in found[before]]))
             for key in ("direction", "position")
         ]
-        print(f"  {before[0]} chrome, {before[1]} matte -> {after[0]} chrome, {after[1]} matte {ratio[0]:38.3f}{ratio[1]:10.3f}")
+        print(
+            f"  {before[0]} chrome, {before[1]} matte -> {after[0]} chrome, {after[1]} matte {ratio[0]:38.3f}{ratio[1]:10.3f}", flush=True
+        )
+    more = _solved(drawn, range(ladder, count), most)
+    print(f"{count} drawn rigs\n{HEADER}")
+    for chrome, matte in most:
+        print(table_row(f"{chrome} chrome, {matte} matte", found[chrome, matte] + more[chrome, matte]))
 
 
 def whole(count: int = WHOLE) -> None:
