@@ -15,6 +15,13 @@ from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records.observations import Radiance, RawCapture
 
+BLOCK_PX, FEWEST_BLOCKS = 8, 40
+ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
+"""Blocks with less ambient light than this share of its median, or than so many sigmas, tell nothing of it."""
+DARKEST = 0.05
+"""This share of the blocks is taken to be in shadow."""
+SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
+"""Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
 DRIFT_SHARE = 0.05
 """Of the ambient light, or of the light of the lamps where that is less: a change that is worth a word."""
 BRIGHTER = 0.98
@@ -54,6 +61,7 @@ def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[
     if np.ptp(each) > DRIFT_SHARE * min(abs(level), lamps):
         change = 100 * np.ptp(each) / max(abs(level), 1e-12)
         found.append(f"the ambient light changed by {change:.0f} % between its {len(each)} images; their mean was taken away")
+    found += [] if _drifted(raw, sensor) else _changes_in_frames(radiance)
     if level > lamps > 0:
         found.append(f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene")
     return tuple(found)
@@ -79,6 +87,70 @@ def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
             needed="an ambient image with all lights off, at the exposure of the others or with its own stated",
             todo="take it anew, or state exposure: and exposures: in capture.yaml",
         )
+
+
+def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> None:
+    """Refuse a capture whose lit images were exposed less than its ambient image: the room in the shadows is darker under most lights.
+
+    Raises
+    ------
+    DisagreementError
+        The camera set its exposure, gain or tone by itself.
+    """
+    if _drifted(raw, sensor):
+        return  # the room's own light changed: its mean is no measure
+    darker = [light for light, change in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
+    if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
+        raise DisagreementError(
+            f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
+            where=radiance.name,
+            needed="exposure, gain and tone held for all images of a capture, or stated in capture.yaml",
+            todo="switch auto-exposure and automatic gain off and take it anew",
+        )
+
+
+def _drifted(raw: RawCapture, sensor: Sensor) -> bool:
+    """Whether the ambient images differ."""
+    if raw.ambient is None:
+        return False
+    level = [float(image.mean()) / t for image, t in zip(sensor.linear(raw.ambient), raw.ambient_exposure_s, strict=True)]
+    return bool(np.ptp(level) > DRIFT_SHARE * abs(np.mean(level)))
+
+
+def _changes_in_frames(radiance: Radiance) -> list[str]:
+    changes = _room_changes(radiance)
+    usual = float(np.median(list(changes.values()))) if changes else 0.0
+    darker = {light: change for light, change in changes.items() if change < -SHADOWS_DARKER}
+    brighter = {light: change for light, change in changes.items() if change > 3 * max(usual, 0.0) + SHADOWS_BRIGHTER}
+    return [
+        f"under {', '.join(some)} what no light reaches is up to {100 * max(map(abs, some.values())):.0f} % {word} than in the ambient image: "
+        "did the room's light change, or is auto-exposure on?"
+        for some, word in ((darker, "darker"), (brighter, "brighter"))
+        if some
+    ]
+
+
+def _room_changes(radiance: Radiance) -> dict[str, float]:
+    """By how much of itself the ambient light differs under each light where that light does not reach: the darkest blocks."""
+    signal = radiance.signal if radiance.signal.ndim == 3 else radiance.signal.mean(axis=3)
+    ambient = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
+    room = _block_mean(ambient[None])[0]
+    bright = room > max(ROOM_SHARE * float(np.median(room)), 0.0)
+    found = {}
+    for k, light in enumerate(radiance.lights):
+        sigma = radiance.sigma[k] if radiance.sigma.ndim == 3 else radiance.sigma[k].mean(axis=-1)
+        clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
+        clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
+        if clear.sum() > FEWEST_BLOCKS:
+            found[light] = float(np.quantile((_block_mean(signal[k][None])[0] / np.where(clear, room, 1.0))[clear], DARKEST))
+    return found
+
+
+def _block_mean(images: Image) -> Image:
+    """Mean (L, h, w) over blocks of images (L, H, W)."""
+    rows, columns = (side // BLOCK_PX for side in images.shape[1:])
+    cut = images[:, : rows * BLOCK_PX, : columns * BLOCK_PX]
+    return np.asarray(cut.reshape(-1, rows, BLOCK_PX, columns, BLOCK_PX).mean(axis=(2, 4)))
 
 
 def _saturated(image: Image, sensor: Sensor, step: float) -> Mask:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from lpcal.detect import sphere_checks, sphere_outline, sphere_start
 from lpcal.detect.sphere_highlights import Highlight, find_highlight, without_lamps
 from lpcal.detect.sphere_outline import Outline
+from lpcal.detect.sphere_response import refuse_curved
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Image, Mask
@@ -100,7 +102,7 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     rivals = sphere_checks.rivals(outline, starts, image) if not told and len(radiance.lights) > 1 else []
     if rivals:
         parts = [_shown(radiance, np.arange(len(radiance.lights)) % 3 != third) for third in range(3)]
-        sphere_checks.refuse_second(outline, rivals, [lambda start, kind, shown=shown: refine(start, kind, shown) for shown in parts])
+        sphere_checks.refuse_second(outline, rivals, [partial(refine, shown=shown) for shown in parts])
     if camera is not None and expected.radius_m is not None:
         centre_C = sphere.from_outline(camera.unproject(outline.points_px), expected.radius_m)
         sphere_checks.refuse_far(float(np.linalg.norm(centre_C)), expected.radius_m, expected.distance_m)
@@ -149,6 +151,7 @@ def _with_lights(view: SphereView, radiance: Radiance, outline: Outline) -> Sphe
                 "; ".join([*notes, *more]), needed="a matte sphere neither dark nor saturated", todo="change the exposure"
             )
         view = replace(view, shading=radiance.of(lit))
+        refuse_curved(radiance.of(lit), outline)
     else:
         places, sigmas, more = _highlights(radiance, lit, outline)
         if not places:
