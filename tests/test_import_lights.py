@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from lit_scene import EXPONENT, K, Scene, calibration, draw, truth
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
+from lpcal.formats.surface_files import read_surface
 
 
 def test_lp_is_turned_into_the_cameras_axes(tmp_path):
@@ -70,6 +72,63 @@ def test_near_ps_mat_with_a_transposed_camera_and_the_images_size(tmp_path):
     assert found.camera.image_size == (1620, 1200)
     assert found.lights[2].source_C == pytest.approx([-0.1, 0, 0.4])
     assert found.focus_C == pytest.approx([0, 0, 0.9])  # where the axes meet
+
+
+def write_luces(folder):
+    rows = ["N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]", f"6 112 160 {K[0, 0]} {K[0, 2]} {K[1, 2]} 350"]
+    for light in calibration().lights:
+        numbers = [*(1e3 * light.source_C), *light.axis_C, *3 * [7.5 * light.intensity[0]], EXPONENT, 0]
+        rows.append(" ".join(f"{number:.8g}" for number in numbers))
+    (folder / "led_params.txt").write_text("\n".join(rows) + "\n")
+    return [f"{k + 1:02d}" for k in range(6)]
+
+
+def write_near_ps(folder):
+    lights = calibration().lights
+    S, Dir = (np.stack([getattr(light, name) for light in lights]) for name in ("source_C", "axis_C"))
+    Phi = np.stack([light.intensity for light in lights])
+    savemat(folder / "light.mat", {"S": 1e3 * S, "Dir": Dir, "Phi": 3e7 * Phi, "mu": np.full((6, 1), EXPONENT)})
+    savemat(folder / "camera.mat", {"K": K})
+    return [str(k + 1) for k in range(6)]
+
+
+@pytest.mark.parametrize("write", [write_luces, write_near_ps])
+def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path, lpcal, write):
+    names = write(tmp_path)
+    raw = draw(Scene(), calibration())
+    mask, depth, _ = truth(Scene())
+    for name, image in zip(names, raw.images, strict=True):
+        cv2.imwrite(str(tmp_path / f"{name}.png"), np.rint(65535 * image).astype(np.uint16))
+    cv2.imwrite(str(tmp_path / "ambient.png"), np.rint(65535 * raw.ambient[0]).astype(np.uint16))
+    cv2.imwrite(str(tmp_path / "mask.png"), 255 * mask.astype(np.uint8))
+    code, told, wrong = lpcal("import", tmp_path, "-o", tmp_path / "calibration.yaml")
+    assert code == 0, wrong
+    assert "6 near lights" in told
+    code, _, wrong = lpcal("reconstruct", tmp_path, "-c", tmp_path / "calibration.yaml", "-o", tmp_path / "out", cwd=tmp_path)
+    assert code == 0, wrong
+    assert abs(np.nanmedian(read_surface(tmp_path / "out").depth - depth)) < 0.004
+
+
+def test_images_of_a_light_file_become_a_surface_in_pixels(tmp_path, lpcal):
+    """A ball under lights of an .lp, by parallel rays: its normals, and a depth that is a ball's."""
+    row, column = np.indices((80, 80))
+    x, y = (column - 39.5) / 32, (row - 39.5) / 32
+    n = np.stack([x, y, -np.sqrt(np.maximum(1 - x**2 - y**2, 0))], axis=-1)
+    mask = x**2 + y**2 < 0.92
+    turns = np.radians([0, 60, 120, 180, 240, 300])
+    directions = np.stack([0.5 * np.cos(turns), 0.5 * np.sin(turns), np.full(6, np.sqrt(0.75))], axis=1)  # x right, y up, z to the viewer
+    for k, d in enumerate(directions):
+        image = 0.8 * np.maximum(n @ (d * [1, -1, -1]), 0) * mask
+        cv2.imwrite(str(tmp_path / f"img{k}.png"), np.rint(65535 * image).astype(np.uint16))
+    cv2.imwrite(str(tmp_path / "mask.png"), 255 * mask.astype(np.uint8))
+    lines = [f"img{k}.jpg {d[0]:.6f} {d[1]:.6f} {d[2]:.6f}" for k, d in enumerate(directions)]
+    (tmp_path / "dome.lp").write_text("\n".join(["6", *lines]) + "\n")
+    assert lpcal("import", tmp_path / "dome.lp", "-o", tmp_path / "c.yaml")[0] == 0
+    code, _, wrong = lpcal("reconstruct", tmp_path, "-c", tmp_path / "c.yaml", "-o", tmp_path / "out", cwd=tmp_path)
+    assert code == 0, wrong
+    surface = read_surface(tmp_path / "out")
+    assert np.median(np.linalg.norm(surface.normals - n, axis=-1)[mask]) < 0.01
+    assert np.std((surface.depth - 32 * n[..., 2])[mask]) < 0.5
 
 
 def test_a_table_in_columns_named_after_images(tmp_path, lpcal):

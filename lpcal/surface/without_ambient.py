@@ -22,7 +22,7 @@ from lpcal.surface.room_light import PATCHY, Room
 type Solve = Callable[[Radiance, Mask | None], Surface]
 """The surface of images without room light; a mask is kept, None leaves it to be found."""
 ROUNDS = 2
-UNDECIDED = "no ambient image, and the images do not tell what lights the scene beside the lights: it is not taken away"
+UNDECIDED = "no ambient image, and the images show no light beside that of the lamps: none is taken away"
 
 
 def reconstruct(
