@@ -14,8 +14,9 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
 
-DIRECTION_FLOOR_RAD = float(np.radians(0.02))
-"""LEDs that stand a little askew move the source seen from different places: what a point source cannot follow."""
+DIRECTION_FLOOR_RAD, LEDS_FLOOR_RAD = float(np.radians(0.03)), float(np.radians(0.02))
+"""What a point source cannot follow: the LEDs' gaps move it by 0.02 deg as seen from different places, their scatter to 0.03 in all
+(drawn from `led_fit`'s priors at 0.36 m); and what is left of it once the LEDs are found one by one."""
 COMMON_SHARE = 0.5
 """So much of what the blocks are off by is taken as common to all blocks of a light."""
 UNSURE = 0.3
@@ -106,7 +107,7 @@ def with_leds(joint: JointFit, shading: ShadingFit) -> list[Light]:
             intensity=intensity[k],
             lobe=replace(light.lobe, seen_rad=float(shading.seen_rad[k])),
             position_std_m=float(joint.position_std_m[k]),
-            direction_std_rad=float(np.hypot(joint.direction_std_rad[k], DIRECTION_FLOOR_RAD)),
+            direction_std_rad=float(np.hypot(joint.direction_std_rad[k], LEDS_FLOOR_RAD)),
             intensity_std=float(np.hypot(joint.intensity_std[k], COMMON_SHARE * misfit)),
         )
         for k, light in enumerate(joint.lights)
