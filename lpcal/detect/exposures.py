@@ -123,8 +123,8 @@ def _changes_in_frames(radiance: Radiance) -> list[str]:
     darker = {light: change for light, change in changes.items() if change < -SHADOWS_DARKER}
     brighter = {light: change for light, change in changes.items() if change > 3 * max(usual, 0.0) + SHADOWS_BRIGHTER}
     return [
-        f"under {', '.join(some)} what no light reaches is up to {100 * max(map(abs, some.values())):.0f} % {word} than in the ambient image: "
-        "did the room's light change, or is auto-exposure on?"
+        f"under {', '.join(some)} what no light reaches is {100 * max(map(abs, some.values())):.0f} % {word} than in the ambient "
+        "image: did the room's light change, or is auto-exposure on?"
         for some, word in ((darker, "darker"), (brighter, "brighter"))
         if some
     ]

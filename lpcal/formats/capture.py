@@ -10,7 +10,7 @@ import numpy as np
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import ENDINGS, StoredImage, read_image
 from lpcal.formats.panel_yaml import read_capture_section
-from lpcal.geometry.arrays import Image, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
 
@@ -56,6 +56,32 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         left_out=tuple(path.name for stem, path in files.items() if stem not in known),
         step=reader.step,
     )
+
+
+def read_sweep(folder: Path) -> tuple[Image, Array, float]:
+    """Images (N, H, W[, 3]) of one scene, their exposures times gain (N,), and one step of the stored numbers.
+
+    Raises
+    ------
+    InputError
+        The folder or an image is not there or cannot be read, or an image's exposure is not stated in capture.yaml.
+    DisagreementError
+        Images differ in size or channels.
+    """
+    if not folder.is_dir():
+        raise InputError("no such folder", where=str(folder), needed="images of one still scene under several exposures")
+    section, reader, files = read_capture_section(folder / "capture.yaml"), _SameSize(), _by_name(folder)
+    exposure = {stem: _exposure(section, stem, own=True) for stem in files}
+    untold = [stem for stem, value in exposure.items() if value is None]
+    if untold or not files:
+        raise InputError(
+            f"no exposure is stated for {', '.join(untold)}" if untold else "no image",
+            where=str(folder / "capture.yaml"),
+            needed="exposures: {image name: 5 ms, ...}",
+            todo="state the exposure of each image",
+        )
+    images = np.stack([reader.read(path).pixels for path in files.values()])
+    return images, np.array([value for value in exposure.values() if value is not None]), reader.step
 
 
 def read_mask(path: Path, shape: tuple[int, ...]) -> Mask:

@@ -20,7 +20,7 @@ from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
-from lpcal.pipeline.sensor import flat_field_path, has_lens, sensor_of_camera, sensor_of_panel
+from lpcal.pipeline.sensor import check_sweep, flat_field_path, has_lens, sensor_of_camera, sensor_of_panel, sweep_path
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
 from lpcal.records.observations import RawCapture, SphereView
@@ -43,6 +43,8 @@ def inputs(workspace: Workspace) -> list[Path]:
     found += [workspace.calib(wings_stage.FILE)] if wings_stage.wanted(workspace) else []
     flat = flat_field_path(workspace)
     found += [flat] if flat and not has_lens(workspace) else []
+    sweep = sweep_path(workspace)
+    found += sorted(path for path in sweep.iterdir() if path.is_file()) if sweep and sweep.is_dir() else []
     found += [path for _, path in _lobe_files(workspace)]
     found += wings_stage.inputs(workspace) if wings_stage.wanted(workspace) and workspace.rig_file.rig.joint_solve else []
     for name, sphere in workspace.rig_file.rig.spheres.items():
@@ -71,6 +73,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
     wings = read_wings(workspace.calib(wings_stage.FILE)) if wings_stage.wanted(workspace) else None
     sensor = sensor_of_camera(camera) if camera else sensor_of_panel(workspace)
+    swept = check_sweep(workspace, sensor)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
     views: list[SphereView] = []
     notes: list[str] = []
@@ -99,7 +102,8 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
-    solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings))
+    evidence = solution.evidence | ({"exposure_sweep": swept} if swept else {})
+    solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings), evidence=evidence)
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
         summary=[*summary_of(solution), *summary_of_handeye(workspace, solution), *_advice(solution)],

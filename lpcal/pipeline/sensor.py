@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from lpcal.detect.linearity import fit_sweep, refuse_contradiction
 from lpcal.detect.radiometry import Sensor, fit_flat_field
+from lpcal.formats.capture import read_sweep
 from lpcal.formats.images import read_image
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Camera
@@ -27,6 +29,31 @@ def sensor_of_panel(workspace: Workspace) -> Sensor:
         if path is None
         else Sensor(section.black_level, section.white_level, section.gamma, fit_flat_field(read_image(path).pixels, levels))
     )
+
+
+def sweep_path(workspace: Workspace) -> Path | None:
+    """The folder of the exposure sweep that panel.yaml names."""
+    section = workspace.rig_file.rig.camera
+    named = section.exposure_sweep if section is not None else None
+    return workspace.path(named, "camera.exposure_sweep") if named else None
+
+
+def check_sweep(workspace: Workspace, sensor: Sensor) -> dict[str, float] | None:
+    """Hold the sensor as stated against the exposure sweep; what the sweep says, None where there is none.
+
+    Raises
+    ------
+    DisagreementError
+        Another gamma or black level, a tone curve, or auto-exposure.
+    """
+    folder = sweep_path(workspace)
+    if folder is None:
+        return None
+    images, exposure_s, step = read_sweep(folder)
+    found = fit_sweep(images, exposure_s, sensor, step)
+    refuse_contradiction(found, sensor)
+    read, shot = found.noise
+    return {"black_level": found.black_level, "gamma": found.gamma, "misfit": found.misfit, "noise_read": read, "noise_shot": shot}
 
 
 def flat_field_path(workspace: Workspace) -> Path | None:

@@ -45,6 +45,7 @@ class CameraSection(Section):
     white_level: Share = 1.0
     gamma: float = Field(default=1.0, gt=0.1, lt=10)
     flat_field: str | None = None
+    exposure_sweep: str | None = None
     cameramodel: str | None = None
 
     _images = field_validator("images", mode="before")(_as_list)
