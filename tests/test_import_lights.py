@@ -12,6 +12,9 @@ from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
 from lpcal.formats.surface_files import read_surface
+from lpcal.records.calibration import Light
+from lpcal.surface import gains
+from lpcal.surface.sight import Sight
 
 
 def test_lp_is_turned_into_the_cameras_axes(tmp_path):
@@ -129,6 +132,22 @@ def test_images_of_a_light_file_become_a_surface_in_pixels(tmp_path, lpcal):
     surface = read_surface(tmp_path / "out")
     assert np.median(np.linalg.norm(surface.normals - n, axis=-1)[mask]) < 0.01
     assert np.std((surface.depth - 32 * n[..., 2])[mask]) < 0.5
+
+
+def test_intensities_that_nobody_measured_are_found_under_many_lights():
+    """A dome of 24 lights, of which hardly a pixel sees all."""
+    rng = np.random.default_rng(0)
+    row, column = np.indices((60, 60))
+    x, y = (column - 29.5) / 27, (row - 29.5) / 27
+    mask = x**2 + y**2 < 0.9
+    n = np.stack([x, y, -np.sqrt(np.maximum(1 - x**2 - y**2, 0))], axis=-1)[mask]
+    turn, slant = 2.4 * np.arange(24), np.radians(20 + 45 * np.arange(24) / 24)
+    d = np.stack([np.sin(slant) * np.cos(turn), np.sin(slant) * np.sin(turn), -np.cos(slant)], axis=1)
+    power = 2 ** rng.uniform(-1, 1, 24)
+    signal = 0.5 * power[:, None] * np.maximum(d @ n.T, 0) + 0.003 * rng.standard_normal((24, len(n)))
+    seen = Sight(mask, np.tile([0.0, 0.0, 1.0], (len(n), 1)), signal, np.full(signal.shape, 0.003), np.ones(signal.shape, bool), False)
+    found = gains.intensities(seen, [Light(f"L{k}", one, np.ones(1)) for k, one in enumerate(d)])
+    assert found / found.mean() == pytest.approx(power / power.mean(), rel=0.03)
 
 
 def test_a_table_in_columns_named_after_images(tmp_path, lpcal):

@@ -5,18 +5,22 @@ Symbols: directions S (L, 3), signals I (L,) of a matte pixel that all lights re
 
     M = (N N^T) o (sum_p I_p I_p^T)            o: entry by entry
 
-The intensities are 1 / h. Shadowed pixels are left out; those that fit badly are left out in a second pass. Source: the linear subspace of
+The intensities are 1 / h. Shadowed pixels are left out; those that fit badly are left out in a second pass. Under many lights hardly a
+pixel is reached by all: then normals by the intensities so far and intensities by these normals, in turn. Source: the linear subspace of
 Lambertian images (Shashua 1997), with the lights' directions known.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
+from lpcal.surface import normals
 from lpcal.surface.sight import Sight
 
 LIGHTS_NEEDED = 5
@@ -30,6 +34,11 @@ KEPT = 70.0
 NEEDED_GAIN = 3.0
 """The misfit must fall by this factor: errors of the directions are taken up by intensities too, but less well."""
 ACCEPTED = (0.2, 5.0)
+TURNS, TURN_PIXELS = 25, 600
+STRIDE = 1.8
+"""How far beyond what a turn says the next begins: they creep."""
+NEEDED_TURN_GAIN = 1.5
+"""In turn, the samples' median misfit must fall by this factor."""
 
 
 def unmeasured(lights: Sequence[Light]) -> bool:
@@ -47,7 +56,7 @@ def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
     lit = seen.usable.all(axis=0) & (seen.signal.min(axis=0) > DIM * middle) & (seen.signal.max(axis=0) < BRIGHT * middle)
     lit &= middle > np.median(middle) / 2
     if lit.sum() < PIXELS_NEEDED:
-        return None
+        return _in_turn(seen, S)
     signal = seen.signal[:, lit] / middle[lit]
     N = np.linalg.svd(S)[0][:, 3:]
     misfit = _misfit(N, _least(N, signal), signal)
@@ -58,6 +67,27 @@ def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
         return None
     found = (1 / h) / np.mean(1 / h)
     return found if ACCEPTED[0] < found.min() and found.max() < ACCEPTED[1] else None
+
+
+def _in_turn(seen: Sight, S: Array) -> Array | None:
+    """Intensities (L,) by turns, from pixels that some lights reach; None where they explain the images no better."""
+    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(TURN_PIXELS, seen.pixels)).astype(int)))
+    if some.pixels < PIXELS_NEEDED:
+        return None
+    B = np.repeat(S[:, None], some.pixels, axis=1)
+    unit, found, spread = np.ones((len(S), some.pixels)), np.ones(len(S)), []
+    for _ in range(TURNS):
+        now = replace(some, signal=some.signal / found[:, None], sigma=some.sigma / found[:, None])
+        usable = normals.candidates(now, unit)
+        b = normals.estimate(now, B, usable, normals.variances(now)).b
+        foretold = np.nan_to_num(lambert.dot(B, b))
+        ratio = np.where(usable & (foretold > DIM * foretold.max(axis=0)), now.signal / np.where(foretold > 0, foretold, np.nan), np.nan)
+        if np.any(np.isfinite(ratio).sum(axis=1) < PIXELS_NEEDED // 3):
+            return None
+        spread.append(float(np.nanmedian(np.abs(ratio - 1))))
+        found = found * np.nanmedian(ratio, axis=1) ** STRIDE
+        found = found / found.mean()
+    return found if NEEDED_TURN_GAIN * spread[-1] < spread[0] and ACCEPTED[0] < found.min() and found.max() < ACCEPTED[1] else None
 
 
 def _least(N: Array, signal: Array) -> Array:
