@@ -15,14 +15,14 @@ from lpcal.records.calibration import LightsSolution
 
 
 def with_handeye(workspace: Workspace, solution: LightsSolution) -> LightsSolution:
-    """The solution with H_PD, where the panel is tracked, and with ``joint_solve`` H_PC: each moved by its share of what H_CD has moved."""
+    """The solution with H_PD, where the panel is tracked and no markers say it; with ``joint_solve`` always, and H_PC too.
+
+    Each has moved by its share of what H_CD has moved.
+    """
     rig = workspace.rig_file.rig
-    if (
-        rig.panel is None
-        or solution.H_CD is None
-        or solution.H_CD_covariance is None
-        or not (wanted(workspace) and tracks_panel(workspace))
-    ):
+    if rig.panel is None or (rig.panel.markers and not rig.joint_solve) or not (wanted(workspace) and tracks_panel(workspace)):
+        return solution
+    if solution.H_CD is None or solution.H_CD_covariance is None:
         return solution
     handeye = read_handeye(workspace.calib("handeye.yaml"))
     H_PD, H_PD_covariance, _ = disc_in_body(workspace, rig.panel)

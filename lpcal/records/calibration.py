@@ -299,7 +299,7 @@ class LightsSolution:
     """The hand-eye transform as the joint solve has it; None: it was taken as it is."""
     H_PD: Array | None = None
     H_PD_covariance: Array | None = None
-    """The disc in the tracked body, where one was tracked."""
+    """The disc in the tracked body, where no markers say it, or as the joint solve has it."""
 
 
 @dataclass(frozen=True)
