@@ -2,8 +2,8 @@
 
 ``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual}],
 warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte).
-With covariances of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked and no markers say it; with
-``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; null otherwise.
+With covariances of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked and no markers say it;
+with ``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; null otherwise.
 """
 
 from __future__ import annotations
