@@ -82,8 +82,10 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
 def _refine(state: State, t_camera_s: Array | None) -> State:
     """Settle with the closed form's inliers, choose the views anew, settle again with their shared errors counted."""
     state = _settle(state, t_camera_s)
+    refused = np.zeros_like(state.inliers)
     for _ in range(4):
-        chosen, corners = _choose(state)
+        chosen, corners = _choose(state, refused)
+        refused |= state.inliers & ~chosen
         same = np.array_equal(chosen, state.inliers) and corners is state.corners_px
         state = replace(state, inliers=chosen, corners_px=corners)
         if not same:
@@ -92,9 +94,10 @@ def _refine(state: State, t_camera_s: Array | None) -> State:
         if t_camera_s is not None:
             factor[used] = variance.deflation(state.views(), state.estimate(), state.sigmas, t_camera_s[used])
         moved = np.max(np.abs(factor / state.deflation - 1))
-        if same and moved < 0.1:
+        if moved >= 0.1:
+            state = _settle(replace(state, deflation=factor), t_camera_s)
+        elif same:
             break
-        state = _settle(replace(state, deflation=factor), t_camera_s)
     return state
 
 
@@ -147,8 +150,8 @@ def _clock_unseen(found: Estimate) -> bool:
         return True
 
 
-def _choose(state: State) -> tuple[Mask, Array | None]:
-    """Views whose mocap pose fits within its noise, and the corners without gross ones."""
+def _choose(state: State, refused: Mask) -> tuple[Mask, Array | None]:
+    """Views whose mocap pose fits within its noise, and the corners without gross ones; what was refused once is not taken in again."""
     found, views = state.estimate(), state.views()
     kind = "mocap" if state.camera is not None else "board"
     place = found.term(kind)
@@ -162,7 +165,7 @@ def _choose(state: State) -> tuple[Mask, Array | None]:
     whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     limit_rad, limit_m = (READMIT * np.sqrt(np.mean(of[chosen] ** 2)) for of in (angle, distance))
-    chosen |= state.panel.trusted & ~state.inliers & (angle < 0.7 * limit_rad) & (distance < 0.7 * limit_m)
+    chosen |= state.panel.trusted & ~state.inliers & ~refused & (angle < 0.7 * limit_rad) & (distance < 0.7 * limit_m)
     if chosen.sum() < observability.FEWEST_VIEWS:
         raise DegenerateError(
             f"{int(chosen.sum())} of {len(chosen)} views agree", needed="a majority of one rigid camera", todo="look at: lpcal check"
