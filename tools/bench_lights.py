@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import re
 import shutil
 import subprocess
 import sys
@@ -217,20 +218,29 @@ def exact_rigs(count: int = EXACT) -> None:
         print(table_row(f"{chrome} chrome, {matte} matte", errors) + f"{ratio[0]:17.2f}{ratio[1]:6.2f}{ratio[2]:6.2f}")
 
 
-def clicks() -> None:
+def clicks(count: int = CLICKS) -> None:
     """One joint of each rig stated a click off, and none."""
-    for chrome in (4, 2, 1):
+    for chrome, matte in ((4, 0), (2, 0), (1, 0), (1, 4)):
         found = falsely = 0
-        for seed in range(CLICKS):
+        for seed in range(count):
             one = drawn(seed)
-            views = one.some(chrome, 0)
-            measured = [measure_centre(view, one.camera) for view in views]
             row, step = seed % len(one.names), 1 if seed // len(one.names) % 2 else -1
             for wings, planted in ((one.misdrawn(row, step), {(one.names[row], -step)}), (one.wings, set())):
-                _, _, named = fit_with_clicks(one.names, views, measured, one.camera, wings)
-                said = {(click.name, round(float(np.degrees(click.found_rad - click.drawn_rad) / 10))) for click in named}
+                said = _said(one, one.some(chrome, matte), wings)
                 found, falsely = found + len(said & planted), falsely + len(said - planted)
-        print(f"clicks, {chrome} chrome: {found} of {CLICKS} found, {falsely} falsely in {2 * CLICKS} rigs; wanted {CLICKS}, 0", flush=True)
+        under = f"{chrome} chrome, {matte} matte"
+        print(f"clicks, {under}: {found} of {count} found, {falsely} falsely in {2 * count} rigs; wanted {count}, 0", flush=True)
+
+
+def _said(one: Drawn, views: list[SphereView], wings: Wings) -> set[tuple[str, int]]:
+    """Lights said to stand clicks off, and how many."""
+    if any(view.shading for view in views):
+        warnings = refine(views, one.names, one.camera, wings).warnings
+        words = [match for match in (re.match(r"(\w+): joint at (-?\d+) deg, not (-?\d+)", warning) for warning in warnings) if match]
+        return {(match[1], round((int(match[2]) - int(match[3])) / 10)) for match in words}
+    measured = [measure_centre(view, one.camera) for view in views]
+    _, _, named = fit_with_clicks(one.names, views, measured, one.camera, wings)
+    return {(click.name, round(float(np.degrees(click.found_rad - click.drawn_rad) / 10))) for click in named}
 
 
 WHAT: dict[str, Callable[..., None]] = {"rig_a": rig_a, "speed": speed, "rigs": rigs, "whole": whole, "exact": exact_rigs, "clicks": clicks}
