@@ -20,6 +20,8 @@ class Errors:
 
     direction: np.ndarray
     """(L, N) at the points."""
+    aim: np.ndarray
+    """(L,) of the direction at the focus, whose sigma is stated; where the distance is ill known it is less than over the volume."""
     irradiance: np.ndarray
     """(L, N) log ratio, its mean over all lights and points taken away; NaN where the light is dim."""
     position: np.ndarray
@@ -34,6 +36,7 @@ class Errors:
     def nees(self) -> dict[str, float]:
         """Squared errors over what their stated sigmas expect: 1 where these are right."""
         return {
+            "aim": float(np.mean(self.aim**2 / (2 * self.sigma[:, 0] ** 2))),
             "direction": float(np.mean(np.mean(self.direction**2, axis=1) / (2 * self.sigma[:, 0] ** 2))),
             "position": float(np.mean(self.position**2 / (3 * self.sigma[:, 1] ** 2))),
             "intensity": float(np.mean(self.level**2 / self.sigma[:, 2] ** 2)),
@@ -42,10 +45,12 @@ class Errors:
 
 def errors_of(found: LightsSolution, true: Sequence[LedLight], points_C: np.ndarray) -> Errors:
     """Errors of all lights at points (N, 3)."""
-    direction, irradiance, position, axis, level, sigma = [], [], [], [], [], []
+    direction, aim, irradiance, position, axis, level, sigma = [], [], [], [], [], [], []
     for light, real in zip(found.lights, true, strict=True):
         d, E, d_real, E_real = *_field(light, points_C), *_real(real, points_C)
         direction.append(np.arctan2(np.linalg.norm(np.cross(d, d_real), axis=1), np.sum(d * d_real, axis=1)))
+        at_focus = [_field(light, found.focus_C[None])[0][0], _real(real, found.focus_C[None])[0][0]]
+        aim.append(np.linalg.norm(np.cross(*at_focus)))
         irradiance.append(np.where(E_real > DIM * E_real.max(), np.log(E / E_real), np.nan))
         assert light.H_CL is not None
         position.append(np.linalg.norm(light.H_CL[:3, 3] - real.H_CL[:3, 3]))
@@ -54,12 +59,13 @@ def errors_of(found: LightsSolution, true: Sequence[LedLight], points_C: np.ndar
         sigma.append([light.direction_std_rad, light.position_std_m, light.intensity_std])
     ratio = np.array(irradiance)
     return Errors(
-        np.array(direction),
-        ratio - np.nanmean(ratio),
-        np.array(position),
-        np.array(axis),
-        np.array(level) - np.mean(level),
-        np.array(sigma),
+        direction=np.array(direction),
+        aim=np.array(aim),
+        irradiance=ratio - np.nanmean(ratio),
+        position=np.array(position),
+        axis=np.array(axis),
+        level=np.array(level) - np.mean(level),
+        sigma=np.array(sigma),
     )
 
 
@@ -85,12 +91,12 @@ def table_row(name: str, errors: Sequence[Errors]) -> str:
         key: np.concatenate([np.ravel(getattr(one, key)) for one in errors])
         for key in ("direction", "irradiance", "position", "axis", "level")
     }
-    nees = {key: np.mean([one.nees[key] for one in errors]) for key in ("direction", "position", "intensity")}
+    nees = {key: np.mean([one.nees[key] for one in errors]) for key in ("aim", "direction", "position", "intensity")}
     degrees = [np.degrees(value) for value in (rms(every["direction"]), every["direction"].max(), rms(every["axis"]))]
     return (
         f"{name:<22}{degrees[0]:8.3f}{degrees[1]:8.3f}{100 * rms(every['irradiance']):9.2f}{1e3 * rms(every['position']):10.2f}"
-        f"{degrees[2]:8.2f}{nees['direction']:11.2f}{nees['position']:6.2f}{nees['intensity']:6.2f}"
+        f"{degrees[2]:8.2f}{nees['aim']:12.2f}{nees['direction']:8.2f}{nees['position']:6.2f}{nees['intensity']:6.2f}"
     )
 
 
-HEADER = f"{'':<22}{'dir deg':>8}{'worst':>8}{'irr. %':>9}{'H_CL mm':>10}{'axis':>8}{'NEES: dir':>11}{'pos':>6}{'int':>6}"
+HEADER = f"{'':<22}{'dir deg':>8}{'worst':>8}{'irr. %':>9}{'H_CL mm':>10}{'axis':>8}{'NEES: focus':>12}{'volume':>8}{'pos':>6}{'int':>6}"
