@@ -32,6 +32,8 @@ HOLE_SHARE = 0.004
 DARK_SHARE = 0.3
 """Matter darker than this share of the object's own is dark."""
 LEAST_OF_IMAGE = 0.003
+CLEAR, FAINT = 0.6, 0.3
+"""Mean evidence against the wall of a piece that is none of it, and of one that may well be."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,8 @@ def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     wall = planes.fit(look_at(coarse, coarse_rays, border & lit, central=True), lights, distance_m)
     if wall is None or wall.misfit > FIT_SIGMAS or np.mean(lit[border]) < 0.2:
         return None
-    left = cut.total_variation(_evidence(everywhere, wall, lights), _log(bright), STIFFNESS)
+    against = _evidence(everywhere, wall, lights)
+    left = cut.total_variation(against, _log(bright), STIFFNESS)
     found = [wall]
     support = np.zeros(shape, bool)
     for _ in range(FURTHER_PLANES):
@@ -95,7 +98,7 @@ def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
         if grown.sum() <= at_border.sum() // 2:
             break
         support |= grown
-    mask = _without_support(left, support, border, bright)
+    mask = _without_faint(_without_support(left, support, border, bright), against)
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
         return Found(_enlarged(lit, maps), "all that is lit lies in one plane: that is the object", tuple(found))
     return Found(_seam(_enlarged(mask, maps), maps), f"against {len(found)} plane{'s' * (len(found) > 1)}", tuple(found))
@@ -119,6 +122,19 @@ def _without_support(left: Mask, support: Mask, border: Mask, bright: Image) -> 
     typical = np.median(bright[free] if free.sum() > 0.2 * object_.sum() else bright[object_])
     dark = _hangs_on(object_ & (bright < DARK_SHARE * typical), border | _grown(support, 2))
     return _tidy(object_ & ~dark)
+
+
+def _without_faint(mask: Mask, against: Image) -> Mask:
+    """Without pieces that hardly differ from the wall where another clearly does: the wall, lit by the untold tails of lobes."""
+    from scipy import ndimage
+
+    label, count = ndimage.label(mask)
+    if count < 2:
+        return mask
+    mean = np.asarray(ndimage.mean(against, label, np.arange(1, count + 1)))
+    if mean.max() < CLEAR:
+        return mask
+    return np.asarray(mask & np.isin(label, 1 + np.flatnonzero(mean >= FAINT)))
 
 
 def border_band(shape: tuple[int, ...]) -> Mask:
