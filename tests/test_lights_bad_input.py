@@ -107,10 +107,10 @@ def split_highlight(folder: Path) -> None:
 
 
 def bright_room(folder: Path) -> None:
-    """The lamps at a tenth of what they were, the room as it was."""
-    rig(folder, ["chrome_0", "chrome_1"])
-    room = image(folder, "chrome_0", "ambient")
-    alter(folder, "chrome_0", lambda stored: room + (stored - room) / 12, lambda stem: stem in LIGHTS)
+    """The lamps at a sixteenth of what they were, the room as it was."""
+    rig(folder, ["chrome_0", "chrome_1", "matte_0"])
+    room = image(folder, "matte_0", "ambient")
+    alter(folder, "matte_0", lambda stored: room + (stored - room) / 16, lambda stem: stem in LIGHTS)
 
 
 def changing_room(folder: Path) -> None:
@@ -133,7 +133,7 @@ TOLD: dict[str, tuple[Plant, int, str, str]] = {
     "one bad sphere of three": (one_bad_of_three, 4, "left out: sphere matte_0", "6 lights from 2 of 3 spheres"),
     "light off in its image": (light_off, 0, "sphere chrome_0: L3 lights nothing: is it off in its image?", "left out"),
     "highlight split": (split_highlight, 0, "sphere chrome_0: it shows 2 bright spots under L2", "is the highlight split"),
-    "ambient brighter than the light": (bright_room, 0, "sphere chrome_0: more ambient light than lamp light", "shade the scene"),
+    "ambient brighter than the light": (bright_room, 0, "sphere matte_0: more ambient light than lamp light", "shade the scene"),
     "ambient changed between its images": (changing_room, 0, "sphere chrome_0: the ambient light changed by", "between its 2 images"),
     "ambient changed in one frame": (darker_in_one_frame, 0, "sphere chrome_0: under L4", "auto-exposure"),
 }

@@ -49,22 +49,39 @@ def with_short_exposures(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
 
 
 def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """What is to be said of the ambient light: that it changed between its images, that it is stronger than the lights."""
+    """What is to be said of the ambient light: that it changed, that it is stronger than the lights."""
     if raw.ambient is None:
         return ()
-    found = []
-    times = raw.ambient_exposure_s.reshape(-1, *[1] * (raw.ambient.ndim - 1))
-    ambient = sensor.linear(raw.ambient) / times
-    level = float(ambient.mean())
-    lamps = float(np.median(radiance.signal.max(axis=0) * _response(sensor, radiance.signal.shape)))
-    each = ambient.reshape(len(ambient), -1).mean(axis=1)
-    if np.ptp(each) > DRIFT_SHARE * min(abs(level), lamps):
-        change = 100 * np.ptp(each) / max(abs(level), 1e-12)
-        found.append(f"the ambient light changed by {change:.0f} % between its {len(each)} images; their mean was taken away")
-    found += [] if _drifted(raw, sensor) else _changes_in_frames(radiance)
+    level = float(np.mean(_ambient_levels(raw, sensor)))
+    lamps = _lamps(radiance, sensor)
+    found = ambient_changes(radiance, raw, sensor)
     if level > lamps > 0:
-        found.append(f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene")
-    return tuple(found)
+        found += (f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene",)
+    return found
+
+
+def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
+    """Where the ambient light is not what its image says: it changed between its images, or in the image of a light."""
+    if raw.ambient is None:
+        return ()
+    levels = _ambient_levels(raw, sensor)
+    level = abs(float(np.mean(levels)))
+    if np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
+        change = 100 * np.ptp(levels) / max(level, 1e-12)
+        return (f"the ambient light changed by {change:.0f} % between its {len(levels)} images; their mean was taken away",)
+    return tuple(_changes_in_frames(radiance))
+
+
+def _ambient_levels(raw: RawCapture, sensor: Sensor) -> list[float]:
+    """Mean of each ambient image a unit of exposure."""
+    if raw.ambient is None:
+        return []
+    return [float(image.mean()) / float(t) for image, t in zip(sensor.linear(raw.ambient), raw.ambient_exposure_s, strict=True)]
+
+
+def _lamps(radiance: Radiance, sensor: Sensor) -> float:
+    """What the brightest lamp adds to the middle pixel, before the flat field."""
+    return float(np.median(radiance.signal.max(axis=0) * _response(sensor, radiance.signal.shape)))
 
 
 def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
@@ -97,7 +114,8 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
     DisagreementError
         The camera set its exposure, gain or tone by itself.
     """
-    if _drifted(raw, sensor):
+    levels = _ambient_levels(raw, sensor)
+    if levels and np.ptp(levels) > DRIFT_SHARE * abs(np.mean(levels)):
         return  # the room's own light changed: its mean is no measure
     darker = [light for light, change in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
     if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
@@ -107,14 +125,6 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
             needed="exposure, gain and tone held for all images of a capture, or stated in capture.yaml",
             todo="switch auto-exposure and automatic gain off and take it anew",
         )
-
-
-def _drifted(raw: RawCapture, sensor: Sensor) -> bool:
-    """Whether the ambient images differ."""
-    if raw.ambient is None:
-        return False
-    level = [float(image.mean()) / t for image, t in zip(sensor.linear(raw.ambient), raw.ambient_exposure_s, strict=True)]
-    return bool(np.ptp(level) > DRIFT_SHARE * abs(np.mean(level)))
 
 
 def _changes_in_frames(radiance: Radiance) -> list[str]:

@@ -161,13 +161,29 @@ def _with_lights(view: SphereView, radiance: Radiance, outline: Outline) -> Sphe
                 todo="is it a chrome sphere, and are its images lit by one light each?",
             )
         view = replace(view, highlights_px=places, highlight_sigma_px=sigmas)
-    return replace(view, notes=tuple(f"sphere {view.name}: {note}; left out" for note in [*notes, *more]))
+    told = [*(f"{note}; left out" for note in [*notes, *more]), *_room_light(view, outline)]
+    return replace(view, notes=tuple(f"sphere {view.name}: {note}" for note in told))
+
+
+def _room_light(view: SphereView, outline: Outline) -> list[str]:
+    """Whether a matte sphere is lit more by the room than by its lights."""
+    if view.shading is None:
+        return []
+    disc = _disc(view.shading, outline)
+    lamps, room = np.median(_grey(view.shading.signal.max(axis=0))[disc]), np.median(_grey(view.shading.ambient)[disc])
+    if room <= lamps:
+        return []
+    return [f"more ambient light than lamp light on it (the brightest lamp adds {100 * lamps / room:.0f} % of it): shade the scene"]
+
+
+def _disc(radiance: Radiance, outline: Outline) -> Mask:
+    rows, columns = np.indices(radiance.saturated.shape[1:])
+    return np.asarray(np.hypot(columns - outline.centre_px[0], rows - outline.centre_px[1]) < MATTE_DISC * outline.radius_px)
 
 
 def _shaded(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[list[str], list[str]]:
     """The lights whose shading of a matte sphere can be used, and why the others' cannot."""
-    rows, columns = np.indices(radiance.saturated.shape[1:])
-    disc = np.hypot(columns - outline.centre_px[0], rows - outline.centre_px[1]) < MATTE_DISC * outline.radius_px
+    disc = _disc(radiance, outline)
     found, full, dark = list[str](), list[str](), list[str]()
     for light in lit:
         k = radiance.lights.index(light)

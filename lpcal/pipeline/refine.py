@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.refine_lights import refine_judged
-from lpcal.detect.exposures import ambient_notes, refuse_auto_exposure, with_short_exposures
+from lpcal.detect.exposures import ambient_changes, refuse_auto_exposure, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
@@ -164,7 +164,7 @@ def _view(
     """What the images of a sphere show, and what is to be said of them."""
     plain = to_radiance(raw, sensor)
     refuse_auto_exposure(plain, raw, sensor)
-    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_notes(plain, raw, sensor))
+    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, sensor))
     radiance = with_short_exposures(plain, raw, sensor) if section.kind == "matte" else plain
     hint = None if section.hint is None else np.array(section.hint)
     view = observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
