@@ -7,6 +7,7 @@ card reconstructed both ways.
 from __future__ import annotations
 
 import json
+import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
@@ -39,3 +40,7 @@ def main(seeds: list[int]) -> None:
         with tempfile.TemporaryDirectory() as folder:
             for lights, found in zip(("near", "distant"), card(seed, Path(folder)), strict=True):
                 print(f"{seed:<10}{lights:<10}" + "".join(f"{found[name]:>26.2f}" for name in COLUMNS), flush=True)
+
+
+if __name__ == "__main__":
+    main([int(word) for word in sys.argv[1:]])
