@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -142,6 +143,13 @@ def test_without_an_ambient_image_the_rooms_light_is_estimated_and_said(lpcal, r
     assert abs(np.nanmedian(surface.depth - depth)) < 0.004
 
 
+def spoil_distance(rig: Path) -> None:
+    far = Scene(centre=(0.01, -0.01, 1.2), radius=0.16, wall_z=1.7)
+    shutil.rmtree(rig / "objects/first")
+    write_capture(rig / "objects/first", draw(far, calibration()))
+    cv2.imwrite(str(rig / "objects/first/mask.png"), 255 * truth(far)[0].astype(np.uint8))
+
+
 def spoil_ambient(rig: Path) -> None:
     cv2.imwrite(str(rig / "objects/first/ambient.png"), np.full((SIZE[1], SIZE[0]), 60000, np.uint16))
 
@@ -208,6 +216,7 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_image_size, 6, "images of 160x104"),
         (spoil_one_images_size, 6, "L2.png: 156x112 grey, but L0.png is 160x112 grey"),
         (spoil_saturated, 4, "saturated"),
+        (spoil_distance, 4, "outside the working volume"),
         (spoil_ambient, 6, "the ambient image is brighter than the lit ones"),
         (spoil_calibration_nan, 3, "light L0"),
         (spoil_calibration_cut, 3, "calibration.yaml"),

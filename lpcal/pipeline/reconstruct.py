@@ -13,7 +13,7 @@ from lpcal import __version__
 from lpcal.detect.ambient import refuse_bright_ambient
 from lpcal.detect.exposures import ambient_notes, with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.errors import InputError, LpcalError
+from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture, read_mask
 from lpcal.formats.documents import sha256
@@ -28,6 +28,8 @@ from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
+OUTSIDE = (0.5, 2.0)
+"""Of the working distance: beyond, nothing is known of the lights."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +118,8 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         radiance = replace(radiance, mask=None)
     read = time.perf_counter()
     surface = reconstruct(radiance, calibration, options, progress)
+    if wishes.near and wishes.distance_m is None:
+        refuse_outside(surface, calibration)
     solved = time.perf_counter()
     notes = _with_ambient_said(radiance.notes, surface)
     document = document_of(surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read})
@@ -124,6 +128,27 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         document["flatness_distant"] = flatness(distant)
     write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
     return document
+
+
+def refuse_outside(surface: Surface, calibration: Calibration) -> None:
+    """Refuse an object that near light puts far from where the lights are known.
+
+    Raises
+    ------
+    DegenerateError
+        Its distance is out of OUTSIDE times the working distance.
+    """
+    working_m = calibration.d_object_m
+    if calibration.camera is None or working_m is None or not any(light.source_C is not None for light in calibration.lights):
+        return
+    distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
+    if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
+        raise DegenerateError(
+            f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume",
+            where=surface.name,
+            needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
+            todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",
+        )
 
 
 def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
