@@ -36,6 +36,13 @@ def test_the_wall_tells_its_place_and_its_room_light(maps):
     assert np.median(found[on] / room_light(LIT)[on]) == pytest.approx(1.0, abs=0.05)
 
 
+def test_a_background_that_the_lamps_do_not_reach_tells_nothing():
+    radiance = to_radiance(untold(replace(LIT, wall_z=6.0)), Sensor())
+    lights = sight.lights_of(calibration(), radiance)
+    rays_C = sight.ray_map(radiance.signal.shape[1:3], calibration().camera)
+    assert room.wall_of(sight.grey(radiance, lights), rays_C, lights, 0.35) is None
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
     _, rays_C, lights = maps

@@ -45,6 +45,8 @@ PATCHY = 0.12
 """And from part to part of it."""
 WALL_LEVELS = (0.0, 0.1, 0.2, 0.35, 0.6)
 WALL_LIT = 0.2
+LAMPS_SHARE = 0.25
+"""A plane of whose light the lamps bring less shows the room alone, and not where it is."""
 
 
 @dataclass(frozen=True)
@@ -93,8 +95,13 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: floa
     ]
     best = sorted(starts, key=lambda x: float(np.sum(np.log1p(cost(x) ** 2))))[:3]
     x = np.asarray(min((optimize.least_squares(cost, one, loss="cauchy", max_nfev=25) for one in best), key=lambda one: one.cost).x)
-    m = planes.foretold(x[:3], some.rays_C, lights) + x[3] / h
-    if x[3] < 0 or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > mask.FIT_SIGMAS:
+    lamps = planes.foretold(x[:3], some.rays_C, lights)
+    m = lamps + x[3] / h
+    if (
+        x[3] < 0
+        or not np.nanmedian(lamps / m) > LAMPS_SHARE
+        or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > mask.FIT_SIGMAS
+    ):
         return None
     return Wall(x[:3], float(x[3]), -x[:3] / np.linalg.norm(x[:3]))
 
