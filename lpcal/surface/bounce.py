@@ -35,8 +35,8 @@ REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 COMMON, COMMON_SIGMA = 0.6, 0.3
 """Reflectance of objects as prior."""
 SAMPLE = 900
-WEIGHT = 1000.0
-"""Independent samples that an object's pixels are worth in the choice of the reflectance."""
+INDEPENDENT = 170.0
+"""Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
 
 
 def thrown(seen: Sight, depth: Array, n: Array, signal: Array) -> Array:
@@ -80,7 +80,7 @@ def reflectance(seen: Sight, lit: Lit, J: Array, usable: Mask, found: Estimate) 
     def misfit(one: float) -> float:
         B = light.B + one / middle * J
         trial = normals.estimate(sample, B, usable, normals.variances(sample, shine), shine)
-        return WEIGHT * normals.misfit(sample, B, usable, trial, shine) + ((one - COMMON) / COMMON_SIGMA) ** 2
+        return INDEPENDENT * len(B) * normals.misfit(sample, B, usable, trial, shine) + ((one - COMMON) / COMMON_SIGMA) ** 2
 
     return min(possible, key=misfit), float(middle)
 

@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface.integrate import Own
 from lpcal.surface.normals import Estimate, variances
 from lpcal.surface.sight import Sight
@@ -26,14 +26,24 @@ FURTHEST = 0.5
 """A pixel by itself moves log z by no more than this in a round."""
 SCORE = 3.0
 """Nor by more than this many of its own sigmas."""
+GLOSS_DOUBT = 2.0
+"""Of the gloss that was taken off: its lobe is a guess, and distances hang on small parts of the signal."""
+PATCHES_ACROSS = 40
+"""Of an object: patches of this size are asked for their distance together."""
+ESTRANGED = 1.5
+"""Medians of the patches' differences beyond which a patch counts little."""
+LEAST_DIFFERENCE = 0.003
+"""Of the distance: patches that differ by less agree."""
 WEAK = 1e-6
 """Curvature for pixels that know nothing, so that every piece is held somewhere."""
 
 
 def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
     """Curvature and optimum of u (P,) about depths (P,); B_at gives light vectors (L, P, 3) at depths."""
-    variance = variances(seen, found.gloss)
-    signal = seen.signal if found.gloss is None else seen.signal - found.gloss
+    variance = variances(seen)
+    signal = seen.signal
+    if found.gloss is not None:
+        variance, signal = variance + (GLOSS_DOUBT * found.gloss) ** 2, signal - found.gloss
     weight = np.where(found.inliers & np.isfinite(found.b[:, 0]), 1 / np.sqrt(variance), 0.0)
     b = np.nan_to_num(found.b)
     A = weight[..., None] * B_at(depth)
@@ -47,3 +57,36 @@ def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, foun
     most = np.minimum(FURTHEST, SCORE / np.sqrt(H))
     move = np.clip(-np.sum(J_free * r, axis=0) / H, -most, most)
     return Own(H, np.log(depth) + move)
+
+
+def of_one_mind(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
+    """The own distances, less weight on patches that differ in theirs from most of their piece (P,): light from elsewhere misleads them.
+
+    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about the piece's median.
+    """
+    from scipy import ndimage
+
+    size = max(1.0, np.sqrt(mask.sum()) / PATCHES_ACROSS)
+
+    def blurred(values: Array) -> Array:
+        image = np.zeros(mask.shape)
+        image[mask] = values
+        return np.asarray(ndimage.gaussian_filter(image, size)[mask])
+
+    H = own.curvature
+    move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), WEAK)
+    weight = np.ones_like(H)
+    for one in np.unique(label):
+        inside = label == one
+        middle = _median(move[inside], H[inside])
+        difference = np.abs(move[inside] - middle)
+        scale = max(LEAST_DIFFERENCE, ESTRANGED * _median(difference, H[inside]))
+        weight[inside] = 1 / (1 + (difference / scale) ** 2) ** 2
+    return Own(H * weight + WEAK, own.optimum)
+
+
+def _median(values: Array, weight: Array) -> float:
+    """The weighted median."""
+    order = np.argsort(values)
+    sums = np.cumsum(weight[order])
+    return float(values[order[np.searchsorted(sums, sums[-1] / 2)]])

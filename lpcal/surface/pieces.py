@@ -52,8 +52,11 @@ def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 
 def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
-    """Labels (P,) from 1, the largest first, of what hangs together over edges that are no breaks; crumbs join the nearest piece."""
-    label = _connected(grid, weight, mask)
+    """Labels (P,) from 1, the largest first, of what hangs together over edges that are no breaks; crumbs join the nearest piece.
+
+    A bridge of a pixel or two between the ends of a break does not hold two pieces together.
+    """
+    label = _connected(grid, np.where(_beside_breaks(grid, weight, mask), 0.0, weight), mask)
     size = np.bincount(label)
     smallest = max(SMALLEST_PIXELS, SMALLEST_SHARE * len(label))
     return _joined(label, np.flatnonzero(size >= smallest), mask)
@@ -82,6 +85,19 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
     touched = sliver[grid.a] | sliver[grid.b]
     same = joined[grid.a] == joined[grid.b]
     return np.where(touched, np.where(same, 1.0, LEAST_WEIGHT), weight)
+
+
+def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
+    """Whether an edge (edges,) touches a pixel at a break or next to one."""
+    from scipy import ndimage
+
+    broken = weight <= BREAK_WEIGHT
+    at = np.zeros(int(mask.sum()), bool)
+    at[grid.a[broken]] = at[grid.b[broken]] = True
+    place = np.zeros(mask.shape, bool)
+    place[mask] = at
+    near = ndimage.binary_dilation(place)[mask]
+    return np.asarray(near[grid.a] | near[grid.b])
 
 
 def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:

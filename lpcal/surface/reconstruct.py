@@ -96,8 +96,8 @@ def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall:
     object_mask = scene.seen.mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
     shown = shadow_anchor.screen(everywhere, wall, scene.lights, object_mask, factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    near_std = {piece.label: piece.scale_std for piece in _components(scene, state, np.exp(state.u), label)}
-    anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, near_std)
+    model_std = {int(one): _model_std(state, label == one) for one in np.unique(label)}
+    anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)
     if not anchors:
         return state
     shift = np.zeros(256)
@@ -170,18 +170,22 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
     for one in np.unique(label):
         inside = label == one
         middle = float(depth[inside].mean())
-        shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
         curvature = float(state.own.curvature[inside].sum())
         if scene.distance_m is not None and one == 1:
             std = STATED_DISTANCE
-        elif int(one) in state.anchors:
-            std = state.anchors[int(one)].std
         elif scene.near:
-            std = uncertainty.scale_std(scene.lights, curvature, middle, glossy=state.gloss is not None, shaded_share=shaded)
+            model = state.anchors[int(one)].std if int(one) in state.anchors else _model_std(state, inside)
+            std = uncertainty.scale_std(scene.lights, curvature, middle, model)
         else:
             std = UNKNOWN_DISTANCE
         found.append(Component(int(one), int(inside.sum()), middle, std))
     return tuple(found)
+
+
+def _model_std(state: State, inside: Mask) -> float:
+    """Of a piece (P,): see uncertainty.model_std."""
+    shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
+    return uncertainty.model_std(glossy=state.gloss is not None, shaded_share=shaded)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:

@@ -1,6 +1,6 @@
 """The rounds of a reconstruction: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth.
 
-From the second round on the depth tells more: which lights the surface hides from a pixel, what its parts throw on each other.
+From the third round on the depth tells more: which lights the surface hides from a pixel, what its parts throw on each other.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from lpcal.surface.sight import Lit, Sight
 
 ROUNDS = 5
 GLOSS_ROUNDS = (1, 3)
-HIDING_ROUND = 2
-"""From which on the depth is good enough to tell which lights it hides."""
+SHAPE_ROUND = 2
+"""From which on the depth is good enough to tell which lights it hides and what its parts throw on each other."""
 SHADOW_STEPS = 64
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
@@ -96,12 +96,12 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     seen, grid = scene.seen, scene.grid
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)
-    hidden = hidden_lights(scene, depth, before, lit) if before is not None and k >= HIDING_ROUND else None
-    usable = normals.candidates(seen, lit.E, hidden)
+    shaped = before if k >= SHAPE_ROUND else None
+    usable = normals.candidates(seen, lit.E, None if shaped is None else hidden_lights(scene, depth, shaped, lit))
     reflectance = None
-    if before is not None:
-        J = bounce.thrown(seen, depth, before.normals, before.found.diffuse(seen))
-        reflectance, albedo = bounce.reflectance(seen, lit, J, usable, before.found)
+    if shaped is not None:
+        J = bounce.thrown(seen, depth, shaped.normals, shaped.found.diffuse(seen))
+        reflectance, albedo = bounce.reflectance(seen, lit, J, usable, shaped.found)
         lit = replace(lit, thrown=reflectance / albedo * J)
     found, shine = _estimated(scene, lit, usable, before, k)
     known = np.isfinite(found.b[:, 0])
@@ -109,10 +109,13 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
         own = distance.own_distance(lambda z: scene.lit_at(z, lit.thrown).B, depth, seen, found)
+        own = own if shaped is None else distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
         own = Own(np.full(seen.pixels, distance.WEAK), u)
-    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and k < 2)
+    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
     weight = pieces.without_slivers(grid, weight, seen.mask)
+    if scene.near and shaped is None:
+        own = distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1

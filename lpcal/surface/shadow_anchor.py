@@ -6,9 +6,10 @@ compared with the one that is seen, over the plane's pixels and the lights: ``co
 foretold, beyond)``. Only the side of a shadow away from its object is thrown by parts that the camera sees; what is dark on the near side
 of a foretold shadow may be thrown by what the camera does not see, and says nothing.
 
-The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. So the
-shadow is heard where near light itself is in greater doubt about the piece (gloss, parts hidden from each other), and joined with it by
-their variances. Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
+The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. An error of
+the lights' intensities moves plane and piece alike, which no shadow shows; so the shadow mends only what the model lacks at the piece
+(gloss, parts hidden from each other), is heard where that is in greater doubt than the plane, and is joined with it by their variances.
+Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ RIM = 4
 NEEDED_RISE = 0.3
 """Pixels that disagree more, RIM scales to either side of the best one, by the root of the dark area: a shallower valley says nothing."""
 NINTH = 9
-EDGE_STD, PLANE_STD = 0.005, 0.008
+EDGE_STD, PLANE_STD = 0.005, 0.01
 """Relative, of a distance that the shadow tells: by its edge, and by a plane of misfit 1."""
 
 
@@ -71,13 +72,16 @@ class Anchor:
 
 
 def anchored(
-    shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array, label: Labels, near_std: dict[int, float]
+    shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array, label: Labels, model_std: dict[int, float]
 ) -> dict[int, Anchor]:
-    """Anchors by piece, where its shadow tells one; points x_C (P, 3) with their piece's label (P,), `near_std` what near light knows."""
+    """Anchors by piece, where its shadow tells one, of points x_C (P, 3) with their piece's label (P,).
+
+    `model_std` is how sure near light is of each piece but for the calibration.
+    """
     found: dict[int, Anchor] = {}
     x_C = x_C.copy()
     shadow_std = float(np.hypot(EDGE_STD, PLANE_STD * shown.plane.misfit))
-    for one, own_std in near_std.items():
+    for one, own_std in model_std.items():
         if own_std < shadow_std:
             continue
         inside = label == one

@@ -6,7 +6,7 @@ the depth, R5 its rms over 5x5 pixels::
     sigma^2 = (A s max(1, sqrt(chi2 / dof)))^2 + (B R5)^2 + (C R)^2 + SMOOTH^2 + calibration^2
             + EDGE^2 [near an edge or a break] + THREE^2 [three lights] + FILLED^2 [filled]
 
-A, B, C and the rest were fitted on rendered objects and held on others (71 to 97 % within two sigma where 86 are expected). What smooth
+A, B, C and the rest were fitted on six rendered objects (82 to 93 % within two sigma where 86 are expected). What smooth
 light from elsewhere on the object does shows in nothing that is seen, hence SMOOTH. The calibration's part is common to the whole image.
 """
 
@@ -22,9 +22,9 @@ from lpcal.records.calibration import Light
 from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate
 
-A, B, C = 0.80, 0.53, 1.23
-EDGE_DEG, THREE_DEG, FILLED_DEG = 4.1, 0.7, 20.0
-SMOOTH_DEG = 0.5
+A, B, C = 0.65, 0.45, 1.0
+EDGE_DEG, THREE_DEG, FILLED_DEG = 4.0, 0.7, 20.0
+SMOOTH_DEG = 0.3
 EDGE_PX = 1.5
 MM_A_PERCENT = 4.0
 """Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
@@ -87,17 +87,24 @@ def calibration_deg(lights: Sequence[Light]) -> float:
     return float(np.sqrt((direction + intensity) / len(lights)))
 
 
-def scale_std(lights: Sequence[Light], curvature_total: float, distance_m: float, glossy: bool, shaded_share: float) -> float:
-    """Relative standard deviation of the distance of a whole piece.
+def model_std(*, glossy: bool, shaded_share: float) -> float:
+    """Relative standard deviation of a piece's distance by what the model of its light lacks, whatever the calibration.
 
-    `curvature_total` is that of the piece's log distance; `shaded_share` of its pixels see three lights or fewer: they are hidden from
-    the rest by other parts of the object, which throw light too.
+    `shaded_share` of its pixels see three lights or fewer: they are hidden from the rest by other parts of the object, which throw light
+    too.
+    """
+    hidden = min(1.0, 2 * shaded_share + 0.5 * glossy)
+    return OPEN + (HIDDEN - OPEN) * hidden
+
+
+def scale_std(lights: Sequence[Light], curvature_total: float, distance_m: float, model: float) -> float:
+    """Relative standard deviation of the distance of a whole piece: by the calibration, by noise, and by the `model`.
+
+    `curvature_total` is that of the piece's log distance.
     """
     intensity_percent = 100 * np.sqrt(_mean_square([light.intensity_std for light in lights]))
     direction = _mean_square([np.degrees(light.direction_std_rad) for light in lights])
     calibration_m = 1e-3 * (distance_m / WORKING_M) ** 2 * np.sqrt((MM_A_PERCENT * intensity_percent) ** 2 + 100 * direction)
-    hidden = min(1.0, 2 * shaded_share + 0.5 * glossy)
-    model = OPEN + (HIDDEN - OPEN) * hidden
     return float(np.sqrt((calibration_m / distance_m) ** 2 + model**2 + 1 / max(curvature_total, 1.0)))
 
 
