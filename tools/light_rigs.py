@@ -103,7 +103,7 @@ def drawn(seed: int, name: str = "lightpanel-6", chrome: int = 4, matte: int = 4
 
 
 def _sources() -> list[Path]:
-    return sorted((REPOSITORY / "lpcal" / "simulate").glob("*.py"))
+    return [Path(__file__), *sorted((REPOSITORY / "lpcal" / "simulate").glob("*.py"))]
 
 
 def _recipe(seed: int) -> Recipe:
@@ -154,7 +154,7 @@ def _window(lens: Lens, centre_C: np.ndarray, radius_m: float, margin: float | N
     size = high - low + 1
     K = lens.K.copy()
     K[:2, 2] -= low
-    corner2 = [(w / lens.K[0, 0]) ** 2 + (h / lens.K[1, 1]) ** 2 for w, h in (lens.image_size, size)]
+    corner2 = [((w / lens.K[0, 0]) ** 2 + (h / lens.K[1, 1]) ** 2) ** 2 for w, h in (lens.image_size, size)]
     centre = np.array(lens.vignetting_centre_px) + (np.array([width, height]) - size) / 2 - low
     small = Lens((int(size[0]), int(size[1])), K, lens.distortion, lens.vignetting_r4 * corner2[1] / corner2[0], (centre[0], centre[1]))
     return (int(low[0]), int(low[1])), small
