@@ -3,7 +3,7 @@
 ``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual}],
 warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte).
 With covariances of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked and no markers say it;
-with ``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; null otherwise.
+with ``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; left out otherwise.
 """
 
 from __future__ import annotations
@@ -29,11 +29,6 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
         "d_object_m": solution.d_object_m,
         "H_CD": solution.H_CD,
         "H_CD_covariance": solution.H_CD_covariance,
-        "H_PC": solution.H_PC,
-        "H_PC_covariance": solution.H_PC_covariance,
-        "H_PD": solution.H_PD,
-        "H_PD_covariance": solution.H_PD_covariance,
-        "camera": None if solution.camera is None else camera_document(solution.camera),
         "lights": [light_document(light) for light in solution.lights],
         "spheres": [
             {
@@ -51,7 +46,14 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
         "warnings": solution.warnings,
         "evidence": solution.evidence,
     }
-    write_document(path, KIND, body, provenance)
+    found = {
+        "H_PC": solution.H_PC,
+        "H_PC_covariance": solution.H_PC_covariance,
+        "H_PD": solution.H_PD,
+        "H_PD_covariance": solution.H_PD_covariance,
+        "camera": None if solution.camera is None else camera_document(solution.camera),
+    }
+    write_document(path, KIND, body | {key: value for key, value in found.items() if value is not None}, provenance)
 
 
 def read_lights(path: Path) -> LightsSolution:
