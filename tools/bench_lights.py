@@ -115,17 +115,11 @@ def _true_lights(truth: Path, names: list[str]) -> list[LedLight]:
     leds, frames = np.load(truth / "leds.npz"), yaml.safe_load((truth / "lights.yaml").read_text())
     frames = frames.get("lights", frames)
     frames = {entry["name"]: entry for entry in frames} if isinstance(frames, list) else frames
-    return [
-        LedLight(
-            name,
-            np.array(frames[name]["H_CL"]),
-            *(leds[f"{name}_{key}"] for key in ("position", "axis", "power")),
-            float(leds["exponent"]),
-            1.0,
-            np.zeros(3),
-        )
-        for name in names
-    ]
+    found = []
+    for name in names:
+        position, axis, power = (leds[f"{name}_{key}"] for key in ("position", "axis", "power"))
+        found.append(LedLight(name, np.array(frames[name]["H_CL"]), position, axis, power, float(leds["exponent"]), 1.0, np.zeros(3)))
+    return found
 
 
 def speed() -> None:

@@ -123,7 +123,7 @@ def _draw(
     lens = built.lens
     camera = Camera(lens.image_size, "opencv5", lens.K, lens.distortion)
     studio = Studio(built, recipe, Response(recipe.sensor, lens.vignetting(), BLACK), place_spheres(built, rig, rng))
-    flat = studio.flat(rng).astype(np.float32) / 255
+    flat = np.asarray(studio.flat(rng) / 255, np.float32)
     response = fit_flat_field(flat, Sensor(BLACK)).response(flat.shape)
     seen = []
     for index, ball in enumerate(studio.spheres):
