@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights, share_correction
-from lpcal.chain.refine_lights.core import ray_slope, with_core
+from lpcal.chain.refine_lights.free_camera import ray_slope, with_core
 from lpcal.chain.refine_lights.geometry_fit import GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.measure import measure_centre
 from lpcal.chain.refine_lights.next_sphere import advise, mean_direction_std

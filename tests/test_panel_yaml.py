@@ -106,17 +106,17 @@ MESSAGES = {
     ),
     "unknown section": (
         "lpcal: 1\ncamra: {}\n",
-        "panel.yaml:2, camra: unknown key\n  needed: one of: lpcal, name, camera, board, mocap, panel, lights, spheres, objects\n"
+        "panel.yaml:2, camra: unknown key\n  needed: one of: lpcal, name, camera, board, mocap, panel, lights, spheres, objects, joint_solve\n"
         "  do: write camera",
     ),
     "misspelled key of two mistakes": (
         "lpcal: 1\nboard:\n  corners: [9, 6]\n  squares: 25 mm\n",
         "panel.yaml:4, board.squares: unknown key (the first of 2 mistakes)\n"
-        "  needed: one of: kind, corners, square, warp, marker, dictionary\n  do: write square",
+        "  needed: one of: kind, corners, square, warp, corner_fit, marker, dictionary\n  do: write square",
     ),
     "unknown key of a light": (
         "lpcal: 1\nlights:\n  L0: {colour: red}\n",
-        "panel.yaml:3, lights.L0.colour: unknown key\n  needed: one of: azimuth, joint_angle, disc_spacer, blob_spacer, leds\n"
+        "panel.yaml:3, lights.L0.colour: unknown key\n  needed: one of: azimuth, joint_angle, disc_spacer, blob_spacer, leds, lobe\n"
         "  do: correct the key's spelling, or remove it",
     ),
     "missing key": (

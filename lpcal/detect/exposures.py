@@ -22,6 +22,8 @@ DARKEST = 0.05
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
 """Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
+SHADOWS_THROWN, BRIGHT = 0.05, 0.9
+"""Of what the light does to bright places (this quantile): less than this in its shadows may be what lit things throw there."""
 DRIFT_SHARE = 0.05
 """Of the ambient light, or of the light of the lamps where that is less: a change that is worth a word."""
 BRIGHTER = 0.98
@@ -117,7 +119,7 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
     levels = _ambient_levels(raw, sensor)
     if levels and np.ptp(levels) > DRIFT_SHARE * abs(np.mean(levels)):
         return  # the room's own light changed: its mean is no measure
-    darker = [light for light, change in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
+    darker = [light for light, (change, _) in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
     if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
         raise DisagreementError(
             f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
@@ -129,9 +131,13 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
 
 def _changes_in_frames(radiance: Radiance) -> list[str]:
     changes = _room_changes(radiance)
-    usual = float(np.median(list(changes.values()))) if changes else 0.0
-    darker = {light: change for light, change in changes.items() if change < -SHADOWS_DARKER}
-    brighter = {light: change for light, change in changes.items() if change > 3 * max(usual, 0.0) + SHADOWS_BRIGHTER}
+    usual = float(np.median([change for change, _ in changes.values()])) if changes else 0.0
+    darker = {light: change for light, (change, _) in changes.items() if change < -SHADOWS_DARKER}
+    brighter = {
+        light: change
+        for light, (change, thrown) in changes.items()
+        if change > 3 * max(usual, 0.0) + SHADOWS_BRIGHTER and thrown > SHADOWS_THROWN
+    }
     return [
         f"under {', '.join(some)} what no light reaches is {100 * max(map(abs, some.values())):.0f} % {word} than in the ambient "
         "image: did the room's light change, or is auto-exposure on?"
@@ -140,8 +146,11 @@ def _changes_in_frames(radiance: Radiance) -> list[str]:
     ]
 
 
-def _room_changes(radiance: Radiance) -> dict[str, float]:
-    """By how much of itself the ambient light differs under each light where that light does not reach: the darkest blocks."""
+def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
+    """How much more light there is than the ambient image says where a light does not reach, the darkest blocks.
+
+    In shares of the ambient light there, and of what the light does to bright places.
+    """
     signal = radiance.signal if radiance.signal.ndim == 3 else radiance.signal.mean(axis=3)
     ambient = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
     room = _block_mean(ambient[None])[0]
@@ -152,7 +161,9 @@ def _room_changes(radiance: Radiance) -> dict[str, float]:
         clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
         clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
         if clear.sum() > FEWEST_BLOCKS:
-            found[light] = float(np.quantile((_block_mean(signal[k][None])[0] / np.where(clear, room, 1.0))[clear], DARKEST))
+            lit = _block_mean(signal[k][None])[0]
+            change = float(np.quantile(lit[clear] / room[clear], DARKEST))
+            found[light] = change, change * float(np.median(room[clear])) / max(float(np.quantile(lit, BRIGHT)), 1e-12)
     return found
 
 

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.refine_lights import residuals
-from lpcal.chain.refine_lights.core import ray_slope
+from lpcal.chain.refine_lights.free_camera import ray_slope
 from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projection
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere

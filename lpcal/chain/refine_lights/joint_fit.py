@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.chain.refine_lights import led_fit
-from lpcal.chain.refine_lights.core import ray_slope
+from lpcal.chain.refine_lights.free_camera import ray_slope
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, KINDS, ROBUST, GeometryFit, highlight_data, outline_term, settings_of
 from lpcal.chain.refine_lights.led_fit import Cluster
 from lpcal.chain.refine_lights.measure import CentreMeasurement

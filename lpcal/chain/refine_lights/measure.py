@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lpcal.chain.refine_lights.core import core_size, steps, with_core
+from lpcal.chain.refine_lights.free_camera import core_size, steps, with_core
 from lpcal.errors import DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array

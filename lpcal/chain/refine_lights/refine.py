@@ -19,8 +19,8 @@ from lpcal.chain.refine_lights.assemble import (
     with_shading,
 )
 from lpcal.chain.refine_lights.clicks import Click, clicks_under_shading, fit_with_clicks
-from lpcal.chain.refine_lights.core import with_core
 from lpcal.chain.refine_lights.distant import refine_distant
+from lpcal.chain.refine_lights.free_camera import with_core
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
