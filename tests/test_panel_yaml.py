@@ -106,7 +106,8 @@ MESSAGES = {
     ),
     "unknown section": (
         "lpcal: 1\ncamra: {}\n",
-        "panel.yaml:2, camra: unknown key\n  needed: one of: lpcal, name, camera, board, mocap, panel, lights, spheres, objects, joint_solve\n"
+        "panel.yaml:2, camra: unknown key\n"
+        "  needed: one of: lpcal, name, camera, board, mocap, panel, lights, spheres, objects, joint_solve\n"
         "  do: write camera",
     ),
     "misspelled key of two mistakes": (

@@ -1,10 +1,10 @@
 """The board's inner corners in an image, to a few hundredths of a pixel, in the board's own order.
 
 Symbols: corner (i, j) of nx along x and ny along y, row j * nx + i of the result; spacing s, the distance of neighbouring corners in
-pixels. Two detectors of OpenCV find the grid: the quads of the classic one first (it is faster and finds more on distorted lenses), unless the
-squares are small, and the sector-based one (SB) where it fails. Neither is exact, so every corner is refined to the saddle of its window,
-whose half side is 0.4 s, and then, unless the board asks for OpenCV's corners, to where two blurred edges fitted to that window cross
-(`saddle`).
+pixels. Two detectors of OpenCV find the grid: the quads of the classic one first (it is faster and finds more on distorted lenses), unless
+the squares are small, and the sector-based one (SB) where it fails. Neither is exact, so every corner is refined to the saddle of its
+window, whose half side is 0.4 s, and then, unless the board asks for OpenCV's corners, to where two blurred edges fitted to that window
+cross (`saddle`).
 Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
 
 The order: x to y turns clockwise as seen (z of B points away from the camera); of the ends that are left, the one whose outer square is

@@ -18,7 +18,7 @@ from lpcal.records.observations import Radiance, RawCapture
 BLOCK_PX, FEWEST_BLOCKS = 8, 40
 ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
 """Blocks with less ambient light than this share of its median, or than so many sigmas, tell nothing of it."""
-DARKEST = 0.05
+DARKEST = 0.02
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
 """Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
