@@ -22,6 +22,8 @@ DARKEST = 0.02
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
 """Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
+ALIKE = 0.3
+"""Blocks in shadow are brighter by about the same share of the room's light; where the next darkest differ by more, none are in shadow."""
 SHADOWS_THROWN, BRIGHT = 0.05, 0.9
 """Of what the light does to bright places (this quantile): less than this in its shadows may be what lit things throw there."""
 DRIFT_SHARE = 0.05
@@ -162,8 +164,9 @@ def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
         clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
         if clear.sum() > FEWEST_BLOCKS:
             lit = _block_mean(signal[k][None])[0]
-            change = float(np.quantile(lit[clear] / room[clear], DARKEST))
-            found[light] = change, change * float(np.median(room[clear])) / max(float(np.quantile(lit, BRIGHT)), 1e-12)
+            change, further = (float(np.quantile(lit[clear] / room[clear], share)) for share in (DARKEST, 2 * DARKEST))
+            if further - change < ALIKE * max(change, 1.0):
+                found[light] = change, change * float(np.median(room[clear])) / max(float(np.quantile(lit, BRIGHT)), 1e-12)
     return found
 
 
