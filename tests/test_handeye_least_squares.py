@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lpcal.errors import DegenerateError
+from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3
-from lpcal.geometry.least_squares import POSE, Block, Term, compile_residual, matrix, prior, small_rotation, solve
+from lpcal.geometry.least_squares import POSE, Block, Options, Term, compile_residual, matrix, prior, small_rotation, solve
 
 SIGMA = 0.01
 
@@ -117,3 +117,19 @@ def test_a_free_gauge_is_refused_by_name():
     found = solve(blocks, [term], eliminate="x")
     with pytest.raises(DegenerateError, match="undetermined, mostly H"):
         found.covariance("H")
+
+
+@pytest.mark.parametrize(("height", "settles"), [(0.1, True), (1e3, False)])
+def test_a_valley_that_no_datum_notices_is_an_end_and_a_slope_is_not(height: float, settles: bool):
+    """The residual falls for ever, by a factor e a step: what is left of it counts, not that it falls."""
+
+    def slope(x, data):
+        return data * 2.718281828 ** (-x)
+
+    term = Term(compile_residual(slope, (1,), 1), ("x",), (np.zeros(1, int),), np.full((1, 1), height))
+    options = Options(iterations=6, tolerance=0.0)
+    if settles:
+        assert solve({"x": Block(np.zeros((1, 1)))}, [term], options=options).cost < 1e-4
+    else:
+        with pytest.raises(ConvergenceError, match="still falls"):
+            solve({"x": Block(np.zeros((1, 1)))}, [term], options=options)

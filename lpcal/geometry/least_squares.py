@@ -47,6 +47,8 @@ __all__ = [
     "solve",
 ]
 
+SETTLED = 0.05
+"""Of the cost, in whitened units: a fall over the last quarter of all steps by less is a flat valley, not a solve that runs."""
 NO_WAY_DOWN = 1e12
 """Damping at which the descent ends: no step, however short, lowers the cost."""
 
@@ -201,16 +203,16 @@ def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str 
     DegenerateError
         The information is singular: the data leave a direction undetermined; it is named.
     ConvergenceError
-        The cost still falls after the last iteration, or is not finite.
+        The cost still falls after the last iteration, by more than no datum would notice, or is not finite.
     """
     options = options or Options()
     layout = Layout(dict(blocks), eliminate)
     system = linearise(layout, blocks, terms)
     if not np.isfinite(system.cost):
         raise ConvergenceError("the residuals are not finite at the start", needed="a start in front of the camera, finite data")
-    now, damping, small, iteration = dict(blocks), options.damping, 0, 0
+    now, damping, small, iteration, costs = dict(blocks), options.damping, 0, 0, [system.cost]
     while small < 2 and damping < NO_WAY_DOWN:
-        if iteration == options.iterations and not options.strict:
+        if iteration == options.iterations and (not options.strict or costs[len(costs) * 3 // 4] - system.cost < SETTLED):
             break
         if iteration == options.iterations:
             raise ConvergenceError(
@@ -224,6 +226,7 @@ def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str 
         if np.isfinite(system_new.cost) and fall >= 0:
             small = small + 1 if fall <= options.tolerance * system.cost + 1e-12 else 0
             now, system, damping = trial, system_new, max(damping / 10, 1e-12)
+            costs.append(system.cost)
         else:
             small = small + 1 if abs(expected) <= options.tolerance * system.cost + 1e-12 else 0
             damping *= 10
