@@ -22,6 +22,8 @@ DARKEST = 0.02
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
 """Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
+IN_SHADOW = 0.15
+"""Of what the lamp that is brightest there does: a light that does more reaches the place, if aslant."""
 ALIKE = 0.3
 """Blocks in shadow are brighter by about the same share of the room's light; where the next darkest differ by more, none are in shadow."""
 SHADOWS_THROWN, BRIGHT = 0.05, 0.9
@@ -157,13 +159,13 @@ def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
     ambient = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
     room = _block_mean(ambient[None])[0]
     bright = room > max(ROOM_SHARE * float(np.median(room)), 0.0)
-    found = {}
+    found, lamps = {}, _block_mean(signal)
     for k, light in enumerate(radiance.lights):
         sigma = radiance.sigma[k] if radiance.sigma.ndim == 3 else radiance.sigma[k].mean(axis=-1)
         clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
         clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
+        lit, clear = lamps[k], clear & (lamps[k] < IN_SHADOW * lamps.max(axis=0))
         if clear.sum() > FEWEST_BLOCKS:
-            lit = _block_mean(signal[k][None])[0]
             change, further = (float(np.quantile(lit[clear] / room[clear], share)) for share in (DARKEST, 2 * DARKEST))
             if further - change < ALIKE * max(change, 1.0):
                 found[light] = change, change * float(np.median(room[clear])) / max(float(np.quantile(lit, BRIGHT)), 1e-12)
