@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from lit_scene import SIZE, Scene, calibration, draw, truth
-from lpcal.detect.exposures import ambient_notes, with_short_exposures
+from lpcal.detect.ambient import ambient_notes
+from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.records.calibration import LightsSolution
+from lpcal.records.calibration import Light, LightsSolution
 from lpcal.simulate.leds import LedLight
 
 DIM = 0.01
@@ -69,8 +69,8 @@ def errors_of(found: LightsSolution, true: Sequence[LedLight], points_C: np.ndar
     )
 
 
-def _field(light: object, points_C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    d, E = light.field(points_C)  # type: ignore[attr-defined]
+def _field(light: Light, points_C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    d, E = light.field(points_C)
     return d, E.mean(axis=-1)
 
 

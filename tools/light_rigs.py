@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import pickle
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -66,14 +67,19 @@ class Drawn:
 
     def some(self, chrome: int, matte: int) -> list[SphereView]:
         """The first so many of each kind."""
-        of = {kind: [view for view in self.views if view.kind == kind] for kind in ("chrome", "matte")}
-        return of["chrome"][:chrome] + of["matte"][:matte]
+        return first_of(self.views, chrome, matte)
 
     def misdrawn(self, row: int, clicks: int) -> Wings:
         """The wings as a drawing has them that states one joint so many clicks of 10 degrees off."""
         wing = self.wings.wings[row]
         changed = replace(wing, joint_angle_rad=wing.joint_angle_rad + clicks * np.radians(10))
         return _wings([*self.wings.wings[:row], changed, *self.wings.wings[row + 1 :]], self.wings.H_CD, self.wings.setting_sigma)
+
+
+def first_of(views: Sequence[SphereView], chrome: int, matte: int) -> list[SphereView]:
+    """The first so many views of spheres of each kind."""
+    of = {kind: [view for view in views if view.kind == kind] for kind in ("chrome", "matte")}
+    return of["chrome"][:chrome] + of["matte"][:matte]
 
 
 def rig_of(name: str = "lightpanel-6", chrome: int = 4, matte: int = 4) -> tuple[Rig, list[Wing], np.ndarray]:

@@ -1,4 +1,4 @@
-"""Several exposures of one capture: short ones where the long ones saturate, ambient images before and after.
+"""Several exposures of one capture: short ones where the long ones saturate.
 
 Symbols: linear numbers l of an exposure t give the signal ``l / t - ambient`` (see detect.radiometry); a sample that is saturated at the
 long exposure and not at the short one takes the short one's signal and noise.
@@ -10,28 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, noise_model
-from lpcal.errors import DisagreementError
-from lpcal.geometry.arrays import Image, Mask
+from lpcal.detect.radiometry import Sensor, noise_model, over_white
 from lpcal.records.observations import Radiance, RawCapture
-
-BLOCK_PX, FEWEST_BLOCKS = 8, 40
-ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
-"""Blocks with less ambient light than this share of its median, or than so many sigmas, tell nothing of it."""
-DARKEST = 0.02
-"""This share of the blocks is taken to be in shadow."""
-SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
-"""Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
-IN_SHADOW = 0.15
-"""Of what the lamp that is brightest there does: a light that does more reaches the place, if aslant."""
-ALIKE = 0.3
-"""Blocks in shadow are brighter by about the same share of the room's light; where the next darkest differ by more, none are in shadow."""
-SHADOWS_THROWN, BRIGHT = 0.05, 0.9
-"""Of what the light does to bright places (this quantile): less than this in its shadows may be what lit things throw there."""
-DRIFT_SHARE = 0.05
-"""Of the ambient light, or of the light of the lamps where that is less: a change that is worth a word."""
-BRIGHTER = 0.98
-"""Lit images under this share of the ambient one are darker, beyond noise."""
 
 
 def with_short_exposures(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> Radiance:
@@ -41,151 +21,14 @@ def with_short_exposures(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
         return radiance
     signal, sigma, saturated = radiance.signal.copy(), radiance.sigma.copy(), radiance.saturated.copy()
     a, c = noise_model(sensor.linear(raw.images), radiance.saturated, raw.step)
-    response = _response(sensor, radiance.signal.shape)
+    response = sensor.response(radiance.signal.shape)
     taken = 0
     for k, light in enumerate(radiance.lights):
         if light not in stated:
             continue
-        usable = radiance.saturated[k] & ~_saturated(raw.short[light], sensor, raw.step)
+        usable = radiance.saturated[k] & ~over_white(raw.short[light][None], sensor, raw.step)[0]
         noise = np.sqrt(a + c * np.maximum(sensor.linear(raw.short[light]), 0)) / stated[light] / response
         signal[k][usable], sigma[k][usable], saturated[k][usable] = radiance.short[light][usable], noise[usable], False
         taken += int(usable.sum())
     note = f"{taken} saturated samples taken from shorter exposures"
     return replace(radiance, signal=signal, sigma=sigma, saturated=saturated, notes=(*radiance.notes, note)) if taken else radiance
-
-
-def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """What is to be said of the ambient light: that it changed, that it is stronger than the lights."""
-    if raw.ambient is None:
-        return ()
-    level = float(np.mean(_ambient_levels(raw, sensor)))
-    lamps = _lamps(radiance, sensor)
-    found = ambient_changes(radiance, raw, sensor)
-    if level > lamps > 0:
-        found += (f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene",)
-    return found
-
-
-def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """Where the ambient light is not what its image says: it changed between its images, or in the image of a light."""
-    if raw.ambient is None:
-        return ()
-    levels = _ambient_levels(raw, sensor)
-    level = abs(float(np.mean(levels)))
-    if np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
-        change = 100 * np.ptp(levels) / max(level, 1e-12)
-        return (f"the ambient light changed by {change:.0f} % between its {len(levels)} images; their mean was taken away",)
-    return tuple(_changes_in_frames(radiance))
-
-
-def _ambient_levels(raw: RawCapture, sensor: Sensor) -> list[float]:
-    """Mean of each ambient image a unit of exposure."""
-    if raw.ambient is None:
-        return []
-    return [float(image.mean()) / float(t) for image, t in zip(sensor.linear(raw.ambient), raw.ambient_exposure_s, strict=True)]
-
-
-def _lamps(radiance: Radiance, sensor: Sensor) -> float:
-    """What the brightest lamp adds to the middle pixel, before the flat field."""
-    return float(np.median(radiance.signal.max(axis=0) * _response(sensor, radiance.signal.shape)))
-
-
-def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
-    """Refuse an ambient image that is brighter than the images of all lights: they were not taken alike.
-
-    Raises
-    ------
-    DisagreementError
-        It is.
-    """
-    if raw.ambient is None:
-        return
-    axes = tuple(range(1, raw.images.ndim))
-    lit = sensor.linear(raw.images).mean(axis=axes) / raw.exposure_s
-    ambient = sensor.linear(raw.ambient).mean(axis=axes) / raw.ambient_exposure_s
-    if ambient.min() > 0 and lit.max() < BRIGHTER * ambient.min():
-        raise DisagreementError(
-            f"the ambient image is brighter than the lit ones: {100 * ambient.min() / lit.max():.0f} % of the brightest of them",
-            where=raw.name,
-            needed="an ambient image with all lights off, at the exposure of the others or with its own stated",
-            todo="take it anew, or state exposure: and exposures: in capture.yaml",
-        )
-
-
-def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> None:
-    """Refuse a capture whose lit images were exposed less than its ambient image: the room in the shadows is darker under most lights.
-
-    Raises
-    ------
-    DisagreementError
-        The camera set its exposure, gain or tone by itself.
-    """
-    levels = _ambient_levels(raw, sensor)
-    if levels and np.ptp(levels) > DRIFT_SHARE * abs(np.mean(levels)):
-        return  # the room's own light changed: its mean is no measure
-    darker = [light for light, (change, _) in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
-    if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
-        raise DisagreementError(
-            f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
-            where=radiance.name,
-            needed="exposure, gain and tone held for all images of a capture, or stated in capture.yaml",
-            todo="switch auto-exposure and automatic gain off and take it anew",
-        )
-
-
-def _changes_in_frames(radiance: Radiance) -> list[str]:
-    changes = _room_changes(radiance)
-    usual = float(np.median([change for change, _ in changes.values()])) if changes else 0.0
-    darker = {light: change for light, (change, _) in changes.items() if change < -SHADOWS_DARKER}
-    brighter = {
-        light: change
-        for light, (change, thrown) in changes.items()
-        if change > 3 * max(usual, 0.0) + SHADOWS_BRIGHTER and thrown > SHADOWS_THROWN
-    }
-    return [
-        f"under {', '.join(some)} what no light reaches is {100 * max(map(abs, some.values())):.0f} % {word} than in the ambient "
-        "image: did the room's light change, or is auto-exposure on?"
-        for some, word in ((darker, "darker"), (brighter, "brighter"))
-        if some
-    ]
-
-
-def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
-    """How much more light there is than the ambient image says where a light does not reach, the darkest blocks.
-
-    In shares of the ambient light there, and of what the light does to bright places.
-    """
-    signal = radiance.signal if radiance.signal.ndim == 3 else radiance.signal.mean(axis=3)
-    ambient = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
-    room = _block_mean(ambient[None])[0]
-    bright = room > max(ROOM_SHARE * float(np.median(room)), 0.0)
-    found, lamps = {}, _block_mean(signal)
-    for k, light in enumerate(radiance.lights):
-        sigma = radiance.sigma[k] if radiance.sigma.ndim == 3 else radiance.sigma[k].mean(axis=-1)
-        clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
-        clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
-        lit, clear = lamps[k], clear & (lamps[k] < IN_SHADOW * lamps.max(axis=0))
-        if clear.sum() > FEWEST_BLOCKS:
-            change, further = (float(np.quantile(lit[clear] / room[clear], share)) for share in (DARKEST, 2 * DARKEST))
-            if further - change < ALIKE * max(change, 1.0):
-                found[light] = change, change * float(np.median(room[clear])) / max(float(np.quantile(lit, BRIGHT)), 1e-12)
-    return found
-
-
-def _block_mean(images: Image) -> Image:
-    """Mean (L, h, w) over blocks of images (L, H, W)."""
-    rows, columns = (side // BLOCK_PX for side in images.shape[1:])
-    cut = images[:, : rows * BLOCK_PX, : columns * BLOCK_PX]
-    return np.asarray(cut.reshape(-1, rows, BLOCK_PX, columns, BLOCK_PX).mean(axis=(2, 4)))
-
-
-def _saturated(image: Image, sensor: Sensor, step: float) -> Mask:
-    over = image >= sensor.white_level - 0.5 * step
-    return np.asarray(over.any(axis=-1) if over.ndim == 3 else over)
-
-
-def _response(sensor: Sensor, shape: tuple[int, ...]) -> Image:
-    if sensor.flat_field is None:
-        return np.ones((1, 1, 1)[: len(shape) - 1], np.float32)
-    response = sensor.flat_field.response(shape[1:3])
-    return response[..., None] if len(shape) == 4 else response

@@ -45,6 +45,11 @@ class Sensor:
         power = stored if self.gamma == 1.0 else np.maximum(stored, 0.0) ** np.float32(self.gamma)
         return np.asarray((power - np.float32(low)) / np.float32(high - low), dtype=np.float32)
 
+    def response(self, shape: tuple[int, ...]) -> Image:
+        """What lens and sensor make of even light, (H, W) or (H, W, 1), for images of a shape (L, H, W) or (L, H, W, 3)."""
+        response = np.ones(shape[1:3], np.float32) if self.flat_field is None else self.flat_field.response(shape[1:3])
+        return response[..., None] if len(shape) == 4 else response
+
 
 def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     """A capture made linear, its noise and its saturated pixels known.
@@ -54,7 +59,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     DegenerateError
         All dark (no light lifts any part of the image over its noise), or all saturated.
     """
-    saturated = _over_white(raw.images, sensor, raw.step)
+    saturated = over_white(raw.images, sensor, raw.step)
     if saturated.all():
         raise DegenerateError(
             "every pixel of every image is saturated", where=raw.name, needed="images below the white level", todo="shorten the exposure"
@@ -62,8 +67,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     linear = sensor.linear(raw.images)
     ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
     noise = noise_model(linear, saturated, raw.step)
-    response = np.ones(linear.shape[1:3], np.float32) if sensor.flat_field is None else sensor.flat_field.response(linear.shape[1:3])
-    response = response[..., None] if linear.ndim == 4 else response
+    response = sensor.response(linear.shape)
     exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
     ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
     notes = [f"left out: {name} is no light's" for name in raw.left_out]
@@ -159,7 +163,8 @@ def _short(linear: Image, exposure_s: float | None, ambient: Image, response: Im
     return np.asarray(signal / response, np.float32)
 
 
-def _over_white(images: Image, sensor: Sensor, step: float) -> Mask:
+def over_white(images: Image, sensor: Sensor, step: float) -> Mask:
+    """Saturated pixels (L, H, W) of stored images, in any channel."""
     over = images >= sensor.white_level - 0.5 * step
     return np.asarray(over.any(axis=3) if over.ndim == 4 else over)
 

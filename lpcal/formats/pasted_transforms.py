@@ -17,7 +17,6 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
 BOARD, CAMERA, ROOM = "board", "camera", "mocap"
-MM = 1e3
 
 
 def rpy(H_AB: Array) -> Array:

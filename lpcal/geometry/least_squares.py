@@ -115,10 +115,6 @@ class Solution:
         """Number of free parameters, the eliminated ones too."""
         return int(self._layout.free.sum()) + self._layout.items * self._layout.size * bool(self._layout.items)
 
-    def covariance_of_all(self) -> Array:
-        """Covariance (n, n) of all that is not eliminated, in the order of `columns`; zero for what is fixed."""
-        return self._S
-
     def leverage(self, term: int) -> Array:
         """Share (N, rows) of each residual that the fit absorbs: diag(J cov J^T); a residual's variance is 1 - leverage."""
         J = self._system.jacobians[term]

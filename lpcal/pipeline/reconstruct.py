@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from lpcal import __version__
-from lpcal.detect.ambient import refuse_bright_ambient
-from lpcal.detect.exposures import ambient_notes, with_short_exposures
+from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
+from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.refine_lights import refine_judged
-from lpcal.detect.exposures import ambient_changes, refuse_auto_exposure, with_short_exposures
+from lpcal.detect.ambient import ambient_changes, refuse_auto_exposure
+from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError

@@ -27,7 +27,6 @@ FITS = 0.03
 """Misplacement of the board, as a share of its distance, up to which data count as one rigid motion; real ones leave 0.002 to 0.012."""
 MENDS = 0.35
 """A cure counts where it lessens the misplacement to this share."""
-MAJORITY = 0.6
 SCALE_TOLERANCE = 0.2
 BOARD_OFF, BOARD_SIGMAS = 0.004, 4.0
 FAR_M = 1.0

@@ -82,8 +82,7 @@ def fit_with_clicks(
         gain = 2 * (fit.cost - cost)
         if trial is None or gain < enough:
             break
-        drawn = wings.wings[row].joint_angle_rad
-        clicks.append(Click(wings.wings[row].name, drawn, drawn + step * CLICK_RAD, gain))
+        clicks.append(_click(wings, row, step, gain))
         fit, wings = trial, _clicked(wings, row, step)
         rows.remove(row)
     return fit, wings, clicks
@@ -110,11 +109,15 @@ def clicks_under_shading[Found: _WithSettings](
         gain = 2 * (solved.cost - trial.cost)
         if gain < ENOUGH_UNDER_ONE:
             break
-        drawn = wings.wings[row].joint_angle_rad
-        clicks.append(Click(wings.wings[row].name, drawn, drawn + step * CLICK_RAD, gain))
+        clicks.append(_click(wings, row, step, gain))
         solved, wings = trial, _clicked(wings, row, step)
         rows.remove(row)
     return solved, wings, clicks
+
+
+def _click(wings: Wings, row: int, step: int, gain: float) -> Click:
+    drawn_rad = wings.wings[row].joint_angle_rad
+    return Click(wings.wings[row].name, drawn_rad, drawn_rad + step * CLICK_RAD, gain)
 
 
 def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tuple[float, int, int]]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.chain.refine_lights.explain import SCALE, fitted, scaled
-from lpcal.chain.refine_lights.measure import CentreMeasurement
+from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
 from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import lobe_of_leds
 from lpcal.errors import DegenerateError, DisagreementError
@@ -35,8 +35,6 @@ GATE_PX, GATE_SHADING = 0.05, 0.015
 EXPECTED_GATES = 2.5
 """Where the lights or the highlights are less certain than the gate, a miss of so many of its own sigmas is let pass."""
 CENTRE_STEPS = 4
-
-type Measured = Sequence[tuple[SphereView, CentreMeasurement]]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ import numpy as np
 
 from lpcal.chain.refine_lights.distant import FACING_CAMERA, matte_direction
 from lpcal.chain.refine_lights.geometry_fit import GeometryFit, fit_geometry
-from lpcal.chain.refine_lights.measure import CentreMeasurement
+from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
 from lpcal.chain.refine_lights.swaps import refuse_swapped
 from lpcal.errors import ConvergenceError, DegenerateError, DisagreementError
 from lpcal.geometry import se3, sphere
@@ -36,8 +36,6 @@ SHIFTED = 4.0
 DISTANCES_M = np.geomspace(0.1, 20.0, 16)
 NEARER = 9.0
 """Another order of the images puts the sum of squares down by this factor."""
-
-type Measured = Sequence[tuple[SphereView, CentreMeasurement]]
 
 
 @dataclass(frozen=True)

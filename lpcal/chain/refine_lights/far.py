@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.chain.refine_lights.distant import FACING_CAMERA, matte_direction
-from lpcal.chain.refine_lights.measure import CentreMeasurement
+from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, SphereFinding
@@ -26,8 +26,6 @@ from lpcal.records.observations import SphereView
 SURE_SIGMAS = 2.0
 SHADING_SIGMA_RAD = float(np.radians(1.0))
 """Of a direction from a matte sphere's shading."""
-
-type Measured = Sequence[tuple[SphereView, CentreMeasurement]]
 
 
 @dataclass(frozen=True)

@@ -13,14 +13,14 @@ from lpcal.chain.refine_lights.diagnosis import diagnose, refuse_matte_radius
 from lpcal.chain.refine_lights.explain import refuse_at_sight, refuse_other_orders, refuse_what_explains
 from lpcal.chain.refine_lights.far import far_lights, with_far
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
-from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
-from lpcal.chain.refine_lights.refine import refine
-from lpcal.errors import ConvergenceError, DegenerateError
+from lpcal.chain.refine_lights.measure import measured_spheres
+from lpcal.chain.refine_lights.refine import DOUBTED_PX, DOUBTED_SIGMAS, refine
+from lpcal.errors import ConvergenceError
 from lpcal.records.calibration import Camera, LightsSolution, Lobe, Wings
 from lpcal.records.observations import SphereView
 
-DOUBTED_PX, DOUBTED_SHADING, DOUBTED_SIGMAS = 0.25, 0.01, 3.0
-"""Highlights and shading that agree no better, or outlines so far from their usual bias, are worth a look for a mistake."""
+DOUBTED_SHADING = 0.01
+"""Shading that agrees no better is worth a look for a mistake, as are highlights and outlines that `refine` doubts."""
 
 
 def refine_judged(
@@ -46,7 +46,7 @@ def refine_judged(
     """
     if camera is None or not views:
         return refine(views, lights, camera, wings)
-    used = _measured(views, camera)
+    used, _ = measured_spheres(views, camera)
     if wings is None:
         refuse_other_orders(used, camera)
     drawn = {wing.name for wing in wings.wings} if wings else set()
@@ -78,13 +78,3 @@ def _doubtful(solution: LightsSolution) -> bool:
         return True
     biased = bias_px if isinstance(bias_px, dict) else {}
     return any(abs(biased[kind] - mean) > DOUBTED_SIGMAS * sigma for kind, (mean, sigma) in BIAS_PX.items() if kind in biased)
-
-
-def _measured(views: Sequence[SphereView], camera: Camera) -> list[tuple[SphereView, CentreMeasurement]]:
-    used = []
-    for view in views:
-        try:
-            used.append((view, measure_centre(view, camera)))
-        except DegenerateError:
-            continue
-    return used

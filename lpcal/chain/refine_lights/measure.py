@@ -8,6 +8,7 @@ about as large as the shift, of one wave, that cannot be told from the sphere's 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -35,6 +36,10 @@ class CentreMeasurement:
     by_bias: Array
     by_core: Array = field(default_factory=lambda: np.zeros((3, 0)))
     """(3, P) by the camera's parameters, where these are to be solved for too."""
+
+
+type Measured = list[tuple[SphereView, CentreMeasurement]]
+"""Spheres, each with the measurement of its centre."""
 
 
 def measure_centre(view: SphereView, camera: Camera, *, free_core: bool = False) -> CentreMeasurement:
@@ -102,3 +107,14 @@ def local_projection(camera: Camera, u_C: Array) -> Array:
     """Derivative A (..., 2, 3) of the projection at unit rays u_C (..., 3): pixels move by ``A (x / (x . u) - u)``, in any lens."""
     columns = [(camera.project(u_C + step) - camera.project(u_C - step)) / (2 * STEP) for step in STEP * np.eye(3)]
     return np.stack(columns, axis=-1)
+
+
+def measured_spheres(views: Sequence[SphereView], camera: Camera, *, free_core: bool = False) -> tuple[Measured, dict[str, str]]:
+    """The spheres whose centres their outlines tell, each with its measurement; and why, in words, of the others by name."""
+    used, refused = [], {}
+    for view in views:
+        try:
+            used.append((view, measure_centre(view, camera, free_core=free_core)))
+        except DegenerateError as error:
+            refused[view.name] = error.found
+    return used, refused

@@ -23,7 +23,7 @@ from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.free_camera import with_core
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
-from lpcal.chain.refine_lights.measure import CentreMeasurement, measure_centre
+from lpcal.chain.refine_lights.measure import Measured, measured_spheres
 from lpcal.chain.refine_lights.next_sphere import advise
 from lpcal.chain.refine_lights.samples import sample_blocks
 from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, lobe_of_leds
@@ -68,7 +68,7 @@ def refine(
         raise DegenerateError("no sphere could be used", needed="one chrome sphere at least", todo="add spheres: to panel.yaml")
     if camera is None:
         return refine_distant(views, lights)
-    used, refused = _measured(views, camera, free_core)
+    used, refused = measured_spheres(views, camera, free_core=free_core)
     if wings is not None:
         refuse_swapped(lights, [view for view, _ in used], [m for _, m in used], camera, wings)
     fit, used, more = _fit_without_outliers(lights, used, camera, wings)
@@ -119,7 +119,7 @@ class _Joint:
 
 def _joint(
     start: GeometryFit,
-    used: list[tuple[SphereView, CentreMeasurement]],
+    used: Measured,
     known: Sequence[Lobe | None],
     camera: Camera,
     wings: Wings,
@@ -144,21 +144,9 @@ def _joint(
     return joint, clicks
 
 
-def _measured(
-    views: Sequence[SphereView], camera: Camera, free_core: bool
-) -> tuple[list[tuple[SphereView, CentreMeasurement]], dict[str, str]]:
-    used, refused = [], {}
-    for view in views:
-        try:
-            used.append((view, measure_centre(view, camera, free_core=free_core)))
-        except DegenerateError as error:
-            refused[view.name] = error.found
-    return used, refused
-
-
 def _fit_without_outliers(
-    lights: Sequence[str], used: list[tuple[SphereView, CentreMeasurement]], camera: Camera, wings: Wings | None
-) -> tuple[GeometryFit, list[tuple[SphereView, CentreMeasurement]], dict[str, str]]:
+    lights: Sequence[str], used: Measured, camera: Camera, wings: Wings | None
+) -> tuple[GeometryFit, Measured, dict[str, str]]:
     """The fit without spheres whose highlights do not agree with the others'."""
     refused: dict[str, str] = {}
     while True:
