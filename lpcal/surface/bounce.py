@@ -14,17 +14,23 @@ factors).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface import normals
+from lpcal.records.calibration import Light
+from lpcal.surface import normals, sides
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.surroundings import Patches
 
 PATCHES = 1200
 STEPS = 6
+OFF = 0.025
+"""Of the depth: so near to either end nothing is taken to stand between two patches that face each other: backs are rounder than told."""
 BLOCK = 128
 GRAZING = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
@@ -35,12 +41,15 @@ REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 COMMON, COMMON_SIGMA = 0.6, 0.3
 """Reflectance of objects as prior."""
 SAMPLE = 900
-INDEPENDENT = 170.0
+INDEPENDENT = 60.0
 """Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
 
 
-def thrown(seen: Sight, depth: Array, n: Array, signal: Array) -> Array:
-    """J (L, P, 3) of a surface of depths (P,), normals n (P, 3) and diffuse signals (L, P)."""
+def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Patches | None = None) -> tuple[Array, Array]:
+    """J (L, P, 3) of a surface of depths (P,), normals n (P, 3) and an estimate of its albedo, and of what stands around it.
+
+    Besides the share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see.
+    """
     from scipy import ndimage
 
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
@@ -53,15 +62,24 @@ def thrown(seen: Sight, depth: Array, n: Array, signal: Array) -> Array:
         return np.stack([np.bincount(of_pixel, area * column) for column in values.T], axis=-1) / total[:, None]
 
     total = np.bincount(of_pixel, area)
-    at_patches = _exchange(joined(x_C), lambert.unit(joined(n))[0], total, joined(signal.T).T, Relief.of(seen, depth))
+    own = Patches(joined(x_C), lambert.unit(joined(n))[0], total, joined(found.diffuse(seen).T).T)
+    relief = Relief.of(seen, depth)
+    albedo = np.zeros(seen.mask.shape)
+    albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
+    by_unseen, unseen = sides.thrown(own.x_C, own.n, relief, albedo, lights)
+    at_patches = _received(own, own, relief) + by_unseen
+    if around is not None:
+        at_patches = at_patches + _received(own, around, relief)
     inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2)[seen.mask]
-    found = np.empty((len(signal), seen.pixels, 3))
     blank = np.zeros(seen.mask.shape, np.float32)
-    for k in range(len(signal)):
-        for axis in range(3):
-            blank[seen.mask] = at_patches[k, of_pixel, axis]
-            found[k, :, axis] = ndimage.gaussian_filter(blank, size / 2)[seen.mask] / np.maximum(inside, 1e-6)
-    return found
+
+    def spread(values: Array) -> Array:
+        """Values (P,) of the patches' values (Q,)."""
+        blank[seen.mask] = values[of_pixel]
+        return np.asarray(ndimage.gaussian_filter(blank, size / 2)[seen.mask] / np.maximum(inside, 1e-6))
+
+    J = np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in at_patches])
+    return J, spread(unseen)
 
 
 def reflectance(seen: Sight, lit: Lit, J: Array, usable: Mask, found: Estimate) -> tuple[float, float]:
@@ -95,18 +113,20 @@ def _areas(seen: Sight, depth: Array, n: Array) -> Array:
     return np.asarray((depth * pixel) ** 2 / (length * towards))
 
 
-def _exchange(x_C: Array, n: Array, area: Array, signal: Array, relief: Relief) -> Array:
-    """J (L, Q, 3) of patches at x_C (Q, 3) with normals, areas (Q,) and signals (L, Q)."""
-    found = np.zeros((len(signal), *x_C.shape))
-    for first in range(0, len(x_C), BLOCK):
-        at = slice(first, first + BLOCK)
-        e = x_C[None] - x_C[at, None]
+def _received(at: Patches, of: Patches, relief: Relief) -> Array:
+    """J (L, Q, 3) at patches, of the light of others."""
+    found = np.zeros((len(of.signal), *at.x_C.shape))
+    for first in range(0, len(at.x_C), BLOCK):
+        some = slice(first, first + BLOCK)
+        e = of.x_C[None] - at.x_C[some, None]
         square = np.maximum(lambert.dot(e, e), 1e-18)
         e /= np.sqrt(square)[..., None]
-        leaving = -np.einsum("pqi,qi->pq", e, n)
-        face = (np.einsum("pqi,pi->pq", e, n[at]) > GRAZING) & (leaving > GRAZING)
+        leaving = -np.einsum("pqi,qi->pq", e, of.n)
+        face = (np.einsum("pqi,pi->pq", e, at.n[some]) > GRAZING) & (leaving > GRAZING)
         p, q = np.nonzero(face)
-        face[p, q] = ~relief.hidden(x_C[at][p], x_C[q], STEPS)
-        factor = np.where(face, leaving * area / (np.pi * square + area), 0.0)
-        found[:, at] = np.stack([signal @ (factor * e[..., axis]).T for axis in range(3)], axis=-1)
+        off = np.minimum(OFF * at.x_C[some][p, 2] / np.sqrt(square[p, q]), 0.5)[:, None]
+        way = of.x_C[q] - at.x_C[some][p]
+        face[p, q] = ~relief.hidden(at.x_C[some][p] + off * way, of.x_C[q] - off * way, STEPS)
+        factor = np.where(face, leaving * of.area / (np.pi * square + of.area), 0.0)
+        found[:, some] = np.stack([of.signal @ (factor * e[..., axis]).T for axis in range(3)], axis=-1)
     return found

@@ -19,7 +19,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface.integrate import Own
 from lpcal.surface.normals import Estimate, variances
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Lit, Sight
 
 DELTA = 1e-3
 FURTHEST = 0.5
@@ -28,12 +28,17 @@ SCORE = 3.0
 """Nor by more than this many of its own sigmas."""
 GLOSS_DOUBT = 2.0
 """Of the gloss that was taken off: its lobe is a guess, and distances hang on small parts of the signal."""
+ALIKE = 0.005
+"""What neighbouring samples err by alike, of the signal."""
+UNSEEN_DOUBT, THROWN_DOUBT, SHINE_DOUBT = 0.3, 0.2, 0.5
+"""What they err by besides: of the share of unseen sides about a pixel, and of the light that is known to be thrown on it."""
 PATCHES_ACROSS = 40
 """Of an object: patches of this size are asked for their distance together."""
 ESTRANGED = 1.5
 """Medians of the patches' differences beyond which a patch counts little."""
 LEAST_DIFFERENCE = 0.003
 """Of the distance: patches that differ by less agree."""
+MIND_ROUNDS = 8
 WEAK = 1e-6
 """Curvature for pixels that know nothing, so that every piece is held somewhere."""
 
@@ -59,10 +64,24 @@ def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, foun
     return Own(H, np.log(depth) + move)
 
 
+def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
+    """The own distances with less weight where light from other parts of the object is told ill: a whole region errs alike there."""
+    if lit.thrown is None or lit.unseen is None:
+        return own
+    b = np.nan_to_num(found.b)
+    direct = np.sum(np.where(found.inliers, lambert.predicted(lit.d * lit.E[..., None], b), 0.0), axis=0)
+    thrown = np.sum(np.where(found.inliers, lambert.predicted(lit.thrown, b), 0.0), axis=0)
+    square = (UNSEEN_DOUBT * lit.unseen) ** 2 + (THROWN_DOUBT * thrown / np.maximum(direct, 1e-12)) ** 2
+    if found.gloss is not None:
+        shine = np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0)
+        square = square + (SHINE_DOUBT * shine) ** 2
+    return Own(own.curvature / (1 + square / ALIKE**2), own.optimum)
+
+
 def of_one_mind(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
     """The own distances, less weight on patches that differ in theirs from most of their piece (P,): light from elsewhere misleads them.
 
-    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about the piece's median.
+    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about what most of the piece says.
     """
     from scipy import ndimage
 
@@ -79,9 +98,10 @@ def of_one_mind(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
     for one in np.unique(label):
         inside = label == one
         middle = _median(move[inside], H[inside])
-        difference = np.abs(move[inside] - middle)
-        scale = max(LEAST_DIFFERENCE, ESTRANGED * _median(difference, H[inside]))
-        weight[inside] = 1 / (1 + (difference / scale) ** 2) ** 2
+        scale = max(LEAST_DIFFERENCE, ESTRANGED * _median(np.abs(move[inside] - middle), H[inside]))
+        for _ in range(MIND_ROUNDS):
+            weight[inside] = 1 / (1 + ((move[inside] - middle) / scale) ** 2) ** 2
+            middle = float(np.average(move[inside], weights=(weight * H)[inside]))
     return Own(H * weight + WEAK, own.optimum)
 
 

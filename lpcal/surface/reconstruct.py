@@ -17,7 +17,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, uncertainty, without_ambient
+from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, surroundings, uncertainty, without_ambient
 from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 
@@ -71,30 +71,48 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
             return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress)
 
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve)
-    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if _is_wanted(radiance, options) else None
-    object_mask = _object(background, radiance, options)
+    wanted = _is_wanted(radiance, options)
+    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if wanted or near else None
+    object_mask = _object(background if wanted else None, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if gains.unmeasured(lights) else None
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m)
-    how = background.how if background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
+    backdrop = _backdrop(maps, rays_C, object_mask) if near and background is not None and background.planes else None
+    around = None if backdrop is None or background is None else surroundings.patches(backdrop.seen, background.planes, lights, backdrop.hidden)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
+    how = background.how if wanted and background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
     state = rounds.run(scene, float(begin), progress)
-    if near and background is not None and background.planes and calibration.camera is not None and options.distance_m is None:
-        state = _anchored(scene, state, maps, rays_C, background.planes[0], calibration.camera)
+    if backdrop is not None and background is not None and calibration.camera is not None and options.distance_m is None:
+        state = _anchored(scene, state, backdrop, background.planes[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
     return replace(surface, figures={"mask": how, **told, **surface.figures})
 
 
-def _anchored(scene: Scene, state: State, maps: sight.Grey, rays_C: Array, wall: planes.Plane, camera: Camera) -> State:
-    """The state with pieces put where their shadows on the wall say, and one more round of normals there."""
+@dataclass(frozen=True)
+class Backdrop:
+    """The whole image in coarse pixels, for what stands behind the object."""
+
+    seen: sight.Sight
+    hidden: Mask
+    """(H, W) where the object hides it."""
+    factor: int
+    """Pixels a coarse pixel."""
+
+
+def _backdrop(maps: sight.Grey, rays_C: Array, object_mask: Mask) -> Backdrop:
     coarse, coarse_rays, factor = mask.binned(maps, rays_C)
     everywhere = sight.look_at(coarse, coarse_rays, np.ones(coarse.signal.shape[1:], bool), central=True)
     height, width = (side * factor for side in everywhere.mask.shape)
-    object_mask = scene.seen.mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
-    shown = shadow_anchor.screen(everywhere, wall, scene.lights, object_mask, factor)
+    hidden = object_mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
+    return Backdrop(everywhere, hidden, factor)
+
+
+def _anchored(scene: Scene, state: State, backdrop: Backdrop, wall: planes.Plane, camera: Camera) -> State:
+    """The state with pieces put where their shadows on the wall say, and one more round of normals there."""
+    shown = shadow_anchor.screen(backdrop.seen, wall, scene.lights, backdrop.hidden, backdrop.factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
     model_std = {int(one): _model_std(state, label == one) for one in np.unique(label)}
     anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Indices, Sight
 
 TOLERANCE = 0.003
 """Of the depth: by how much a point must lie behind the surface to be hidden."""
@@ -45,15 +45,27 @@ class Relief:
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
         """Whether the surface stands between points (N, 3) and (N, 3), tried at `steps` places."""
         found = np.zeros(len(start_C), bool)
-        height, width = self.front.shape
         for k in range(steps):
-            y_C = start_C + (k + 0.5) / steps * (end_C - start_C)
-            pixel = np.rint(_powers(y_C[:, :2] / y_C[:, 2:]) @ self.pixel_of_ray)
-            inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < width) & (pixel[:, 1] < height)
-            column, row = np.where(inside[:, None], pixel, 0).astype(np.intp).T
-            behind = y_C[:, 2] / self.front[row, column] - 1
-            found |= inside & (behind > TOLERANCE) & (behind < THICKNESS)
+            found |= self.holds(start_C + (k + 0.5) / steps * (end_C - start_C))
         return found
+
+    def holds(self, y_C: Array) -> Mask:
+        """Whether points (N, 3) lie in the body."""
+        behind = self.behind(y_C)
+        return np.asarray((behind > TOLERANCE) & (behind < THICKNESS))
+
+    def behind(self, y_C: Array) -> Array:
+        """How far (N,) points (N, 3) lie behind the surface, by its depth; -1 where there is none."""
+        column, row, inside = self.pixels(y_C)
+        return np.asarray(np.where(inside, y_C[:, 2] / self.front[row, column] - 1, -1.0))
+
+    def pixels(self, y_C: Array) -> tuple[Indices, Indices, Mask]:
+        """Columns and rows (N,) of points (N, 3), and whether these are in the image."""
+        height, width = self.front.shape
+        pixel = np.rint(_powers(y_C[:, :2] / y_C[:, 2:]) @ self.pixel_of_ray)
+        inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < width) & (pixel[:, 1] < height)
+        column, row = np.where(inside[:, None], pixel, 0).astype(np.int64).T
+        return column, row, inside
 
     def hidden_from(self, x_C: Array, source_C: Array, steps: int) -> Mask:
         """Whether the surface stands between points x_C (N, 3) of it and a source (3,): only the way up to its nearest part counts."""

@@ -19,6 +19,7 @@ from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.surroundings import Patches
 
 ROUNDS = 5
 GLOSS_ROUNDS = (1, 3)
@@ -62,6 +63,8 @@ class Scene:
     """Where lights act as they do there; None: they are near."""
     distance_m: float | None = None
     """Median depth of the largest piece, where it is known."""
+    around: Patches | None = None
+    """What stands round the object and throws light on it."""
 
     @property
     def near(self) -> bool:
@@ -100,15 +103,16 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     usable = normals.candidates(seen, lit.E, None if shaped is None else hidden_lights(scene, depth, shaped, lit))
     reflectance = None
     if shaped is not None:
-        J = bounce.thrown(seen, depth, shaped.normals, shaped.found.diffuse(seen))
+        J, unseen = bounce.thrown(seen, depth, shaped.found, shaped.normals, scene.lights, scene.around)
         reflectance, albedo = bounce.reflectance(seen, lit, J, usable, shaped.found)
-        lit = replace(lit, thrown=reflectance / albedo * J)
+        lit = replace(lit, thrown=reflectance / albedo * J, unseen=unseen)
     found, shine = _estimated(scene, lit, usable, before, k)
     known = np.isfinite(found.b[:, 0])
     n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
         own = distance.own_distance(lambda z: scene.lit_at(z, lit.thrown).B, depth, seen, found)
+        own = distance.doubted(own, lit, seen, found)
         own = own if shaped is None else distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
         own = Own(np.full(seen.pixels, distance.WEAK), u)

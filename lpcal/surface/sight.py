@@ -86,6 +86,8 @@ class Lit:
     """(L, P) irradiance."""
     thrown: Array | None = None
     """(L, P, 3) light vectors of what other parts of the object throw here (surface.bounce)."""
+    unseen: Array | None = None
+    """(P,) share of what stands around a pixel that is of the object and not seen: what it throws is not in `thrown`."""
 
     @property
     def B(self) -> Array:
@@ -95,7 +97,8 @@ class Lit:
 
     def at(self, some: Indices) -> Lit:
         """At some of the pixels."""
-        return Lit(self.d[:, some], self.E[:, some], None if self.thrown is None else self.thrown[:, some])
+        thrown = None if self.thrown is None else self.thrown[:, some]
+        return Lit(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
 
 
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:

@@ -1,0 +1,96 @@
+r"""Light from the sides of an object that the camera does not see: the underside of what stands before its other parts.
+
+Symbols: from a patch at p with normal n, directions w_i are spread by the cosine; each is followed until it enters the body (see
+surface.relief) at y. If y lies well behind the front that the camera sees there, it came in by an unseen side. Nothing shows that side, so
+it is taken for one of the front's albedo beside it, at right angles to the camera's ray, and lit by those lights that reach it::
+
+    J_k(p) = 1/N sum_i  w_i / (w_i . n)  albedo E_k(y) max(m . d_k, 0)        m: the side's normal
+
+A guess, with the right sign and size; how much hangs on it is told with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Light
+from lpcal.surface.relief import Relief
+from lpcal.surface.sight import light_vectors
+
+DIRECTIONS = 64
+REACHES = np.geomspace(0.01, 0.35, 12)
+"""Of the depth: how far off it is asked whether the body stands in the way."""
+HALVINGS = 4
+UNSEEN = 0.008
+"""Of the depth: who enters the body so far behind its front came in by a side that is not seen."""
+GRAZING = 0.1
+OFF = 0.004
+"""Of the depth: the side's shadow is asked for so far before it."""
+SHADOW_STEPS = 24
+
+
+def thrown(x_C: Array, n: Array, relief: Relief, albedo: Image, lights: Sequence[Light]) -> tuple[Array, Array]:
+    """J (L, Q, 3) at patches x_C (Q, 3) with normals n (Q, 3), and the share (Q,) of unseen sides in what stands round them.
+
+    `albedo` (H, W) is in the units of the signals.
+    """
+    J, share = np.zeros((len(lights), *x_C.shape)), np.zeros(len(x_C))
+    for way in _directions(n):
+        at, y_C = _entries(x_C, way, relief)
+        if not at.size:
+            continue
+        share[at] += 1 / DIRECTIONS
+        column, row, _ = relief.pixels(y_C)
+        shown = albedo[row, column] * _shading(y_C, way[at], relief, lights)
+        weight = way[at] / np.maximum(lambert.dot(way[at], n[at]), GRAZING)[:, None]
+        J[:, at] += shown[..., None] * weight / DIRECTIONS
+    return J, share
+
+
+def _directions(n: Array) -> Array:
+    """Directions (DIRECTIONS, Q, 3) about normals n (Q, 3), as many to a solid angle as its cosine says."""
+    k = np.arange(DIRECTIONS) + 0.5
+    radius, turn = np.sqrt(k / DIRECTIONS), np.pi * (1 + np.sqrt(5)) * k
+    e1 = lambert.unit(lambert.cross(n, np.where(np.abs(n[:, :1]) < 0.9, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])))[0]
+    e2 = lambert.cross(n, e1)
+    local = np.stack([radius * np.cos(turn), radius * np.sin(turn), np.sqrt(1 - radius**2)])
+    return np.einsum("jk,jqi->kqi", local, np.stack([e1, e2, n]))
+
+
+def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Array, Array]:
+    """Patches whose direction `way` (Q, 3) enters the body by an unseen side, and where (N, 3)."""
+    low, high = np.zeros(len(x_C)), np.zeros(len(x_C))
+    met: Mask = np.zeros(len(x_C), bool)
+    for reach in REACHES:
+        r = reach * x_C[:, 2]
+        here = ~met & relief.holds(x_C + r[:, None] * way)
+        high[here], met = r[here], met | here
+        low[~met] = r[~met]
+    at = np.flatnonzero(met)
+    low, high = low[at], high[at]
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        inside = relief.holds(x_C[at] + middle[:, None] * way[at])
+        low, high = np.where(inside, low, middle), np.where(inside, middle, high)
+    y_C = x_C[at] + high[:, None] * way[at]
+    unseen = relief.behind(y_C) > UNSEEN
+    return at[unseen], y_C[unseen]
+
+
+def _shading(y_C: Array, way: Array, relief: Relief, lights: Sequence[Light]) -> Array:
+    """What the lights give to the unseen sides (L, N) at y_C (N, 3) that `way` (N, 3) meets."""
+    ray = y_C / np.linalg.norm(y_C, axis=1, keepdims=True)
+    m = -way
+    m = lambert.unit(m - lambert.dot(m, ray)[:, None] * ray)[0]
+    before_C = y_C - OFF * y_C[:, 2:] * way
+    d, E = light_vectors(lights, y_C)
+    shading = E * np.maximum(np.einsum("kni,ni->kn", d, m), 0.0)
+    for k, light in enumerate(lights):
+        lit = np.flatnonzero(shading[k] > 0)
+        if light.source_C is not None and lit.size:
+            shading[k, lit] *= ~relief.hidden_from(before_C[lit], light.source_C, SHADOW_STEPS)
+    return shading
