@@ -23,7 +23,7 @@ from lpcal.geometry.arrays import Array, Index
 from lpcal.simulate.rays import LEAVE
 from lpcal.simulate.scene import Points, Scene, direct, joined, meet
 
-RAYS, SURFEL_RAYS = 64, 64
+RAYS, SURFEL_RAYS = 64, 32
 BOUNCES = 8
 BOXES = 32
 """Boxes of surfels to the shape's bounding radius; beyond it they grow with the distance."""
