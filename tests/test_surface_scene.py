@@ -37,8 +37,9 @@ def test_normals_depth_and_their_sigmas(sphere):
     error = angle_deg(sphere.normals, n)[both]
     assert np.median(error) < 1.5
     assert np.median(np.abs(sphere.depth - depth)[both]) < 0.002
-    within = np.mean(error <= 2 * sphere.normal_std_deg[both])
-    assert 0.7 < within < 0.995
+    sigma = sphere.normal_std_deg[both]
+    assert np.mean(error <= 2 * sigma) > 0.7
+    assert np.median(error) > 0.2 * np.median(sigma)  # a clean sphere has none of what a sigma counts besides noise, but is no exact one
     (piece,) = sphere.components
     scale = np.sum(sphere.depth[both] * depth[both]) / np.sum(sphere.depth[both].astype(float) ** 2)
     assert abs(scale - 1) < 2.5 * piece.scale_std < 0.05

@@ -30,7 +30,7 @@ Frames and transform names as in lpcal's README; metres, radians unless the key 
     points.csv       points of the working volume, in C
     field.csv        light,x_m,y_m,z_m,dx,dy,dz,irradiance at them
     spheres.yaml     kind, centre_m (C), radius_m
-    objects/NAME.npz normals, depth, albedo, mask, component a pixel
+    objects/NAME.npz normals, depth, albedo (the reflectance, 0 to 1), mask, component a pixel
     objects.yaml     material, note
 """
 

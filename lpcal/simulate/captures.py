@@ -13,8 +13,9 @@ from lpcal.records.rig import Rig
 from lpcal.simulate import shapes
 from lpcal.simulate.built import Built
 from lpcal.simulate.mirror import highlight, led_image_sigma
+from lpcal.simulate.picture import MIRROR, Rendered, render
 from lpcal.simulate.recipe import Recipe
-from lpcal.simulate.scene import MIRROR, Rendered, Scene, render
+from lpcal.simulate.scene import Scene
 from lpcal.simulate.sensor import Response, Stored, blur, splat
 
 EXPOSURE_S = 0.020

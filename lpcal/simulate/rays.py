@@ -9,13 +9,17 @@ from lpcal.simulate.shapes import Shape
 
 STEPS = 160
 TOUCH = 2e-5
-"""A ray has hit when it is this near, in bounding radii."""
+"""A ray has hit when it is this near, in bounding radii, where an image needs it."""
 LEAVE = 1e-3
 """A shadow ray starts this far off the surface, in bounding radii."""
 
 
-def cast(shape: Shape, o_S: Array, d_S: Array) -> Array:
-    """Distances (N,) along unit rays d_S (N, 3) from o_S (3,) to the shape, inf where they miss."""
+def cast(shape: Shape, o_S: Array, d_S: Array, touch: float = TOUCH) -> Array:
+    """Distances (N,) along unit rays d_S (N, 3) from o_S (3,) or (N, 3) to the shape, inf where they miss.
+
+    A ray has hit when it is `touch` bounding radii near.
+    """
+    o_S = np.broadcast_to(o_S, d_S.shape)
     near, far = bounding(o_S, d_S, shape.bound_m)
     hit = np.full(len(d_S), np.inf)
     active = np.flatnonzero(near < far)
@@ -23,8 +27,8 @@ def cast(shape: Shape, o_S: Array, d_S: Array) -> Array:
     for _ in range(STEPS):
         if not len(active):
             break
-        gap = shape.distance(o_S + t[:, None] * d_S[active])
-        touched = gap < TOUCH * shape.bound_m
+        gap = shape.distance(o_S[active] + t[:, None] * d_S[active])
+        touched = gap < touch * shape.bound_m
         hit[active[touched]] = t[touched]
         t = t + gap
         on = ~touched & (t < far[active])

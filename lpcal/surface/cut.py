@@ -1,4 +1,4 @@
-"""Cutting an image in two by evidence: total variation over the whole, GrabCut along the seam.
+"""Cutting an image in two by evidence: total variation over the whole, along the seam GrabCut, or half way up the step.
 
 ``min over u in [0, 1] of  sum_p -e_p u_p + STIFF sum_ab w_ab abs(u_a - u_b)``, w low across edges of the picture. Sources: Chan, Esedoglu
 and Nikolova 2006, SIAM J. Applied Mathematics 66 (a convex form of the cut); Chambolle and Pock 2011, J. Math. Imaging and Vision 40 (the
@@ -14,6 +14,8 @@ from lpcal.geometry.arrays import Image, Mask
 STEPS = 200
 SEAM_PX = 4
 GRABCUT_ROUNDS = 3
+BESIDE_PX, AROUND_PX = 1.5, 2
+HALF = 0.4
 
 
 def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
@@ -53,3 +55,35 @@ def along_the_seam(mask: Mask, picture: Image, free: Mask | None = None) -> Mask
     colours = np.ascontiguousarray(np.clip(255 * picture, 0, 255).astype(np.uint8))
     cv2.grabCut(colours, labels, None, np.zeros((1, 65)), np.zeros((1, 65)), GRABCUT_ROUNDS, cv2.GC_INIT_WITH_MASK)
     return np.asarray((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD))
+
+
+def shrunk(mask: Mask, by: int) -> Mask:
+    """A mask without its rim; the image's own border is none."""
+    from scipy import ndimage
+
+    return np.asarray(ndimage.binary_erosion(mask, iterations=by, border_value=1))
+
+
+def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
+    """The mask with pixels beside its outline decided by which side of the outline they are nearer to, in signals (L, H, W).
+
+    A pixel that the outline crosses shows a share of both sides; HALF of a step is where it is in. Less than a half, as the rim of most
+    things turns away from the light and is darker than what lies within it.
+    """
+    import cv2
+
+    within, beyond = (cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, 3) for side in (mask, ~mask))
+    inner, outer = _near(signal, within), _near(signal, beyond)
+    step = (inner - outer) / sigma
+    share = np.sum((signal - outer) / sigma * step, axis=0) / np.maximum(np.sum(step**2, axis=0), 1e-12)
+    return np.asarray(np.where((within <= BESIDE_PX) & (beyond <= BESIDE_PX), share > HALF, mask))
+
+
+def _near(signal: Image, depth: Image) -> Image:
+    """Mean of signals (L, H, W) over the pixels nearby that lie BESIDE_PX deep in a side of the outline, or at least in it."""
+    import cv2
+
+    size = (2 * AROUND_PX + 1,) * 2
+    weight = (depth > BESIDE_PX) + np.float32(1e-3) * (depth > 0)
+    total = np.maximum(cv2.blur(weight, size), 1e-9)
+    return np.stack([cv2.blur(one * weight, size) / total for one in signal])

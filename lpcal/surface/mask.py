@@ -7,14 +7,16 @@ too. Without near light, or where no plane is lit, the strength of the signal de
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import cut, planes
+from lpcal.surface.backdrop import Backdrop, backdrop, evidence
 from lpcal.surface.sight import Grey, Sight, look_at
 
 COARSE_PIXELS = 110_000
@@ -29,11 +31,20 @@ STIFFNESS = 0.6
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
-DARK_SHARE = 0.3
-"""Matter darker than this share of the object's own is dark."""
+DARK_SHARE, LEAST_DARK, MOST_DARK = 0.2, 0.05, 0.3
+"""Matter whose brightest light is darker than this share of the object's own is dark; bounds of it where the support tells."""
+OF_SUPPORT = 1.7
+"""The same, by the brightness of the support that was found."""
+NEAR = 3
+"""Coarse pixels: how far beyond its part a plane is asked about the outline."""
+FIXED = 2.0
+"""Evidence of pixels that are not asked."""
 LEAST_OF_IMAGE = 0.003
 CLEAR, FAINT = 0.6, 0.3
 """Mean evidence against the wall of a piece that is none of it, and of one that may well be."""
+
+type Word = Callable[[Sight], Array]
+"""Evidence (P,) of pixels, from -1 (something that is not the object explains them) to 1 (it does not)."""
 
 
 @dataclass(frozen=True)
@@ -74,15 +85,15 @@ def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     coarse, coarse_rays, _ = binned(maps, rays_C)
     shape = coarse.signal.shape[1:]
     everywhere = look_at(coarse, coarse_rays, np.ones(shape, bool), central=True)
-    bright = strength(coarse)
+    edges = _log(strength(coarse))
     lit = np.sum(coarse.signal > LIT_SIGMAS * coarse.sigma, axis=0) >= 3
     border = border_band(shape)
     wall = planes.fit(look_at(coarse, coarse_rays, border & lit, central=True), lights, distance_m)
     if wall is None or wall.misfit > FIT_SIGMAS or np.mean(lit[border]) < 0.2:
         return None
-    against = _evidence(everywhere, wall, lights)
-    left = cut.total_variation(against, _log(bright), STIFFNESS)
-    found = [wall]
+    word, against = _word_of(wall, everywhere, lights, border & lit, edges)
+    left = cut.total_variation(against, edges, STIFFNESS)
+    found, claims = [wall], [(word, np.ones(shape, bool))]
     support = np.zeros(shape, bool)
     for _ in range(FURTHER_PLANES):
         touching = _hangs_on(left & ~support, border)
@@ -93,35 +104,73 @@ def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
         if plane is None or plane.misfit > FIT_SIGMAS:
             break
         found.append(plane)
-        explained = touching & ~cut.total_variation(_evidence(everywhere, plane, lights), _log(bright), STIFFNESS)
-        grown = _hangs_on(explained, at_border)
+        word, said = _word_of(plane, everywhere, lights, at_border, edges)
+        grown = _hangs_on(touching & ~cut.total_variation(said, edges, STIFFNESS), at_border)
         if grown.sum() <= at_border.sum() // 2:
             break
         support |= grown
-    mask = _without_faint(_without_support(left, support, border, bright), against)
+        claims.append((word, grown))
+    object_, dark, word = _without_dark(left & ~support, support, border, everywhere, edges)
+    claims.append((word, dark))
+    mask = _without_faint(object_, against)
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
         return Found(_enlarged(lit, maps), "all that is lit lies in one plane: that is the object", tuple(found))
-    return Found(_seam(_enlarged(mask, maps), maps), f"against {len(found)} plane{'s' * (len(found) > 1)}", tuple(found))
+    fine = _by_pixel(_enlarged(mask, maps), maps, rays_C, [(word, _enlarged(_grown(part, NEAR), maps)) for word, part in claims])
+    return Found(fine, f"against {len(found)} plane{'s' * (len(found) > 1)}", tuple(found))
 
 
-def _evidence(seen: Sight, plane: planes.Plane, lights: Sequence[Light]) -> Image:
-    """From -1 (a plane explains the pixel well, and by many lights) to 1 (it does not); 0 where nothing is seen."""
-    square, count = planes.misfit(seen, planes.foretold(plane.q, seen.rays_C, lights))
-    score = np.sqrt(np.nan_to_num(square, posinf=WALL_SIGMAS**2))
-    found = np.clip(np.log(np.clip(score, 0.1, 1e3) / WALL_SIGMAS), -1, 1)
-    found = np.where(found < 0, found * np.minimum(1, (count - 1) / MANY), found)
-    return np.asarray(found.reshape(seen.mask.shape), np.float32)
+def _word_of(plane: planes.Plane, seen: Sight, lights: Sequence[Light], sure: Mask, edges: Image) -> tuple[Word, Image]:
+    """What a plane says of pixels, and of those seen (H, W): by its ratios alone at first, then by its albedo, as `sure` shows it."""
+    m = planes.foretold(plane.q, seen.rays_C, lights)
+    said, back = _by_ratios(seen, m, plane.misfit), None
+    for _ in range(2):
+        claimed = ~cut.total_variation(_image(said, seen), edges, STIFFNESS)
+        back = backdrop(seen, m, plane, claimed.ravel(), (claimed & sure).ravel())
+        if back is None:
+            break
+        said = evidence(seen, m, back)
+    return partial(_of_plane, plane, back, lights), _image(said, seen)
 
 
-def _without_support(left: Mask, support: Mask, border: Mask, bright: Image) -> Mask:
-    """What is left without the support: the planes found, and the dark matter that hangs on them or on the border."""
-    object_ = left & ~support
-    if not object_.any():
-        return object_
-    free = object_ & ~_hangs_on(object_, border | support)
-    typical = np.median(bright[free] if free.sum() > 0.2 * object_.sum() else bright[object_])
-    dark = _hangs_on(object_ & (bright < DARK_SHARE * typical), border | _grown(support, 2))
-    return _tidy(object_ & ~dark)
+def _of_plane(plane: planes.Plane, back: Backdrop | None, lights: Sequence[Light], seen: Sight) -> Array:
+    m = planes.foretold(plane.q, seen.rays_C, lights)
+    return _by_ratios(seen, m, plane.misfit) if back is None else evidence(seen, m, back)
+
+
+def _image(values: Array, seen: Sight) -> Image:
+    return np.asarray(values.reshape(seen.mask.shape), np.float32)
+
+
+def _by_ratios(seen: Sight, m: Array, misfit: float) -> Array:
+    """From -1 (a plane explains the pixel well, and by many lights) to 1 (it does not) of pixels (P,); 0 where nothing is seen."""
+    square, count = planes.misfit(seen, m)
+    limit = WALL_SIGMAS * max(1.0, misfit)
+    score = np.sqrt(np.nan_to_num(square, posinf=limit**2))
+    found = np.clip(np.log(np.clip(score, 0.1, 1e3) / limit), -1, 1)
+    return np.where(found < 0, found * np.minimum(1, (count - 1) / MANY), found)
+
+
+def _without_dark(left: Mask, support: Mask, border: Mask, seen: Sight, edges: Image) -> tuple[Mask, Mask, Word]:
+    """What is left without the dark matter that hangs on the support or on the border; that matter; and what darkness says of pixels.
+
+    Brightest lights are compared: an object's far side is dark in most lights, its support in all.
+    """
+    brightest = _image(seen.signal.max(axis=0), seen)
+    if not left.any():
+        return left, left, partial(_by_brightness, 1e-9)
+    free = left & ~_hangs_on(left, border | support)
+    typical = float(np.median(brightest[free] if free.sum() > 0.2 * left.sum() else brightest[left]))
+    limit = DARK_SHARE * typical
+    if support.any():
+        limit = float(np.clip(OF_SUPPORT * np.median(brightest[support]), LEAST_DARK * typical, MOST_DARK * typical))
+    word = partial(_by_brightness, limit)
+    dim = ~cut.total_variation(_image(word(seen), seen), edges, STIFFNESS)
+    dark = _hangs_on(left & dim, border | _grown(support, 2))
+    return _tidy(left & ~dark), dark, word
+
+
+def _by_brightness(limit: float, seen: Sight) -> Array:
+    return np.clip(np.log2(np.maximum(seen.signal.max(axis=0), 1e-9 * limit) / limit), -1, 1)
 
 
 def _without_faint(mask: Mask, against: Image) -> Mask:
@@ -176,6 +225,26 @@ def _tidy(mask: Mask) -> Mask:
     return np.asarray(kept | np.isin(holes, small[small > 0]))
 
 
+def _by_pixel(mask: Mask, maps: Grey, rays_C: Array, claims: Sequence[tuple[Word, Mask]]) -> Mask:
+    """A mask whose outline is drawn anew by what is said of each pixel, each word heard in its part of the image."""
+    by = max(cut.SEAM_PX, factor(maps) + 1)
+    inside, near = cut.shrunk(mask, by), _grown(mask, by)
+    rows, columns = np.nonzero(_grown(near, 2 * by))
+    box = slice(rows.min(), rows.max() + 1), slice(columns.min(), columns.max() + 1)
+    band = near & ~inside
+    seen = look_at(maps, rays_C, band, central=True)
+    least = np.ones(seen.pixels)
+    for word, part in claims:
+        here = np.flatnonzero(part[band])
+        least[here] = np.minimum(least[here], word(seen.at(here)))
+    said = np.where(inside, FIXED, -FIXED).astype(np.float32)
+    said[band] = least
+    found = np.zeros_like(mask)
+    found[box] = cut.total_variation(said[box], _log(strength(maps))[box], STIFFNESS)
+    found[box] = cut.halfway(found[box], maps.signal[:, *box], maps.sigma[:, *box])
+    return _tidy(found)
+
+
 def _seam(mask: Mask, maps: Grey) -> Mask:
     return _tidy(cut.along_the_seam(mask, _picture(maps)))
 
@@ -192,11 +261,15 @@ def _log(bright: Image) -> Image:
     return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
 
 
+def factor(maps: Grey) -> int:
+    """How many pixels are joined along a side, so that COARSE_PIXELS are left at most."""
+    return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / COARSE_PIXELS)))
+
+
 def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
     """The maps and rays with blocks of f x f pixels joined, so that COARSE_PIXELS are left at most, and f."""
-    height, width = maps.signal.shape[1:]
-    f = int(np.ceil(np.sqrt(height * width / COARSE_PIXELS)))
-    rows, columns = height // f, width // f
+    f = factor(maps)
+    rows, columns = maps.signal.shape[1] // f, maps.signal.shape[2] // f
 
     def blocks(values: Array) -> Array:
         return values[..., : rows * f, : columns * f].reshape(*values.shape[:-2], rows, f, columns, f)
@@ -213,7 +286,7 @@ def _enlarged(mask: Mask, maps: Grey) -> Mask:
     import cv2
 
     height, width = maps.signal.shape[1:]
-    f = int(np.ceil(np.sqrt(height * width / COARSE_PIXELS)))
+    f = factor(maps)
     large = cv2.resize(mask.astype(np.float32), (mask.shape[1] * f, mask.shape[0] * f), interpolation=cv2.INTER_LINEAR) > 0.5
     found = np.zeros((height, width), bool)
     found[: large.shape[0], : large.shape[1]] = large

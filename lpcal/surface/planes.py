@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface.sight import Sight, light_vectors
 
@@ -55,19 +55,36 @@ def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
 
     `shaded`: shadow may lie on most of the samples of a pixel, else on fewer than half.
     """
+    hit, albedo, counted, white = _fitted(seen, m, shaded=shaded)
+    spread = np.sqrt(seen.sigma**2 + (MODEL * seen.signal) ** 2)
+    r = np.where(counted, (seen.signal - albedo * white) / spread, 0.0)
+    return np.where(hit, r, np.inf), np.asarray(counted.sum(axis=0), float)
+
+
+def albedo(seen: Sight, m: Array) -> tuple[Array, Mask]:
+    """Albedo (P,) that pixels have if they lie in a plane, shadows left out, and where (P,) two samples or more tell it."""
+    hit, found, counted, _ = _fitted(seen, m, shaded=True)
+    return found, hit & (counted.sum(axis=0) >= 2) & (found > 0)
+
+
+def strong(seen: Sight, m: Array) -> tuple[Mask, Array]:
+    """The samples (L, P) by which a plane is judged, and m with 1 where a ray misses the plane."""
     hit = np.isfinite(m).all(axis=0) & (m > 0).any(axis=0)
-    m = np.where(hit, m, 1.0)
-    variance = seen.sigma**2 + (MODEL * seen.signal) ** 2
-    strong = seen.usable & (m > WEAK * m.max(axis=0))
-    ratio = np.where(strong, seen.signal / np.maximum(m, 1e-9), -np.inf)
+    white = np.where(hit, m, 1.0)
+    return seen.usable & hit & (white > WEAK * white.max(axis=0)), white
+
+
+def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, Array]:
+    """Where rays hit the plane (P,), albedo (P,), the samples (L, P) that it rests on, and m (L, P)."""
+    sound, white = strong(seen, m)
+    ratio = np.where(sound, seen.signal / np.maximum(white, 1e-9), -np.inf)
     ranked = np.sort(ratio, axis=0)
-    middle = len(m) - 1 - np.maximum(strong.sum(axis=0) - 1, 0) // 2
+    middle = len(m) - 1 - np.maximum(sound.sum(axis=0) - 1, 0) // 2
     high = ranked[-2] if shaded else np.take_along_axis(ranked, middle[None], axis=0)[0]
-    counted = strong & (ratio > SHADE * high)
-    weight = counted / variance
-    albedo = np.sum(weight * m * seen.signal, axis=0) / np.maximum(np.sum(weight * m**2, axis=0), 1e-30)
-    r = np.where(counted, (seen.signal - albedo * m) / np.sqrt(variance), 0.0)
-    return np.where(hit, r, np.inf), counted.sum(axis=0)
+    counted = sound & (ratio > SHADE * high)
+    weight = counted / (seen.sigma**2 + (MODEL * seen.signal) ** 2)
+    found = np.sum(weight * white * seen.signal, axis=0) / np.maximum(np.sum(weight * white**2, axis=0), 1e-30)
+    return np.isfinite(m).all(axis=0) & (m > 0).any(axis=0), found, counted, white
 
 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
