@@ -18,7 +18,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface.integrate import Own
-from lpcal.surface.normals import Estimate, variances
+from lpcal.surface.normals import Estimate, thrown_share, variances
 from lpcal.surface.sight import Lit, Sight
 
 DELTA = 1e-3
@@ -66,12 +66,9 @@ def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, foun
 
 def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
     """The own distances with less weight where light from other parts of the object is told ill: a whole region errs alike there."""
-    if lit.thrown is None or lit.unseen is None:
+    if lit.unseen is None:
         return own
-    b = np.nan_to_num(found.b)
-    direct = np.sum(np.where(found.inliers, lambert.predicted(lit.d * lit.E[..., None], b), 0.0), axis=0)
-    thrown = np.sum(np.where(found.inliers, lambert.predicted(lit.thrown, b), 0.0), axis=0)
-    square = (UNSEEN_DOUBT * lit.unseen) ** 2 + (THROWN_DOUBT * thrown / np.maximum(direct, 1e-12)) ** 2
+    square = (UNSEEN_DOUBT * lit.unseen) ** 2 + (THROWN_DOUBT * thrown_share(lit, found)) ** 2
     if found.gloss is not None:
         shine = np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0)
         square = square + (SHINE_DOUBT * shine) ** 2

@@ -19,7 +19,7 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Lit, Sight
 
 MODEL = 0.015
 SHADOW = 0.15
@@ -101,6 +101,17 @@ def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate, gloss: Array |
     signal = sight.signal if gloss is None else sight.signal - gloss
     square = (signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(sight)
     return float(np.sum(np.where(usable, np.minimum(square, OUTLIER**2), 0.0)) / max(usable.sum(), 1))
+
+
+def thrown_share(lit: Lit, found: Estimate) -> Array:
+    """Light (P,) that is thrown on a pixel by its surroundings, by that which comes straight from the lights that agree."""
+    if lit.thrown is None:
+        return np.zeros(len(found.b))
+    b = np.nan_to_num(found.b)
+    direct, thrown = (
+        np.sum(np.where(found.inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (lit.d * lit.E[..., None], lit.thrown)
+    )
+    return np.asarray(thrown / np.maximum(direct, 1e-12))
 
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:

@@ -155,7 +155,7 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> S
     whole = state.weight > pieces.BREAK_WEIGHT
     of_depth = bend.normals_of(grid, seen.shape_C(depth), whole)
     of_depth = np.where(np.isfinite(of_depth), of_depth, state.normals)
-    clues = uncertainty.clues(grid, seen.mask, state.found, state.normals, of_depth, whole)
+    clues = uncertainty.clues(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole)
     sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
     drawn = np.exp(-((clues.bend_deg / AGREE_DEG) ** 2))[:, None]
     n = lambert.unit(state.normals + drawn * of_depth)[0]

@@ -4,10 +4,12 @@ Symbols, degrees a pixel: s the error that the samples' own variances make, chi2
 the depth, R5 its rms over 5x5 pixels::
 
     sigma^2 = (A s max(1, sqrt(chi2 / dof)))^2 + (B R5)^2 + (C R)^2 + SMOOTH^2 + calibration^2
-            + EDGE^2 [near an edge or a break] + THREE^2 [three lights] + FILLED^2 [filled]
+            + EDGE^2 [near an edge or a break] + THREE^2 [three lights] + FILLED^2 [filled] + (THROWN j)^2 + (UNSEEN h)^2
 
-A, B, C and the rest were fitted on six rendered objects (82 to 93 % within two sigma where 86 are expected). What smooth
-light from elsewhere on the object does shows in nothing that is seen, hence SMOOTH. The calibration's part is common to the whole image.
+with j the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights, and h how much of what
+stands round it is a side that the camera does not see (surface.bounce). The factors were fitted on six rendered objects (77 to 94 % within
+two sigma where 86 are expected). What else smooth light from elsewhere does shows in nothing that is seen, hence SMOOTH. The
+calibration's part is common to the whole image.
 """
 
 from __future__ import annotations
@@ -20,11 +22,13 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface.integrate import Grid
-from lpcal.surface.normals import Estimate
+from lpcal.surface.normals import Estimate, thrown_share
+from lpcal.surface.sight import Lit
 
-A, B, C = 0.65, 0.45, 1.0
+A, B, C = 0.36, 0.25, 0.55
 EDGE_DEG, THREE_DEG, FILLED_DEG = 4.0, 0.7, 20.0
-SMOOTH_DEG = 0.3
+SMOOTH_DEG = 0.35
+THROWN_DEG, UNSEEN_DEG = 22.0, 5.0
 EDGE_PX = 1.5
 MM_A_PERCENT = 4.0
 """Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
@@ -49,9 +53,13 @@ class Clues:
     edge: Mask
     used: Array
     filled: Mask
+    thrown: Array
+    """Light from around by that which comes straight."""
+    unseen: Array
+    """Share of unseen sides in what stands around."""
 
 
-def clues(grid: Grid, mask: Mask, found: Estimate, normals: Array, of_depth: Array, whole: Mask) -> Clues:
+def clues(grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_depth: Array, whole: Mask) -> Clues:
     """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold."""
     from scipy import ndimage
 
@@ -70,13 +78,15 @@ def clues(grid: Grid, mask: Mask, found: Estimate, normals: Array, of_depth: Arr
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(b)) + np.bincount(grid.b[whole], minlength=len(b)) < 4
     edge = ndimage.distance_transform_edt(~rim)[mask] <= EDGE_PX
-    return Clues(noise, misfit, bend, bend_round, edge, found.used, filled)
+    unseen = np.zeros(len(b)) if lit.unseen is None else lit.unseen
+    return Clues(noise, misfit, bend, bend_round, edge, found.used, filled, thrown_share(lit, found), unseen)
 
 
 def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:
     """Standard deviation (P,) of a normal per axis, degrees."""
     square = (A * found.noise_deg * np.maximum(1, np.sqrt(found.misfit))) ** 2 + (B * found.bend_round_deg) ** 2 + (C * found.bend_deg) ** 2
     square += EDGE_DEG**2 * found.edge + THREE_DEG**2 * (found.used == 3) + FILLED_DEG**2 * found.filled + SMOOTH_DEG**2
+    square += (THROWN_DEG * found.thrown) ** 2 + (UNSEEN_DEG * found.unseen) ** 2
     return np.sqrt(square + calibration_deg**2)
 
 
