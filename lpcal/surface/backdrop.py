@@ -1,11 +1,12 @@
 r"""What a plane with an albedo of its own kind says of pixels: the wall behind an object, the front of its support.
 
 Symbols: plane q foretells the signal ``m_k`` of white (see surface.planes); a pixel of it has ``I_k = rho m_k s_k``, s 1 in the light, 0 in
-shadow, between in the penumbra. Its albedo is a smooth trend over the image times the plane's own pattern, a histogram w over bins j::
+shadow, between in the penumbra. Its albedo rho is a smooth trend over the image times what the plane shows of a pattern of its own, h::
 
-    p(I | plane) = sum_j w_j prod_k p(r_jk)        r_jk = I_k / (rho_j m_k)
+    r_k = I_k / (rho m_k)
     p(r) = LIT N(r; 1, s) + SHADE N(r; 0, t) + HALF [0 < r < 1] + ODD p(r | other)
     p(r | other) = DIM N(r; 0, t) + (1 - DIM) lognormal(r; 0, BROAD)
+    evidence for the plane = max over rho of  sum_k log p(r_k) / p(r_k | other)  +  log h(rho) / even
 
 So what has the plane's ratios but not its albedo is not the plane, nor what has its albedo but not its ratios; and what is dark in every
 light may be either. Models of this form: C. M. Bishop, Pattern Recognition and Machine Learning (2006), 9.
@@ -21,21 +22,27 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import planes
 from lpcal.surface.sight import Sight
 
-LIT, SHADE, HALF, ODD = 0.7, 0.25, 0.04, 0.01
+LIT, SHADE, HALF, ODD = 0.73, 0.25, 0.015, 0.005
 DIM = 0.25
 BROAD = 1.0
 """Standard deviation of the logarithm of a signal of anything else by what the plane would send."""
 GLOW = 0.04
 """Of the plane's signal: what shadows hold of other light."""
-BINS = 16
-BIN = 0.08
-"""Least width of a bin of log albedo."""
-SPAN = 1.6
-"""Log albedos about the trend that the histogram covers."""
-RARE = 0.01
+MATCH = 0.7
+"""Log likelihood ratio of a sample that fits, at most: what faces like the plane fits by chance, and then in several lights."""
 SPEAK = 4.0
 """So many samples' word a pixel has at most: their errors are alike."""
-CERTAIN = 4.0
+CANDIDATES = 6
+"""Albedos tried of a pixel, by its samples' own ratios."""
+BIN, SPAN = 0.02, 3.0
+"""Width of a bin of log albedo, and how far from the trend the histogram goes."""
+TAILS, WIDER = 0.05, 3.0
+"""Share of a plane's albedos that spread so many times as wide as those seen."""
+SAME, OTHER = 1.5, 6.0
+"""Log likelihood ratio of an albedo at most, for the plane and against it."""
+DARK = 0.13
+"""A pixel of less than this share of the plane's albedo may be in shadow by every light."""
+CERTAIN = 3.0
 """Log likelihood ratio that is full evidence."""
 ROUNDS = 8
 FEWEST = 60
@@ -49,9 +56,7 @@ class Backdrop:
     trend: Array
     """(6,) of log albedo, see `_powers`."""
     pattern: Array
-    """(J,) log albedos about the trend."""
-    weight: Array
-    """(J,)."""
+    """(J,) log likelihood ratio of log albedos from -SPAN to SPAN about the trend, BIN apart."""
     std: float
     """Relative, of a sample about the model."""
 
@@ -74,27 +79,40 @@ def backdrop(seen: Sight, m: Array, plane: planes.Plane, claimed: Mask, sure: Ma
         root = np.where(claimed, 1 / np.sqrt(1 + (off / (2 * size)) ** 2), 0.0)
         ridge = 1e-3 * np.sqrt(claimed.sum()) * np.diag([0, 0, 0, 1, 1, 1])
         trend = np.linalg.lstsq(np.vstack([root[:, None] * powers, ridge]), np.append(root * level, np.zeros(6)), rcond=None)[0]
-    off = (level - powers @ trend)[sure]
-    wide = max(BIN, float(np.diff(np.percentile(off, [5, 95]))[0]) / BINS)
-    edges = wide * (np.arange(2 * int(SPAN / wide) + 2) - int(SPAN / wide) - 0.5)
+    return Backdrop(plane, trend, _pattern((level - powers @ trend)[sure]), planes.MODEL * max(1.0, plane.misfit))
+
+
+def _pattern(off: Array) -> Array:
+    """Log likelihood ratio (J,) of albedos, that of anything else evenly spread."""
+    from scipy import ndimage
+
+    edges = BIN * (np.arange(2 * round(SPAN / BIN) + 2) - round(SPAN / BIN) - 0.5)
     count = np.histogram(off, edges)[0].astype(float)
-    weight = count / max(count.sum(), 1.0)
-    kept = weight > RARE
-    middle = (edges[1:] + edges[:-1])[kept] / 2
-    std = float(np.hypot(planes.MODEL * max(1.0, plane.misfit), wide / np.sqrt(12)))
-    return Backdrop(plane, trend, middle, weight[kept] / weight[kept].sum(), std)
+    spread = 0.741 * float(np.diff(np.percentile(off, [25, 75]))[0]) + BIN
+    seen = ndimage.gaussian_filter1d(count, 0.5 * spread / BIN)
+    tails = ndimage.gaussian_filter1d(count, WIDER * spread / BIN)
+    share = ((1 - TAILS) * seen + TAILS * tails) / max(count.sum(), 1.0)
+    return np.asarray(np.clip(np.log(share * len(count) + 1e-9), -OTHER, SAME))
 
 
 def evidence(seen: Sight, m: Array, backdrop: Backdrop) -> Array:
     """From -1 (the backdrop explains the pixel) to 1 (it does not) of pixels (P,); 0 where nothing tells."""
     strong, white = planes.strong(seen, m)
-    base = np.exp(_powers(seen.rays_C) @ backdrop.trend)
+    ratio, noise = np.where(strong, seen.signal / white, 0.0), np.maximum(seen.sigma / white, 1e-9)
+    ranked = np.sort(ratio, axis=0)[::-1]
+    fits, albedo = np.full(seen.pixels, -np.inf), np.ones(seen.pixels)
+    for rank in np.unique(np.linspace(0, 0.7 * (len(m) - 1), CANDIDATES).astype(int)):
+        rho = np.maximum(ranked[rank], 1e-9)
+        told = np.where(strong, _told(ratio / rho, noise / rho, backdrop.std), 0.0)
+        weight = (told > 0) & (ratio > 0.5 * rho)
+        better = told.sum(axis=0) > fits
+        mean = np.sum(weight * ratio / noise**2, axis=0) / np.maximum(np.sum(weight / noise**2, axis=0), 1e-30)
+        fits = np.where(better, told.sum(axis=0), fits)
+        albedo = np.where(better & weight.any(axis=0), mean, np.where(better, rho, albedo))
     share = np.minimum(1.0, SPEAK / np.maximum(strong.sum(axis=0), 1))
-    log = np.full(seen.pixels, -np.inf)
-    for off, weight in zip(backdrop.pattern, backdrop.weight, strict=True):
-        full = base * np.exp(off) * white
-        told = np.where(strong, _told(seen.signal / full, seen.sigma / full, backdrop.std), 0.0).sum(axis=0)
-        log = np.logaddexp(log, np.log(weight) + share * told)
+    off = np.log(np.maximum(albedo, 1e-9)) - _powers(seen.rays_C) @ backdrop.trend
+    place = np.clip(np.rint(off / BIN) + len(backdrop.pattern) // 2, 0, len(backdrop.pattern) - 1).astype(int)
+    log = np.where(off < np.log(DARK), 0.0, share * (fits - MATCH) + backdrop.pattern[place])
     return np.asarray(np.where(strong.any(axis=0), np.clip(-log / CERTAIN, -1, 1), 0.0))
 
 
@@ -106,7 +124,7 @@ def _told(r: Array, noise: Array, std: float) -> Array:
     other = DIM * dark + (1 - DIM) * _normal(np.log(positive), 0.0, spread) / positive * (r > 0)
     half = HALF * ((r > 0) & (r < 1))
     plane = LIT * _normal(r, 1.0, np.hypot(noise, std)) + SHADE * dark + half + ODD * other
-    return np.asarray(np.log((plane + 1e-12) / (other + 1e-12)))
+    return np.asarray(np.minimum(np.log((plane + 1e-12) / (other + 1e-12)), MATCH))
 
 
 def _normal(x: Array, mean: float, std: Array) -> Array:

@@ -27,6 +27,9 @@ SPAN = (0.55, 3.5)
 """Of the working distance: where planes are looked for."""
 TILTS = ((0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0))
 """Slopes of the planes that a fit starts from: x and y parts of q by its z part."""
+TRIED = 3
+SHADE_PRICE = 3.0
+"""Sigmas that a sample costs which a plane takes for shadow: else one that fits nothing is as good as one that fits all."""
 BEHIND = 1e-3
 TRUSTED = 4.0
 """Misfit of a pixel under which the plane is believed there."""
@@ -100,13 +103,17 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
     if seen.pixels < 30:
         return None
     some = thinned(seen)
+    fewer = some.at(np.arange(0, some.pixels, 3))
 
     def cost(q: Array) -> Array:
         r, _ = residuals(some, foretold(q, some.rays_C, lights), shaded=False)
         return np.nan_to_num(r, posinf=1e2).ravel()
 
     def robust(q: Array) -> float:
-        return float(np.sum(np.log1p(cost(q) ** 2)))
+        m = foretold(q, fewer.rays_C, lights)
+        r, _ = residuals(fewer, m, shaded=False)
+        shade = (r == 0) & strong(fewer, m)[0]
+        return float(np.sum(np.log1p(np.where(shade, SHADE_PRICE, np.nan_to_num(r, posinf=1e2)) ** 2)))
 
     nearest, furthest = SPAN
     starts = [
@@ -114,9 +121,9 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
         for share in np.geomspace(nearest, furthest, 14)
         for sx, sy in (TILTS if tilted else TILTS[:1])
     ]
-    best = sorted(starts, key=robust)[:2]
-    found = [optimize.least_squares(cost, q, loss="cauchy", max_nfev=25) for q in best]
-    q = np.asarray(min(found, key=lambda one: one.cost).x)
+    best = sorted(starts, key=robust)[:TRIED]
+    q = min((np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=6).x) for q in best), key=robust)
+    q = np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=25).x)
     return Plane(q, float(np.sqrt(np.median(misfit(some, foretold(q, some.rays_C, lights), shaded=False)[0]))))
 
 
