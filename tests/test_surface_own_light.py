@@ -7,12 +7,22 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import bounce, distance, normals, rounds
+from lpcal.surface import bounce, distance, normals, rounds, sides
 from lpcal.surface.integrate import Grid, Own
+from lpcal.surface.planes import Plane, foretold
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.surroundings import Patches, Whole, patches
 
 FOCAL = 260.0
+
+
+def lamp(name: str, source: list[float]) -> Light:
+    source_C = np.array(source)
+    return Light(name, source_C / np.linalg.norm(source_C), np.ones(1), None, source_C, -source_C)
+
+
+HIGH = lamp("high", [0.0, 0.0, 0.01])
 
 
 def sight_of(mask: Mask, signal: Array) -> Sight:
@@ -37,10 +47,77 @@ def bowl(half_angle_deg: float = 55.0) -> tuple[Sight, Array, Array, float]:
 
 def test_inside_a_sphere_every_place_gets_the_same_light_from_the_rest():
     seen, depth, n, share = bowl()
-    J = bounce.thrown(seen, depth, n, seen.signal)
+    J, unseen = bounce.thrown(seen, depth, shown(n), n, [HIGH])
     got = np.einsum("pi,pi->p", J[0], n)
+    assert unseen.mean() < 0.01
     assert abs(np.median(got) / share - 1) < 0.07
     assert np.mean(np.abs(got / share - 1) < 0.15) > 0.9
+
+
+def shown(n: Array, lights: int = 1) -> normals.Estimate:
+    """An estimate of albedo 1 everywhere, without gloss."""
+    none = np.zeros(len(n))
+    return normals.Estimate(n, np.ones((lights, len(n)), bool), np.zeros((len(n), 3, 3)), none, none)
+
+
+def test_a_wall_behind_lights_what_is_turned_away_from_the_camera():
+    tilt = np.radians(60.0)
+    seen = sight_of(np.ones((40, 40), bool), np.zeros((1, 1600)))
+    n = np.tile([np.sin(tilt), 0.0, -np.cos(tilt)], (1600, 1))
+    depth = 0.30 * n[:, 2] / lambert.dot(n, seen.rays_C)
+    side, spacing = np.meshgrid(np.linspace(-4.0, 4.0, 161), np.linspace(-4.0, 4.0, 161)), 0.05
+    x_C = np.stack([side[0].ravel(), side[1].ravel(), np.full(161**2, 0.5)], axis=1)
+    wall = Patches(x_C, np.tile([0.0, 0.0, -1.0], (len(x_C), 1)), np.full(len(x_C), spacing**2), np.ones((1, len(x_C))))
+    alone, _ = bounce.thrown(seen, depth, shown(n), n, [HIGH])
+    both, _ = bounce.thrown(seen, depth, shown(n), n, [HIGH], wall)
+    got = lambert.dot(both[0] - alone[0], n)
+    assert abs(np.median(got) / ((1 - np.cos(tilt)) / 2) - 1) < 0.15  # of a plane without end, seen under that angle
+    assert np.abs(lambert.dot(alone[0], n)).max() < 1e-9
+
+
+def test_the_wall_is_taken_up_as_it_is_seen():
+    mask = np.ones((90, 120), bool)
+    plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
+    bare = sight_of(mask, np.zeros((3, mask.size)))
+    lights = [lamp(f"L{k}", [0.2 * np.cos(a), 0.2 * np.sin(a), 0.03]) for k, a in enumerate(np.arange(3) * 2 * np.pi / 3)]
+    signal = 0.5 * foretold(plane.q, bare.rays_C, lights)
+    hidden = np.zeros((90, 120), bool)
+    hidden[30:60, 40:80] = True
+    found = patches(Whole(sight_of(mask, signal), hidden, 1), [plane], lights)
+    assert found is not None
+    assert np.allclose(found.x_C @ plane.q, 1, atol=1e-3)
+    corners = np.array([[-59.5, -44.5, FOCAL], [60.5, -44.5, FOCAL], [60.5, 45.5, FOCAL], [-59.5, 45.5, FOCAL]]) / FOCAL
+    at = corners / (corners @ plane.q)[:, None]
+    whole_area = 0.5 * np.linalg.norm(np.cross(at[2] - at[0], at[3] - at[1]))
+    left_out = (30 + 2 * 2) * (40 + 2 * 2) / (90 * 120)
+    assert abs(found.area.sum() / whole_area - (1 - left_out)) < 0.03
+    assert np.allclose(found.signal, 0.5 * foretold(plane.q, found.x_C / found.x_C[:, 2:], lights), rtol=0.05)
+
+
+def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind():
+    mask, albedo = np.ones((80, 160), bool), 0.6
+    seen = sight_of(mask, np.zeros((2, mask.size)))
+    near = seen.rays_C[:, 0] < 0
+    depth = np.where(near, 0.30, 0.35)
+    x_C, n = seen.points_C(depth), np.array([[0.0, 0.0, -1.0]])
+    lights = [lamp("right", [0.18, 0.0, 0.03]), lamp("left", [-0.18, 0.0, 0.03])]
+    beside = np.flatnonzero(~near & (x_C[:, 0] > 0.012) & (x_C[:, 0] < 0.030) & (np.abs(x_C[:, 1]) < 0.01))
+    J, share = sides.thrown(x_C[beside], np.repeat(n, len(beside), axis=0), Relief.of(seen, depth), np.full(mask.shape, albedo), lights)
+    z, y = np.meshgrid(np.linspace(0.30, 0.35, 201), np.linspace(-0.045, 0.045, 361), indexing="ij")
+    side_C = np.stack([np.zeros(z.size), y.ravel(), z.ravel()], axis=1)  # the true side of the step, at x = 0, seen edge on by the camera
+    to_light = lights[0].source_C - side_C
+    shines = albedo * to_light[:, 0] / np.linalg.norm(to_light, axis=1) ** 3
+    area = (0.05 / 200) * (0.09 / 360)
+    ratios = []
+    for p, got, part in zip(x_C[beside], J[0], share, strict=True):
+        e = side_C - p
+        r = np.linalg.norm(e, axis=1)
+        form = np.maximum(-e[:, 2], 0) / r * p[0] / r * area / (np.pi * r**2)
+        ratios.append([-got[2] / np.sum(shines * form), part / form.sum()])
+    light, blocked = np.mean(ratios, axis=0)
+    assert 0.55 < light < 1.2  # which way a side faces is guessed
+    assert 0.75 < blocked < 1.1
+    assert not J[1].any()  # the left light does not reach it
 
 
 def bowl_under_lights(reflectance: float) -> tuple[Sight, Lit, Array, Array]:
@@ -65,7 +142,7 @@ def test_light_that_bounces_no_longer_flattens_a_bowl():
     seen, lit, depth, n = bowl_under_lights(0.8)
     usable, variance = normals.candidates(seen, lit.E), normals.variances(seen)
     plain = normals.estimate(seen, lit.B, usable, variance)
-    J = bounce.thrown(seen, depth, n, seen.signal)
+    J, _ = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
     found, albedo = bounce.reflectance(seen, lit, J, usable, plain)
     assert 0.5 <= found <= 0.9
     better = normals.estimate(seen, lit.B + found / albedo * J, usable, variance)

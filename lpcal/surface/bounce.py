@@ -45,7 +45,9 @@ INDEPENDENT = 60.0
 """Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
 
 
-def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Patches | None = None) -> tuple[Array, Array]:
+def thrown(
+    seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Patches | None = None
+) -> tuple[Array, Array]:
     """J (L, P, 3) of a surface of depths (P,), normals n (P, 3) and an estimate of its albedo, and of what stands around it.
 
     Besides the share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see.

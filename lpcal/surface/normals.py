@@ -108,9 +108,7 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
     if lit.thrown is None:
         return np.zeros(len(found.b))
     b = np.nan_to_num(found.b)
-    direct, thrown = (
-        np.sum(np.where(found.inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (lit.d * lit.E[..., None], lit.thrown)
-    )
+    direct, thrown = (np.sum(np.where(found.inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (lit.d * lit.E[..., None], lit.thrown))
     return np.asarray(thrown / np.maximum(direct, 1e-12))
 
 

@@ -17,7 +17,20 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import bend, gains, mask, normals, pieces, planes, rounds, shadow_anchor, sight, surroundings, uncertainty, without_ambient
+from lpcal.surface import (
+    bend,
+    gains,
+    mask,
+    normals,
+    pieces,
+    planes,
+    rounds,
+    shadow_anchor,
+    sight,
+    surroundings,
+    uncertainty,
+    without_ambient,
+)
 from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 
@@ -79,40 +92,28 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
-    backdrop = _backdrop(maps, rays_C, object_mask) if near and background is not None and background.planes else None
-    around = None if backdrop is None or background is None else surroundings.patches(backdrop.seen, background.planes, lights, backdrop.hidden)
+    found = background.planes if near and background is not None else ()
+    whole = surroundings.whole(maps, rays_C, object_mask) if found else None
+    around = surroundings.patches(whole, found, lights) if whole is not None else None
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
-    how = background.how if wanted and background is not None else "given" if options.mask is not None or radiance.mask is not None else "every pixel"
     state = rounds.run(scene, float(begin), progress)
-    if backdrop is not None and background is not None and calibration.camera is not None and options.distance_m is None:
-        state = _anchored(scene, state, backdrop, background.planes[0], calibration.camera)
+    if whole is not None and calibration.camera is not None and options.distance_m is None:
+        state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
-    return replace(surface, figures={"mask": how, **told, **surface.figures})
+    return replace(surface, figures={"mask": _how(background if wanted else None, radiance, options), **told, **surface.figures})
 
 
-@dataclass(frozen=True)
-class Backdrop:
-    """The whole image in coarse pixels, for what stands behind the object."""
-
-    seen: sight.Sight
-    hidden: Mask
-    """(H, W) where the object hides it."""
-    factor: int
-    """Pixels a coarse pixel."""
+def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
+    """How the mask was found, in words."""
+    if background is not None:
+        return background.how
+    return "given" if options.mask is not None or radiance.mask is not None else "every pixel"
 
 
-def _backdrop(maps: sight.Grey, rays_C: Array, object_mask: Mask) -> Backdrop:
-    coarse, coarse_rays, factor = mask.binned(maps, rays_C)
-    everywhere = sight.look_at(coarse, coarse_rays, np.ones(coarse.signal.shape[1:], bool), central=True)
-    height, width = (side * factor for side in everywhere.mask.shape)
-    hidden = object_mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
-    return Backdrop(everywhere, hidden, factor)
-
-
-def _anchored(scene: Scene, state: State, backdrop: Backdrop, wall: planes.Plane, camera: Camera) -> State:
+def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: planes.Plane, camera: Camera) -> State:
     """The state with pieces put where their shadows on the wall say, and one more round of normals there."""
-    shown = shadow_anchor.screen(backdrop.seen, wall, scene.lights, backdrop.hidden, backdrop.factor)
+    shown = shadow_anchor.screen(whole.seen, wall, scene.lights, whole.hidden, whole.factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
     model_std = {int(one): _model_std(state, label == one) for one in np.unique(label)}
     anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)

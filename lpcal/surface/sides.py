@@ -16,10 +16,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface.relief import Relief
-from lpcal.surface.sight import light_vectors
+from lpcal.surface.sight import Indices, light_vectors
 
 DIRECTIONS = 64
 REACHES = np.geomspace(0.01, 0.35, 12)
@@ -33,7 +33,7 @@ OFF = 0.004
 SHADOW_STEPS = 24
 
 
-def thrown(x_C: Array, n: Array, relief: Relief, albedo: Image, lights: Sequence[Light]) -> tuple[Array, Array]:
+def thrown(x_C: Array, n: Array, relief: Relief, albedo: Array, lights: Sequence[Light]) -> tuple[Array, Array]:
     """J (L, Q, 3) at patches x_C (Q, 3) with normals n (Q, 3), and the share (Q,) of unseen sides in what stands round them.
 
     `albedo` (H, W) is in the units of the signals.
@@ -61,7 +61,7 @@ def _directions(n: Array) -> Array:
     return np.einsum("jk,jqi->kqi", local, np.stack([e1, e2, n]))
 
 
-def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Array, Array]:
+def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
     """Patches whose direction `way` (Q, 3) enters the body by an unseen side, and where (N, 3)."""
     low, high = np.zeros(len(x_C)), np.zeros(len(x_C))
     met: Mask = np.zeros(len(x_C), bool)
