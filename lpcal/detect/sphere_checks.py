@@ -23,7 +23,7 @@ SOFT_PX = 1.6
 """Where no outline is found in a picture without an edge sharper than this, that is why."""
 SCATTER_PX, SCATTER_AND_FAINT = 1.2, (0.5, 15.0)
 """An outline whose points scatter so far (of a large one further), or so far with so little contrast, is none."""
-SECOND_RAYS, SECOND_CONTRAST, SECOND_SCATTER_PX = 0.75, 14.0, 0.6
+SECOND_RAYS, SECOND_CONTRAST, SECOND_SCATTER_PX = 0.75, 14.0, 0.7
 SECOND_SIZE, SECOND_SUPPORT, SECOND_TRIED = (0.5, 2.0), 0.1, 2
 POSSIBLE_M = (0.02, 20.0)
 """Nearer or farther than this no sphere stands."""
