@@ -27,7 +27,7 @@ from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Patches
 
-PATCHES = 1200
+PATCHES = 2000
 STEPS = 6
 OFF = 0.025
 """Of the depth: so near to either end nothing is taken to stand between two patches that face each other: backs are rounder than told."""
@@ -41,7 +41,7 @@ REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 COMMON, COMMON_SIGMA = 0.6, 0.3
 """Reflectance of objects as prior."""
 SAMPLE = 900
-INDEPENDENT = 60.0
+INDEPENDENT = 25.0
 """Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
 
 

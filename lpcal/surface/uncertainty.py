@@ -25,9 +25,9 @@ from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, thrown_share
 from lpcal.surface.sight import Lit
 
-A, B, C = 0.36, 0.25, 0.55
+A, B, C = 0.40, 0.28, 0.62
 EDGE_DEG, THREE_DEG, FILLED_DEG = 4.0, 0.7, 20.0
-SMOOTH_DEG = 0.35
+SMOOTH_DEG = 0.4
 THROWN_DEG, UNSEEN_DEG = 22.0, 5.0
 EDGE_PX = 1.5
 MM_A_PERCENT = 4.0
