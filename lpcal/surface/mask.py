@@ -31,12 +31,12 @@ STIFFNESS = 0.6
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
-DARK_SHARE, LEAST_DARK, MOST_DARK = 0.2, 0.05, 0.3
-"""Matter whose brightest light is darker than this share of the object's own is dark; bounds of it where the support tells."""
+DARK_SHARE = 0.2
+"""Matter whose brightest light is darker than this share of the object's own is dark."""
+OF_SUPPORT, LEAST_DARK, MOST_DARK = 1.7, 0.05, 0.3
+"""Where a support was found: what is darker than so many times the support, between these shares of the object's own."""
 ALBEDO_PIXELS = 15_000
 """From which a plane's albedo is made out."""
-OF_SUPPORT = 1.7
-"""The same, by the brightness of the support that was found."""
 NEAR = 3
 """Coarse pixels: how far beyond its part a plane is asked about the outline."""
 FIXED = 2.0
@@ -246,10 +246,6 @@ def _by_pixel(mask: Mask, maps: Grey, rays_C: Array, claims: Sequence[tuple[Word
     found[box] = cut.total_variation(said[box], _log(strength(maps))[box], STIFFNESS)
     found[box] = cut.halfway(found[box], maps.signal[:, *box], maps.sigma[:, *box])
     return _tidy(found)
-
-
-def _seam(mask: Mask, maps: Grey) -> Mask:
-    return _tidy(cut.along_the_seam(mask, _picture(maps)))
 
 
 def _picture(maps: Grey) -> Image:
