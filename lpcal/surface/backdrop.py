@@ -20,7 +20,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import planes
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Sight, powers
 
 LIT, SHADE, HALF, ODD = 0.73, 0.25, 0.015, 0.005
 DIM = 0.25
@@ -54,7 +54,7 @@ class Backdrop:
 
     plane: planes.Plane
     trend: Array
-    """(6,) of log albedo, see `_powers`."""
+    """(6,) of log albedo, see `sight.powers`."""
     pattern: Array
     """(J,) log likelihood ratio of log albedos from -SPAN to SPAN about the trend, BIN apart."""
     std: float
@@ -71,15 +71,15 @@ def backdrop(seen: Sight, m: Array, plane: planes.Plane, claimed: Mask, sure: Ma
     if sure.sum() < FEWEST:
         return None
     level = np.log(np.where(lit, albedo, 1.0))
-    powers = _powers(seen.rays_C)
+    terms = powers(seen.rays_C[:, :2])
     trend = np.array([np.median(level[sure]), 0, 0, 0, 0, 0])
     for step in range(ROUNDS):
-        off = level - powers @ trend
+        off = level - terms @ trend
         size = 1.5 * np.median(np.abs(off[sure if step == 0 else claimed])) + 0.02
         root = np.where(claimed, 1 / np.sqrt(1 + (off / (2 * size)) ** 2), 0.0)
         ridge = 1e-3 * np.sqrt(claimed.sum()) * np.diag([0, 0, 0, 1, 1, 1])
-        trend = np.linalg.lstsq(np.vstack([root[:, None] * powers, ridge]), np.append(root * level, np.zeros(6)), rcond=None)[0]
-    return Backdrop(plane, trend, _pattern((level - powers @ trend)[sure]), planes.MODEL * max(1.0, plane.misfit))
+        trend = np.linalg.lstsq(np.vstack([root[:, None] * terms, ridge]), np.append(root * level, np.zeros(6)), rcond=None)[0]
+    return Backdrop(plane, trend, _pattern((level - terms @ trend)[sure]), planes.MODEL * max(1.0, plane.misfit))
 
 
 def _pattern(off: Array) -> Array:
@@ -110,7 +110,7 @@ def evidence(seen: Sight, m: Array, backdrop: Backdrop) -> Array:
         fits = np.where(better, told.sum(axis=0), fits)
         albedo = np.where(better & weight.any(axis=0), mean, np.where(better, rho, albedo))
     share = np.minimum(1.0, SPEAK / np.maximum(strong.sum(axis=0), 1))
-    off = np.log(np.maximum(albedo, 1e-9)) - _powers(seen.rays_C) @ backdrop.trend
+    off = np.log(np.maximum(albedo, 1e-9)) - powers(seen.rays_C[:, :2]) @ backdrop.trend
     place = np.clip(np.rint(off / BIN) + len(backdrop.pattern) // 2, 0, len(backdrop.pattern) - 1).astype(int)
     log = np.where(off < np.log(DARK), 0.0, share * (fits - MATCH) + backdrop.pattern[place])
     return np.asarray(np.where(strong.any(axis=0), np.clip(-log / CERTAIN, -1, 1), 0.0))
@@ -129,9 +129,3 @@ def _told(r: Array, noise: Array, std: float) -> Array:
 
 def _normal(x: Array, mean: float, std: Array) -> Array:
     return np.asarray(np.exp(-0.5 * ((x - mean) / std) ** 2) / (2.5066 * std))
-
-
-def _powers(rays_C: Array) -> Array:
-    """1, x, y, x^2, xy, y^2 of rays (P, 3): (P, 6)."""
-    x, y = rays_C[:, 0], rays_C[:, 1]
-    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)

@@ -1,4 +1,4 @@
-r"""Light that the parts of an object throw on each other, taken up as more light.
+r"""Light that an object gets from its own parts and from what stands round it, taken up as more light.
 
 Symbols: patch j of area A_j and normal n_j has the radiance that its pixels show, signal I_k(j) under light k; e_pj is the unit vector from
 p to j at the distance r. A patch of reflectance a emits its signal, so point p of normal n and reflectance a_p gets besides::
@@ -7,9 +7,10 @@ p to j at the distance r. A patch of reflectance a emits its signal, so point p 
 
 with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
-holds all bounces, since I_k(j) does. s is the one number that the signals do not state: it is chosen by the robust misfit, with the
-reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg 1985 (form
-factors).
+holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
+camera does not see are guessed (surface.sides). s is the one number that the signals do not state: it is chosen by the robust misfit,
+with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg
+1985 (form factors).
 """
 
 from __future__ import annotations

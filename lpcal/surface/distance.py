@@ -31,7 +31,7 @@ GLOSS_DOUBT = 2.0
 ALIKE = 0.005
 """What neighbouring samples err by alike, of the signal."""
 UNSEEN_DOUBT, THROWN_DOUBT, SHINE_DOUBT = 0.3, 0.2, 0.5
-"""What they err by besides: of the share of unseen sides about a pixel, and of the light that is known to be thrown on it."""
+"""What they err by besides: of the share of unseen sides about a pixel, of the light that is known to be thrown on it, and of gloss."""
 PATCHES_ACROSS = 40
 """Of an object: patches of this size are asked for their distance together."""
 ESTRANGED = 1.5

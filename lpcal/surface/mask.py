@@ -1,8 +1,9 @@
 """Which pixels are the object: not the wall behind it, not the support under it, not the dark.
 
-Near light places the plane behind the object from the border of the image; a pixel that this plane explains, shadows counted, is wall. What
-is left and touches the border is tried as further planes (support, shelf), and dark matter that hangs on those or on the border is support
-too. Without near light, or where no plane is lit, the strength of the signal decides.
+Near light places the plane behind the object from the border of the image; a pixel that this plane explains, by the ratios of its lights
+and by its albedo, shadows counted, is wall. What is left and touches the border is tried as further planes (support, shelf), and dark
+matter that hangs on those or on the border is support too. Without near light, or where no plane is lit, the strength of the signal
+decides.
 """
 
 from __future__ import annotations

@@ -72,9 +72,14 @@ def albedo(seen: Sight, m: Array) -> tuple[Array, Mask]:
 
 def strong(seen: Sight, m: Array) -> tuple[Mask, Array]:
     """The samples (L, P) by which a plane is judged, and m with 1 where a ray misses the plane."""
-    hit = np.isfinite(m).all(axis=0) & (m > 0).any(axis=0)
+    hit = _hit(m)
     white = np.where(hit, m, 1.0)
     return seen.usable & hit & (white > WEAK * white.max(axis=0)), white
+
+
+def _hit(m: Array) -> Mask:
+    """Where (P,) rays meet the plane and some light."""
+    return np.asarray(np.isfinite(m).all(axis=0) & (m > 0).any(axis=0))
 
 
 def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, Array]:
@@ -87,7 +92,7 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
     counted = sound & (ratio > SHADE * high)
     weight = counted / (seen.sigma**2 + (MODEL * seen.signal) ** 2)
     found = np.sum(weight * white * seen.signal, axis=0) / np.maximum(np.sum(weight * white**2, axis=0), 1e-30)
-    return np.isfinite(m).all(axis=0) & (m > 0).any(axis=0), found, counted, white
+    return _hit(m), found, counted, white
 
 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:

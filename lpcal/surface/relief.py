@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface.sight import Indices, Sight
+from lpcal.surface.sight import Indices, Sight, powers
 
 TOLERANCE = 0.003
 """Of the depth: by how much a point must lie behind the surface to be hidden."""
@@ -38,8 +38,7 @@ class Relief:
         front[seen.mask] = depth
         some = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
         rows, columns = (index[some] for index in np.nonzero(seen.mask))
-        powers = _powers(seen.rays_C[some, :2])
-        pixel_of_ray = np.linalg.lstsq(powers, np.stack([columns, rows], axis=1).astype(float), rcond=None)[0]
+        pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), np.stack([columns, rows], axis=1).astype(float), rcond=None)[0]
         return Relief(ndimage.maximum_filter(front, 3, mode="constant", cval=np.inf), pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
@@ -62,7 +61,7 @@ class Relief:
     def pixels(self, y_C: Array) -> tuple[Indices, Indices, Mask]:
         """Columns and rows (N,) of points (N, 3), and whether these are in the image."""
         height, width = self.front.shape
-        pixel = np.rint(_powers(y_C[:, :2] / y_C[:, 2:]) @ self.pixel_of_ray)
+        pixel = np.rint(powers(y_C[:, :2] / y_C[:, 2:]) @ self.pixel_of_ray)
         inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < width) & (pixel[:, 1] < height)
         column, row = np.where(inside[:, None], pixel, 0).astype(np.int64).T
         return column, row, inside
@@ -73,9 +72,3 @@ class Relief:
         fall = np.maximum(x_C[:, 2] - source_C[2], 1e-9)
         share = np.clip((x_C[:, 2] - nearest) / fall, 0, 1)
         return self.hidden(x_C, x_C + share[:, None] * (source_C - x_C), steps)
-
-
-def _powers(xy: Array) -> Array:
-    """Powers and products (N, 6) of rays' x and y (N, 2), to the second degree: lenses bend the map from rays to pixels a little."""
-    x, y = xy.T
-    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)

@@ -85,9 +85,9 @@ class Lit:
     E: Array
     """(L, P) irradiance."""
     thrown: Array | None = None
-    """(L, P, 3) light vectors of what other parts of the object throw here (surface.bounce)."""
+    """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.bounce)."""
     unseen: Array | None = None
-    """(P,) share of what stands around a pixel that is of the object and not seen: what it throws is not in `thrown`."""
+    """(P,) share of what stands around a pixel that is of the object and not seen: what it throws is guessed."""
 
     @property
     def B(self) -> Array:
@@ -192,3 +192,9 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
         direction, irradiance = light.field(x_C if focus_C is None else focus_C)
         d[k], E[k] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
     return d, E
+
+
+def powers(xy: Array) -> Array:
+    """1, x, y, x^2, xy, y^2 (P, 6) of rays' x and y (P, 2): what is smooth over the image follows them."""
+    x, y = xy.T
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)

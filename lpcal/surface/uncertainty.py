@@ -7,7 +7,7 @@ the depth, R5 its rms over 5x5 pixels::
             + EDGE^2 [near an edge or a break] + THREE^2 [three lights] + FILLED^2 [filled] + (THROWN j)^2 + (UNSEEN h)^2
 
 with j the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights, and h how much of what
-stands round it is a side that the camera does not see (surface.bounce). The factors were fitted on six rendered objects (77 to 94 % within
+stands round it is a side that the camera does not see (surface.bounce). The factors were fitted on six rendered objects (83 to 95 % within
 two sigma where 86 are expected). What else smooth light from elsewhere does shows in nothing that is seen, hence SMOOTH. The
 calibration's part is common to the whole image.
 """
