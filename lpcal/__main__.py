@@ -1,19 +1,19 @@
-"""``lpcal`` and ``python -m lpcal``: nothing is imported before Ctrl-C is caught."""
+"""``lpcal`` and ``python -m lpcal``: signals are listened for before anything is imported."""
 
 import sys
 
-INTERRUPTED = 130
+from lpcal.cli.stops import listen, say_stopped
 
 
 def run() -> int:
     """Run the command line; the exit code is the contract's."""
     try:
+        listen()
         from lpcal.cli.main import main
 
         return main()
-    except KeyboardInterrupt:
-        sys.stderr.write("lpcal: interrupted; nothing half-written was kept\n")
-        return INTERRUPTED
+    except KeyboardInterrupt as stop:
+        return say_stopped(stop)
 
 
 if __name__ == "__main__":

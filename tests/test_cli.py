@@ -138,17 +138,19 @@ def test_a_bug_shows_its_traceback_and_asks_for_a_report(lpcal: Run, plant: Plan
     assert err.endswith("please report the lines above and the command: lpcal check --deep\n")
 
 
-def test_a_bare_file_not_found_is_a_bug(lpcal: Run, plant: Plant) -> None:
-    plant(FileNotFoundError(errno.ENOENT, "No such file", "x"))
-    assert lpcal("check")[0] == 1
-
-
-@pytest.mark.parametrize("number", [errno.EACCES, errno.ENOSPC, errno.EROFS])
+@pytest.mark.parametrize("number", [errno.EACCES, errno.ENOSPC, errno.EROFS, errno.ENOENT, errno.ENAMETOOLONG, errno.EIO])
 def test_a_disk_that_refuses_is_no_bug(lpcal: Run, plant: Plant, number: int) -> None:
     plant(OSError(number, "No space left on device", "calib/camera.yaml"))
     code, out, err = lpcal("check")
     assert (code, out) == (3, "")
-    assert err == "lpcal: calib/camera.yaml: No space left on device\n  do: free it, or name another place\n"
+    assert err == "lpcal: calib/camera.yaml: No space left on device\n  do: mend that, or name another place\n"
+
+
+def test_too_little_memory_is_no_bug(lpcal: Run, plant: Plant) -> None:
+    plant(MemoryError())
+    code, out, err = lpcal("check")
+    assert (code, out) == (3, "")
+    assert err.startswith("lpcal: not enough memory\n")
 
 
 def test_an_interrupt(lpcal: Run, plant: Plant) -> None:

@@ -1,11 +1,10 @@
-"""Documents: whole or not there, of a kind and a version, every digit kept."""
+"""Documents: of a kind and a version, every digit kept, left alone where they would say the same."""
 
 from __future__ import annotations
 
 import json
 import math
-import os
-from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,105 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, plain, read_document, sha256, whole, write_document, write_text
+from lpcal.formats.documents import Provenance, plain, read_document, sha256, write_document
 
 PROVENANCE = Provenance(inputs={"stations.csv": "0" * 64}, options={"model": "auto"}, time="2026-01-01T00:00:00+00:00")
-
-
-def contents(folder: Path) -> list[str]:
-    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*"))
-
-
-def fail_after(path: Path, write: Callable[[Path], object], stop: type[BaseException] = ValueError) -> None:
-    with whole(path) as draft:
-        write(draft)
-        raise stop("stop")
-
-
-def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
-    path = tmp_path / "calib" / "camera.yaml"
-    write_text(path, "old")
-    with whole(path) as draft:
-        draft.write_text("new")
-        assert path.read_text() == "old"
-    assert path.read_text() == "new"
-    assert contents(tmp_path) == ["calib", "calib/camera.yaml"]
-
-
-@pytest.mark.parametrize("stop", [ValueError, KeyboardInterrupt])
-def test_an_error_leaves_the_old_file_and_no_debris(tmp_path: Path, stop: type[BaseException]) -> None:
-    path = tmp_path / "camera.yaml"
-    write_text(path, "old")
-    with pytest.raises(stop):
-        fail_after(path, lambda draft: draft.write_text("half of the ne"), stop)
-    assert path.read_text() == "old"
-    assert contents(tmp_path) == ["camera.yaml"]
-
-
-def test_an_error_leaves_nothing_where_there_was_nothing(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="stop"):
-        fail_after(tmp_path / "surface", Path.mkdir)
-    assert contents(tmp_path) == []
-
-
-def test_a_folder_is_replaced_never_mixed(tmp_path: Path) -> None:
-    path = tmp_path / "surface"
-    for name in ("old.ply", "new.ply"):
-        with whole(path) as draft:
-            draft.mkdir()
-            (draft / name).write_text(name)
-    assert contents(tmp_path) == ["surface", "surface/new.ply"]
-
-
-def test_an_error_leaves_the_old_folder(tmp_path: Path) -> None:
-    path = tmp_path / "surface"
-    (path / "sub").mkdir(parents=True)
-    with pytest.raises(ValueError, match="stop"):
-        fail_after(path, Path.mkdir)
-    assert contents(tmp_path) == ["surface", "surface/sub"]
-
-
-def test_a_block_that_writes_nothing_keeps_the_old_file(tmp_path: Path) -> None:
-    path = tmp_path / "camera.yaml"
-    path.write_text("old")
-    with pytest.raises(FileNotFoundError), whole(path):
-        pass
-    assert contents(tmp_path) == ["camera.yaml"]
-    assert path.read_text() == "old"
-
-
-def test_a_linked_folder_is_replaced_behind_its_link(tmp_path: Path) -> None:
-    (tmp_path / "disk").mkdir()
-    (tmp_path / "disk" / "old").touch()
-    (tmp_path / "surface").symlink_to(tmp_path / "disk")
-    with whole(tmp_path / "surface") as draft:
-        draft.mkdir()
-        (draft / "new").touch()
-    assert (tmp_path / "surface").is_symlink()
-    assert contents(tmp_path) == ["disk", "disk/new", "surface"]
-
-
-def test_something_else_in_the_way_is_kept(tmp_path: Path) -> None:
-    (tmp_path / "surface").write_text("mine")
-    (tmp_path / "mesh.ply").mkdir()
-    with pytest.raises(InputError, match="a file is in the way"), whole(tmp_path / "surface") as draft:
-        draft.mkdir()
-    with pytest.raises(InputError, match="a folder is in the way"):
-        write_text(tmp_path / "mesh.ply", "ply")
-    with pytest.raises(InputError, match=r"surface: cannot write here"):
-        write_text(tmp_path / "surface" / "mesh.ply", "ply")
-    assert contents(tmp_path) == ["mesh.ply", "surface"]
-    assert (tmp_path / "surface").read_text() == "mine"
-
-
-def test_the_new_file_has_the_permissions_of_any_other(tmp_path: Path) -> None:
-    (tmp_path / "any").touch()
-    write_text(tmp_path / "written", "x")
-    with whole(tmp_path / "folder") as draft:
-        draft.mkdir()
-    (tmp_path / "any_folder").mkdir()
-    for mine, other in (("written", "any"), ("folder", "any_folder")):
-        assert os.stat(tmp_path / mine).st_mode == os.stat(tmp_path / other).st_mode  # noqa: PTH116
 
 
 def test_numpy_values_and_nan(tmp_path: Path) -> None:
@@ -210,3 +113,16 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
 def test_sha256_is_the_files(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"abc")
     assert sha256(tmp_path / "a") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+
+
+def test_a_document_that_would_say_the_same_is_left_as_it_is(tmp_path: Path) -> None:
+    path = tmp_path / "camera.yaml"
+    later = replace(PROVENANCE, time="2026-02-02T00:00:00+00:00")
+    write_document(path, "camera", {"K": np.eye(3)}, PROVENANCE)
+    before = path.read_bytes()
+    write_document(path, "camera", {"K": np.eye(3)}, later)
+    assert path.read_bytes() == before
+    write_document(path, "camera", {"K": 2 * np.eye(3)}, later)
+    assert later.time.encode() in path.read_bytes()
+    write_document(path, "camera", {"K": 2 * np.eye(3)}, replace(later, inputs={}))
+    assert read_document(path, "camera")["provenance"]["inputs"] == {}

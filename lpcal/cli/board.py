@@ -30,13 +30,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Draw it."""
-    from lpcal.formats.documents import whole
-    from lpcal.report.board_pdf import choose_page, draw, size_mm, yaml_line
+    from lpcal.formats.outputs import marked, refuse_place, whole
+    from lpcal.report.board_pdf import TITLE, choose_page, draw, size_mm, yaml_line
 
+    kind = marked("a board", f"({TITLE}")
+    refuse_place(options.output, kind)
     board, origin = _board(options)
     page = choose_page(board, options.page)
     drawn = draw(board, page)
-    with whole(options.output) as draft:
+    with whole(options.output, kind) as draft:
         draft.write_bytes(drawn)
     width, height = size_mm(board)
     summary = [

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import json
+import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from lpcal.records.outcome import Outcome, Progress
@@ -26,8 +28,18 @@ def show(outcome: Outcome, *, as_json: bool) -> None:
 
 
 def complain(text: str) -> None:
-    """One message on stderr."""
-    print(text, file=sys.stderr)  # noqa: T201
+    """One message on stderr, where that is still there."""
+    with suppress(OSError):
+        print(text, file=sys.stderr, flush=True)  # noqa: T201
+
+
+def open_streams() -> None:
+    """Make stdout and stderr take every text: a stream that was closed goes nowhere, one of another encoding shows ? for what it lacks."""
+    sys.stdout = sys.stdout or open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115 - as long as the process lives
+    sys.stderr = sys.stderr or open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 @contextmanager

@@ -21,8 +21,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Write the field of every light at every point."""
     from lpcal.formats.calibration_yaml import read_calibration
-    from lpcal.formats.field_csv import read_points, write_field
+    from lpcal.formats.field_csv import FIELD, read_points, write_field
+    from lpcal.formats.outputs import refuse_place
 
+    refuse_place(options.output, FIELD, (options.calibration, options.points))
     calibration = read_calibration(options.calibration)
     x_C = read_points(options.points)
     fields, warnings = {}, []

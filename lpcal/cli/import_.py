@@ -19,10 +19,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
-    from lpcal.formats.calibration_yaml import write_calibration
-    from lpcal.formats.documents import Provenance, sha256
+    from lpcal.formats.calibration_yaml import KIND, write_calibration
+    from lpcal.formats.documents import Provenance, document_kind, sha256
     from lpcal.formats.import_lights import named_after, read_lights
+    from lpcal.formats.outputs import refuse_place
 
+    refuse_place(options.output, document_kind(KIND), [options.source])
     progress("reading", 0, 1)
     name, calibration = read_lights(options.source)
     calibration = named_after(calibration, options.images) if options.images else calibration

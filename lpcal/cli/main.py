@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import errno
 import importlib
 import os
 import shlex
 import sys
 import traceback
+from contextlib import ExitStack
 from typing import Protocol, cast
 
 from lpcal import __version__
-from lpcal.cli.console import complain, progress_bars, show
+from lpcal.cli.console import complain, open_streams, progress_bars, show
+from lpcal.cli.stops import say_stopped
 from lpcal.errors import InputError, LpcalError
 from lpcal.records.outcome import Outcome, Progress
 
@@ -37,12 +38,10 @@ COMMANDS = {
     "run": "every stage that is out of date, in order",
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
-REFUSED = {getattr(errno, name, None) for name in ("EACCES", "EPERM", "EROFS", "ENOSPC", "EDQUOT")}
 # many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's word wins
 for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
-INTERRUPTED = 130
 BUG = 1
 USAGE = 2
 
@@ -60,30 +59,46 @@ class Command(Protocol):
 def main(words: list[str] | None = None) -> int:
     """Run one command; the exit code is the contract's."""
     words = sys.argv[1:] if words is None else words
-    outcome = None
+    open_streams()
     try:
         options, command = _parse(words)
-        with progress_bars() as progress:
+        with progress_bars() as progress, ExitStack() as options.until_done:
             outcome = command.run(options, progress)
-        show(outcome, as_json=options.json)
-        sys.stdout.flush()
+        return _said(outcome, as_json=options.json)
     except LpcalError as error:
         complain(f"lpcal: {error}")
         return error.exit_code
-    except BrokenPipeError:  # whoever read the summary has left, as `| head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return outcome.exit_code if outcome else BUG
-    except KeyboardInterrupt:
-        complain("lpcal: interrupted; nothing half-written was kept")
-        return INTERRUPTED
-    except Exception as error:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
-        if isinstance(error, OSError) and error.errno in REFUSED:
-            complain(f"lpcal: {InputError(str(error.strerror), where=str(error.filename or ''), todo='free it, or name another place')}")
-            return InputError.exit_code
+    except KeyboardInterrupt as stop:
+        return say_stopped(stop)
+    except (OSError, MemoryError) as error:  # what the system refuses is the user's to mend
+        return _refused(error)
+    except Exception:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
         traceback.print_exc()
         complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {shlex.join(words)}")
         return BUG
+
+
+def _said(outcome: Outcome, *, as_json: bool) -> int:
+    """Print the outcome; its exit code. Whoever read the summary may have left, as `| head` does; the work is done all the same."""
+    try:
+        show(outcome, as_json=as_json)
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains once more at its end
+        if not isinstance(error, BrokenPipeError):
+            complain(f"lpcal: the work is done, but its summary cannot be written to stdout: {error.strerror}")
+            return outcome.exit_code or InputError.exit_code
     return outcome.exit_code
+
+
+def _refused(error: OSError | MemoryError) -> int:
+    """Say what the system refused; the exit code of an input that cannot be used."""
+    if isinstance(error, MemoryError):
+        said = InputError("not enough memory", needed="inputs that fit into it", todo="take fewer or smaller images")
+    else:
+        said = InputError(error.strerror or str(error), where=str(error.filename or ""), todo="mend that, or name another place")
+    complain(f"lpcal: {said}")
+    return said.exit_code
 
 
 def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
@@ -91,7 +106,7 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
         prog="lpcal",
         description="Calibrates a camera-and-light panel and rebuilds surfaces with it.",
         epilog="Exit codes: 0 done; 1 a bug; 2 usage; 3 an input is missing or unreadable; 4 too few or degenerate data; "
-        "5 no convergence, or the quality gate failed; 6 inputs disagree; 130 interrupted.",
+        "5 no convergence, or the quality gate failed; 6 inputs disagree; 130 interrupted (128 + n by signal n).",
     )
     parser.add_argument("--version", action=_Versions, nargs=0, help="the versions of lpcal and of the libraries that it calls, then leave")
     subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)

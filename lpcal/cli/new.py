@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Copy the panel.yaml and make the folders that it names."""
     from lpcal.formats.bundled import DEFAULT_RIG, rig_file, rig_names
-    from lpcal.formats.documents import write_text
+    from lpcal.formats.outputs import write_text
     from lpcal.formats.panel_yaml import FILE_NAME, read_rig
 
     origin = read_rig(rig_file(options.origin))

@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lpcal.cli.console import complain
+
 if TYPE_CHECKING:
     from lpcal.pipeline.workspace import Workspace
 
@@ -16,8 +18,16 @@ def add_rig_option(parser: argparse.ArgumentParser) -> None:
 
 
 def open_workspace(options: argparse.Namespace, panel: Path | None = None) -> Workspace:
-    """The rig that the command is about; `panel` is the command's own word for it."""
+    """The rig that the command is about, for it alone until it is done; `panel` is the command's own word for it."""
+    from lpcal.formats.outputs import alone_in, recover
     from lpcal.formats.panel_yaml import find, read_rig
     from lpcal.pipeline.workspace import Workspace
 
-    return Workspace(read_rig(find(panel or options.rig)))
+    def waiting() -> None:
+        complain(f"another lpcal command is at work in {workspace.folder}; waiting for its end")
+
+    workspace = Workspace(read_rig(find(panel or options.rig)))
+    options.until_done.enter_context(alone_in(workspace.folder, waiting))
+    for folder in (workspace.folder, workspace.folder / "calib", workspace.folder / "calib" / ".cache", workspace.folder / "surfaces"):
+        recover(folder)
+    return workspace

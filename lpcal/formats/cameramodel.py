@@ -13,9 +13,13 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.outputs import marked
 from lpcal.records.calibration import Camera
 
 PLAIN = {"LENSMODEL_PINHOLE": "opencv4", "LENSMODEL_OPENCV4": "opencv4", "LENSMODEL_OPENCV5": "opencv5", "LENSMODEL_OPENCV8": "opencv8"}
+MARK = "# written by lpcal\n"
+MODEL_FILE = marked("a cameramodel", MARK)
+"""A .cameramodel, as an output: only one that lpcal wrote is replaced, never a user's own."""
 
 
 def read_cameramodel(path: Path) -> Camera:

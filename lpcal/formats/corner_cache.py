@@ -15,9 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.formats.documents import plain, sha256, write_text
+from lpcal.formats.documents import plain, sha256
+from lpcal.formats.outputs import Kind, write_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import Board, BoardView
+
+CACHE = Kind("the corners' cache", lambda path: path.parent.name == ".cache")
+"""The cache, as an output: what stands in calib/.cache is lpcal's own."""
 
 
 def cache_key(image: Path, board: Board, version: int) -> str:
@@ -61,7 +65,7 @@ def write_corner_cache(path: Path, sightings: Mapping[str, Sighting]) -> None:
         }
         for key, s in sightings.items()
     }
-    write_text(path, json.dumps(entries))
+    write_text(path, json.dumps(entries), CACHE)
 
 
 def _view(entry: dict[str, Any]) -> BoardView:

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.documents import write_text
+from lpcal.formats.outputs import write_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardView
 

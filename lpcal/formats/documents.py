@@ -1,4 +1,4 @@
-"""The YAML documents that lpcal writes: versioned, of a kind, with their provenance; whole or not there.
+"""The YAML documents that lpcal writes: versioned, of a kind, with their provenance.
 
 ``lpcal: 1``, ``kind: ...``, the body, then ``provenance`` (inputs with their sha256, lpcal's version, options, time).
 """
@@ -6,10 +6,7 @@
 from __future__ import annotations
 
 import hashlib
-import shutil
-import tempfile
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
@@ -20,6 +17,7 @@ import yaml
 
 from lpcal import __version__
 from lpcal.errors import InputError
+from lpcal.formats.outputs import Kind, marked, refuse_place, write_text
 
 VERSION = 1
 
@@ -41,65 +39,32 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
-@contextmanager
-def whole(path: Path) -> Iterator[Path]:
-    """A path to write to in place of `path`: it takes the final name once the block has ended without an error.
+def document_kind(kind: str) -> Kind:
+    """Documents of a kind, as outputs: one may replace another."""
+    return marked(f"a {kind} file", f"lpcal: {VERSION}\nkind: {kind}\n")
 
-    Works for a file and for a folder; a folder of that name is replaced, never mixed.
+
+def write_document(path: Path, kind: str, body: Mapping[str, Any], provenance: Provenance, inputs: Iterable[Path] = ()) -> None:
+    """Write a YAML document of a kind; arrays become nested lists, paths and tuples plain values.
+
+    A document that would say the same but for its time is left as it is, so that nothing made from it goes out of date.
 
     Raises
     ------
-    InputError
-        Nothing can be written there, or a folder stands where a file should, or a file where a folder should.
+    UsageError, InputError
+        As `whole`; the place is one of `inputs`, or holds something else than a document of this kind.
     """
-    with _scratch_beside(path) as scratch:
-        draft = scratch / path.name
-        yield draft
-        if path.exists() and path.is_dir() != draft.is_dir():
-            found, needed = ("a folder", "a file") if path.is_dir() else ("a file", "a folder")
-            raise InputError(f"{found} is in the way", where=str(path), needed=f"a place for {needed}", todo="move it or write elsewhere")
-        if path.is_dir():
-            _replace_folder(draft, path, scratch / "before")
-        else:
-            draft.replace(path)
-
-
-@contextmanager
-def _scratch_beside(path: Path) -> Iterator[Path]:
-    """A folder on the same disk as `path`, gone afterwards."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        scratch = tempfile.TemporaryDirectory(prefix=".lpcal-", dir=path.parent)
-    except OSError as error:
-        where = str(path.parent)
-        raise InputError(
-            f"cannot write here: {error.strerror}", where=where, needed="a folder to write to", todo="write elsewhere"
-        ) from error
-    with scratch:
-        yield Path(scratch.name)
-
-
-def _replace_folder(draft: Path, path: Path, before: Path) -> None:
-    """Put a folder in the place of another, which comes back if that fails. A link to a folder stays a link."""
-    path = path.resolve()
-    shutil.move(path, before)
-    try:
-        shutil.move(draft, path)
-    except OSError:
-        shutil.move(before, path)
-        raise
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a text file, whole or not at all."""
-    with whole(path) as draft:
-        draft.write_text(text, encoding="utf-8")
-
-
-def write_document(path: Path, kind: str, body: Mapping[str, Any], provenance: Provenance) -> None:
-    """Write a YAML document of a kind; arrays become nested lists, paths and tuples plain values."""
     document = {"lpcal": VERSION, "kind": kind, **body, "provenance": asdict(provenance)}
-    write_text(path, yaml.dump(plain(document), Dumper=_Dumper, sort_keys=False, width=140, default_flow_style=None, allow_unicode=True))
+    text = yaml.dump(plain(document), Dumper=_Dumper, sort_keys=False, width=140, default_flow_style=None, allow_unicode=True)
+    refuse_place(path, document_kind(kind), inputs)
+    if path.is_file() and _without_time(path.read_bytes()) == _without_time(text.encode()):
+        return
+    write_text(path, text, document_kind(kind))
+
+
+def _without_time(document: bytes) -> bytes:
+    """A document without its last entry, the time in its provenance."""
+    return document.rpartition(b"\n  time:")[0]
 
 
 def read_document(path: Path, kind: str) -> dict[str, Any]:

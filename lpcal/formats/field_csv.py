@@ -13,10 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.documents import whole
+from lpcal.formats.outputs import marked, whole
 from lpcal.geometry.arrays import Array
 
 COLUMNS = ("x_m", "y_m", "z_m")
+HEADER = ("light", *COLUMNS, "dx", "dy", "dz", "irradiance")
+FIELD = marked("a light field", ",".join(HEADER))
 
 
 def read_points(path: Path) -> Array:
@@ -47,9 +49,9 @@ def read_points(path: Path) -> Array:
 
 def write_field(path: Path, x_C: Array, fields: Mapping[str, tuple[Array, Array]]) -> None:
     """Write the unit vectors (N, 3) and irradiances (N, C) of each light at the points x_C (N, 3)."""
-    with whole(path) as draft, draft.open("w", encoding="utf-8", newline="") as stream:
+    with whole(path, FIELD) as draft, draft.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream)
-        writer.writerow(["light", *COLUMNS, "dx", "dy", "dz", "irradiance"])
+        writer.writerow(HEADER)
         for light, (d_C, irradiance) in fields.items():
             for point, d, level in zip(x_C, d_C, irradiance.mean(axis=1), strict=True):
                 writer.writerow([light, *(f"{value:.9g}" for value in (*point, *d, level))])

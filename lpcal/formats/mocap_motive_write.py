@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lpcal.formats.documents import whole
+from lpcal.formats.outputs import whole
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 

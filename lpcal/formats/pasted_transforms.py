@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import yaml
 
-from lpcal.formats.documents import plain, write_text
+from lpcal.formats.documents import plain
+from lpcal.formats.outputs import marked, write_text
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
@@ -58,6 +59,10 @@ def both_ways(H_PC: Array, H_OB: Array, body: str) -> dict[str, dict[str, Any]]:
     }
 
 
+MARK = "# written by lpcal for easy_handeye\n"
+EASY_HANDEYE = marked("an easy_handeye calibration", MARK)
+
+
 def write_easy_handeye(path: Path, H_PC: Array, body: str) -> None:
     """easy_handeye's calibration file, eye on hand: the camera (``tracking_base_frame``) in the body (``robot_effector_frame``)."""
     x, y, z = H_PC[:3, 3]
@@ -76,7 +81,7 @@ def write_easy_handeye(path: Path, H_PC: Array, body: str) -> None:
         },
         "transformation": {"qw": qw, "qx": qx, "qy": qy, "qz": qz, "x": x, "y": y, "z": z},
     }
-    write_text(path, yaml.safe_dump(plain(document), sort_keys=False))
+    write_text(path, MARK + yaml.safe_dump(plain(document), sort_keys=False), EASY_HANDEYE)
 
 
 def numbers(values: Array, digits: int, between: str = ", ") -> str:

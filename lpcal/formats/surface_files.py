@@ -15,7 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.errors import InputError
-from lpcal.formats.documents import plain, whole
+from lpcal.formats.documents import plain
+from lpcal.formats.outputs import Kind, whole
 from lpcal.geometry.arrays import Image
 from lpcal.records.surface import Component, Surface
 from lpcal.surface.mesh import Mesh
@@ -23,11 +24,33 @@ from lpcal.surface.mesh import Mesh
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
 GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
 SUMMARY = "summary.json"
+PAGE = "relight.html"
+FILES = {"surface.npz", "normals_gl.png", "albedo.png", "mask.png", "depth.tif", "mesh.ply", "mesh.glb", SUMMARY, PAGE}
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether a folder is a surface that lpcal wrote, with nothing of anybody else's in it."""
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return False
+    strangers = {path.name for path in folder.iterdir()} - FILES
+    return isinstance(summary, dict) and summary.get("kind") == "surface" and not strangers
+
+
+SURFACE = Kind("the folder of a surface", _is_ours)
+"""A surface's folder, as an output: one may replace another."""
 
 
 def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[str, Any], page: str | None = None) -> None:
-    """Write all files of a surface; `page` is the relighting page."""
-    with whole(folder) as draft:
+    """Write all files of a surface; `page` is the relighting page.
+
+    Raises
+    ------
+    UsageError, InputError
+        As `whole`: something else than a surface stands there.
+    """
+    with whole(folder, SURFACE) as draft:
         draft.mkdir()
         np.savez_compressed(
             draft / "surface.npz", **{name: getattr(surface, name) for name in MAPS}, rays=surface.rays_C, breaks=surface.breaks
@@ -36,7 +59,7 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
         _write_meshes(draft, mesh)
         (draft / SUMMARY).write_text(json.dumps(plain(summary), indent=1) + "\n", encoding="utf-8")
         if page is not None:
-            (draft / "relight.html").write_text(page, encoding="utf-8")
+            (draft / PAGE).write_text(page, encoding="utf-8")
 
 
 def read_surface(folder: Path) -> Surface:

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import yaml
 
-from lpcal.formats.documents import plain, write_text
+from lpcal.formats.documents import plain
+from lpcal.formats.outputs import write_text
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 

@@ -12,10 +12,10 @@ from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
-from lpcal.formats.pasted_transforms import write_easy_handeye
+from lpcal.formats.pasted_transforms import EASY_HANDEYE, write_easy_handeye
 from lpcal.geometry.pose_track import PoseTrack, poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
-from lpcal.pipeline.handeye_summary import EASY_HANDEYE, body_name, summarise
+from lpcal.pipeline.handeye_summary import EASY_HANDEYE_FILE, body_name, summarise
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import HandEye, ViewVerdict
 from lpcal.records.outcome import Outcome, Progress
@@ -30,6 +30,7 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
         As the steps raise them.
     """
     workspace = with_recording(workspace, recording)
+    STAGE.look(workspace)
     given = gather(workspace, progress)
     progress("hand-eye", 0, 1)
     track = None if given.stream is None else track_of(given.stream)
@@ -39,7 +40,7 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
     write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding, track), provenance)
     write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
-    write_easy_handeye(workspace.calib(EASY_HANDEYE), handeye.H_PC, body_name(given))
+    write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
 
 
@@ -90,4 +91,5 @@ STAGE = Stage(
     inputs=input_files,
     settings=settings,
     run=run,
+    beside={EASY_HANDEYE_FILE: EASY_HANDEYE},
 )

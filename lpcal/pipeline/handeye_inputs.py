@@ -88,11 +88,10 @@ def with_recording(workspace: Workspace, recording: Path | None) -> Workspace:
 def input_files(workspace: Workspace) -> list[Path]:
     """The files that the stage reads."""
     section = section_of(workspace)
-    tables = [name for name in section.images if name.lower().endswith(".csv")]
-    poses = section.poses if section.poses is not None else section.file
     board_poses = section.board_poses.file if section.board_poses else None
-    named = [workspace.folder / name for name in [poses, board_poses, *tables] if name]
-    found = [each for path in named for each in (sorted(path.iterdir()) if path.is_dir() else [path])]  # a ROS 2 bag is a folder
+    named = [("mocap.file", section.file)] if section.poses is None else [("mocap.poses", section.poses)]
+    named += [("mocap.board_poses", board_poses), *(("mocap.images", name) for name in section.images if name.lower().endswith(".csv"))]
+    found = [each for key, name in named if name for each in workspace.files(name, key)]  # a ROS 2 bag is a folder
     return found if board_poses else [*found, workspace.calib("camera.yaml"), workspace.calib("H_CB.yaml")]
 
 

@@ -14,7 +14,7 @@ from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
 NAMED_VIEWS, NAMED_REASONS = 6, 3
-EASY_HANDEYE = "handeye.easy_handeye.yaml"
+EASY_HANDEYE_FILE = "handeye.easy_handeye.yaml"
 
 
 def body_name(given: HandEyeInputs) -> str:
@@ -39,7 +39,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         *_left_out(handeye),
         f"noise       {_noise(handeye)}",
         *([f"mocap file  {'; '.join(given.notes)}"] if given.notes else []),
-        f"written     calib/handeye.yaml (all forms, both ways; what would sharpen it), calib/H_OP.yaml, calib/{EASY_HANDEYE}",
+        f"written     calib/handeye.yaml (all forms, both ways; what would sharpen it), calib/H_OP.yaml, calib/{EASY_HANDEYE_FILE}",
     ]
     return Outcome(
         summary=lines,

@@ -11,7 +11,8 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
-from lpcal.formats.surface_files import write_surface
+from lpcal.formats.outputs import refuse_place
+from lpcal.formats.surface_files import SURFACE, write_surface
 from lpcal.pipeline.reconstruct import from_here
 from lpcal.records.outcome import Outcome
 from lpcal.surface import mesh
@@ -29,6 +30,7 @@ def integrate_file(normals: Path, calibration: Path | None, mask: Path | None, t
     LpcalError
         The map, the mask or the calibration cannot be read, or they disagree.
     """
+    refuse_place(target, SURFACE, [path for path in (normals, calibration, mask) if path is not None])
     begun = time.perf_counter()
     values, good = read_normals(normals)
     inside = good if mask is None else good & read_mask(mask, good.shape)

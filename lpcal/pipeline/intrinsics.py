@@ -18,12 +18,13 @@ from lpcal.detect.radiometry import Sensor, fit_flat_field
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
-from lpcal.formats.cameramodel import cameramodel_text
+from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
 from lpcal.formats.corners_vnl import write_corners
-from lpcal.formats.documents import Provenance, write_text
+from lpcal.formats.documents import Provenance
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.images import read_image
+from lpcal.formats.outputs import write_text
 from lpcal.geometry.arrays import Array
 from lpcal.pipeline.board_search import recall, refuse_another_board, refuse_two_sizes, search
 from lpcal.pipeline.intrinsics_summary import summarise
@@ -34,6 +35,7 @@ from lpcal.records.observations import Board, BoardPoses, BoardViews
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import BoardSection, CameraSection
 
+CAMERAMODEL = "camera.cameramodel"
 ASSUMED_SIGMA_PX = 0.1
 """Of a corner coordinate, where the camera was not solved here."""
 
@@ -54,6 +56,7 @@ def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None 
     others = [image for image in mocap_images(workspace) if image not in set(own)]
     if section.cameramodel is None:
         _refuse_nothing(workspace, own, board)
+    STAGE.refuse_places(workspace, _inputs(workspace, own, others))
     views = BoardViews((0, 0), ())
     if board is not None and (own or others):
         known = recall(workspace, corners, own, board) if corners is not None and corners.is_file() else {}
@@ -195,9 +198,9 @@ def _with_radiometry(workspace: Workspace, section: CameraSection, solution: Cam
 
 def _inputs(workspace: Workspace, own: Sequence[Path], others: Sequence[Path]) -> list[Path]:
     rig = workspace.rig_file.rig
-    named = [rig.camera.flat_field, rig.camera.cameramodel] if rig.camera else []
-    tables = [name for name in (rig.mocap.images if rig.mocap else []) if name.lower().endswith(".csv")]
-    return [*own, *others, *(workspace.folder / name for name in [*named, *tables] if name)]
+    named = [("camera.flat_field", rig.camera.flat_field), ("camera.cameramodel", rig.camera.cameramodel)] if rig.camera else []
+    named += [("mocap.images", name) for name in (rig.mocap.images if rig.mocap else []) if name.lower().endswith(".csv")]
+    return [*own, *others, *(workspace.path(name, key) for key, name in named if name)]
 
 
 def _write(
@@ -208,7 +211,7 @@ def _write(
     board: Board | None,
     provenance: Provenance,
 ) -> None:
-    write_text(workspace.calib("camera.cameramodel"), solution.cameramodel or cameramodel_text(solution.camera))
+    write_text(workspace.calib(CAMERAMODEL), MARK + (solution.cameramodel or cameramodel_text(solution.camera)), MODEL_FILE)
     write_h_cb(workspace.calib("H_CB.yaml"), poses, left_out, board.corners if board else (0, 0), provenance)
     write_camera(workspace.calib("camera.yaml"), solution, provenance)
 
@@ -220,6 +223,7 @@ STAGE = Stage(
     inputs=lambda workspace: _inputs(workspace, camera_images(workspace), _others(workspace)),
     settings=settings,
     run=run,
+    beside={CAMERAMODEL: MODEL_FILE},
 )
 
 

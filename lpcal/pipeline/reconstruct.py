@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -13,11 +14,12 @@ from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.errors import DegenerateError, InputError, LpcalError
+from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture, read_mask
 from lpcal.formats.documents import sha256
-from lpcal.formats.surface_files import SUMMARY, write_surface
+from lpcal.formats.outputs import refuse_place
+from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress
@@ -28,6 +30,8 @@ from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
+MASK_WORDS = {"auto", "none"}
+"""What --mask takes beside a file."""
 OUTSIDE = (0.5, 2.0)
 """Of the working distance: beyond, nothing is known of the lights."""
 
@@ -79,8 +83,9 @@ def reconstruct_all(tasks: list[Task], calibration_path: Path, wishes: Wishes, p
     Raises
     ------
     LpcalError
-        The calibration cannot be read, or the only capture is bad.
+        The calibration cannot be read, the only capture is bad, or a surface would be written over something else.
     """
+    refuse_targets(tasks, [calibration_path, *([] if wishes.mask in MASK_WORDS else [Path(wishes.mask)])])
     calibration = read_calibration(calibration_path)
     summary, documents, errors = [], [], []
     for done, task in enumerate(tasks):
@@ -102,6 +107,28 @@ def reconstruct_all(tasks: list[Task], calibration_path: Path, wishes: Wishes, p
     return Outcome(summary, {"surfaces": documents}, told, exit_code=errors[0][1].exit_code if errors else 0)
 
 
+def refuse_targets(tasks: list[Task], inputs: list[Path]) -> None:
+    """Refuse surfaces that would be written over each other, over an input, or over anything that is no surface of lpcal's.
+
+    Raises
+    ------
+    UsageError, InputError
+        As `refuse_place`; or two captures have one name.
+    """
+    for k, task in enumerate(tasks):
+        if not task.name:
+            raise UsageError("a capture without a name", where=str(task.capture), needed="a capture folder")
+        twin = next((other for other in tasks[:k] if other.target == task.target), None)
+        if twin:
+            raise UsageError(
+                f"the surfaces of {twin.capture} and of {task.capture} would both be written there",
+                where=str(task.target),
+                needed="captures of different names",
+                todo="reconstruct them one at a time, each with its own -o",
+            )
+        refuse_place(task.target, SURFACE, [*inputs, task.capture])
+
+
 def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path, wishes: Wishes, progress: Progress) -> dict[str, Any]:
     """Reconstruct one capture and write its folder; the document is that of summary.json."""
     begun = time.perf_counter()
@@ -112,7 +139,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     plain = to_radiance(raw, sensor)
     radiance = with_short_exposures(plain, raw, sensor)
     radiance = replace(radiance, notes=(*radiance.notes, *ambient_notes(plain, raw, sensor)))
-    given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in {"auto", "none"} else None
+    given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
     options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", ambient_known=raw.ambient is not None)
     if wishes.mask == "none":
         radiance = replace(radiance, mask=None)
@@ -235,6 +262,10 @@ def from_here(target: Path) -> Path:
 class SurfaceStage(Stage):
     """The surfaces of all objects; up to date when each was made from the files and the calibration that there are now."""
 
+    def refuse_places(self, workspace: Workspace, inputs: Iterable[Path]) -> None:
+        """Refuse to write a surface where something else stands."""
+        refuse_targets(rig_tasks(workspace), list(inputs))
+
     def up_to_date(self, workspace: Workspace) -> bool:
         """Whether every surface stands and was made from what there is now."""
         return all(_stands(task, workspace.calib(CALIBRATION)) for task in rig_tasks(workspace))
@@ -255,7 +286,8 @@ def _run(workspace: Workspace, progress: Progress) -> Outcome:
 
 
 def _inputs(workspace: Workspace) -> list[Path]:
-    return [workspace.calib(CALIBRATION), *(path for task in rig_tasks(workspace) for path in sorted(task.capture.iterdir()))]
+    objects = workspace.rig_file.rig.objects
+    return [workspace.calib(CALIBRATION), *(path for key, name in objects.items() for path in workspace.files(name, f"objects.{key}"))]
 
 
 STAGE = SurfaceStage(

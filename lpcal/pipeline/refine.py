@@ -45,12 +45,11 @@ def inputs(workspace: Workspace) -> list[Path]:
     flat = flat_field_path(workspace)
     found += [flat] if flat and not has_lens(workspace) else []
     sweep = sweep_path(workspace)
-    found += sorted(path for path in sweep.iterdir() if path.is_file()) if sweep and sweep.is_dir() else []
+    found += workspace.files(str(sweep), "camera.exposure_sweep") if sweep else []
     found += [path for _, path in _lobe_files(workspace)]
     found += wings_stage.inputs(workspace) if wings_stage.wanted(workspace) and workspace.rig_file.rig.joint_solve else []
     for name, sphere in workspace.rig_file.rig.spheres.items():
-        folder = workspace.path(sphere.images, f"spheres.{name}.images")
-        found += sorted(path for path in folder.iterdir() if path.is_file())
+        found += workspace.files(sphere.images, f"spheres.{name}.images")
     return found
 
 

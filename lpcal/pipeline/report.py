@@ -11,8 +11,9 @@ import numpy as np
 
 from lpcal import __version__
 from lpcal.errors import InputError
-from lpcal.formats.documents import read_document, sha256, write_text
+from lpcal.formats.documents import read_document, sha256
 from lpcal.formats.images import read_image
+from lpcal.formats.outputs import marked, refuse_place, write_text
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.report.page import render
@@ -23,6 +24,7 @@ from lpcal.report.verdict import headline, verdicts
 THUMBNAIL = 220
 STAMP_WITHIN = 2000
 FILE = "report.html"
+KIND = marked("a report", '<meta name="lpcal-inputs"')
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
     InputError
         No stage has written anything; or a document is cut off.
     """
+    path = workspace.calib(FILE)
+    refuse_place(path, KIND)
     documents = {path.stem: read_document(path, path.stem) for path in _documents(workspace)}
     folders = [path.parent for path in _summaries(workspace)]
     if not documents and not folders:
@@ -57,8 +61,7 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
         surfaces.append(_surface(folder))
         progress("pictures", done, len(folders))
     report = RigReport(workspace.rig_file.rig.name, documents, tuple(surfaces))
-    path = workspace.calib(FILE)
-    write_text(path, render(report, _stamp(workspace)))
+    write_text(path, render(report, _stamp(workspace)), KIND)
     lines = verdicts(report)
     tone, sentence = headline(lines)
     summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, workspace.relative(path)]

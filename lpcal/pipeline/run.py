@@ -47,12 +47,27 @@ def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Pr
     return Outcome(summary, document, warnings, exit_code=exit_code)
 
 
+def look_ahead(workspace: Workspace, stages: Sequence[Stage]) -> None:
+    """Before the first of the stages starts: all that panel.yaml names for any of them is there, and no output replaces anything else.
+
+    Raises
+    ------
+    LpcalError
+        As the stage itself would raise it, minutes later.
+    """
+    for stage in stages:
+        if stage.wanted(workspace):
+            stage.look(workspace)
+
+
 def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome:
     """Run one stage after whatever it rests on; what comes before it and was out of date is told on top.
 
     A stage that the rig has not the sections for says so at once.
     """
-    earlier = bring_up_to_date(workspace, before(stage) if stage.wanted(workspace) else (), progress)
+    earlier_stages = before(stage) if stage.wanted(workspace) else ()
+    look_ahead(workspace, (*earlier_stages, stage))
+    earlier = bring_up_to_date(workspace, earlier_stages, progress)
     outcome = stage.run(workspace, progress)
     told = [line for line in earlier.summary if not line.endswith(": up to date")]
     return Outcome(
@@ -76,6 +91,7 @@ def run_all(workspace: Workspace, progress: Progress) -> Outcome:
             needed="camera: and board:, or lights: and spheres:, or objects: with a calibration",
             todo="see lpcal new, or the README's rig folder",
         )
+    look_ahead(workspace, stages)
     chain = bring_up_to_date(workspace, stages, progress)
     page = report.write_report(workspace, progress)
     return Outcome(

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.documents import whole, write_text
 from lpcal.formats.mocap_motive_write import write_motive
+from lpcal.formats.outputs import Kind, refuse_place, whole, write_text
 from lpcal.formats.truth_folder import README, write_field, write_leds, write_poses, write_surface, write_yaml
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -28,6 +28,9 @@ from lpcal.simulate.motion import Session, plan
 from lpcal.simulate.recipe import Recipe
 from lpcal.simulate.sensor import Response, Stored
 from lpcal.simulate.tracking import Recording, record
+
+FOLDER = Kind("a rig folder")
+"""A simulated rig, as an output: it replaces nothing but an empty folder."""
 
 
 @dataclass(frozen=True)
@@ -48,12 +51,11 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
         The folder is there already, or the rig asks for what cannot be simulated.
     """
     rig = rig_file.rig
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError("is there already", where=str(folder), needed="a new or an empty folder", todo="name another one, or remove it")
+    refuse_place(folder, FOLDER)
     _check(rig_file)
     built = build(rig, recipe)
     response = _response(rig, built, recipe)
-    with whole(folder) as draft:
+    with whole(folder, FOLDER) as draft:
         draft.mkdir()
         write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
         write_text(draft / "truth" / "README.md", README)

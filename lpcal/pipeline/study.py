@@ -14,11 +14,11 @@ import numpy as np
 
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError
-from lpcal.formats.documents import whole, write_text
+from lpcal.formats.outputs import marked, refuse_place, whole, write_text
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.report.study_plot import Curve, plot_png
+from lpcal.report.study_plot import SOFTWARE, Curve, plot_png
 from lpcal.simulate.study_sphere import Conditions, capture, ring
 from lpcal.surface import normals, pieces, sight
 from lpcal.surface.integrate import Grid
@@ -87,8 +87,17 @@ def trial(conditions: Conditions, seed: int = 0, *, plain: bool = False) -> Tria
     return Trial(float(error.mean()), float(np.median(error)))
 
 
+ACROSS = {"phase-angle": "phase angle, degrees", "ambient": "ambient light on the sphere, of 255"}
+"""What is varied, by study: the plot's axis and the first column of the table."""
+TABLE = marked("a study's table", *(across.replace(",", "") for across in ACROSS.values()))
+PLOT = marked("a study's plot", SOFTWARE)
+
+
 def study(which: str, folder: Path, progress: Progress) -> Outcome:
     """``phase-angle`` or ``ambient``: table, plot and a sentence, into a folder."""
+    table, plot = folder / f"study_{which}.csv", folder / f"study_{which}.png"
+    refuse_place(table, TABLE)
+    refuse_place(plot, PLOT)
     swept = which == "phase-angle"
     variants, places = (VARIANTS, ANGLES) if swept else (AMBIENTS, LEVELS)
     curves, rows = [], []
@@ -102,11 +111,9 @@ def study(which: str, folder: Path, progress: Progress) -> Outcome:
         progress(f"study {which}", number + 1, len(variants))
     lines = [f"{'x':>8} " + "".join(f"{curve.name[:24]:>26}" for curve in curves)]
     lines += [f"{curves[0].x[k]:8.1f} " + "".join(f"{curve.y[k]:26.3f}" for curve in curves) for k in range(len(places))]
-    across = "phase angle, degrees" if swept else "ambient light on the sphere, of 255"
-    table = folder / f"study_{which}.csv"
-    write_text(table, "\n".join(",".join(row) for row in _csv(across, curves)) + "\n")
-    plot = folder / f"study_{which}.png"
-    with whole(plot) as draft:
+    across = ACROSS[which]
+    write_text(table, "\n".join(",".join(row) for row in _csv(across, curves)) + "\n", TABLE)
+    with whole(plot, PLOT) as draft:
         draft.write_bytes(plot_png(curves, across))
     said = _phase_said(rows) if swept else _ambient_said(rows)
     return Outcome([*lines, said, f"written {table}, {plot}"], {"study": which, "rows": rows, "says": said})

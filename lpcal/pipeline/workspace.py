@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
-from lpcal.formats.documents import Provenance, plain, read_document, sha256
+from lpcal.formats.documents import Provenance, document_kind, plain, read_document, sha256
+from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import RigFile
 
@@ -35,6 +36,20 @@ class Workspace:
     def calib(self, name: str) -> Path:
         """The path of one of the stages' files."""
         return self.folder / "calib" / name
+
+    def files(self, name: str, key: str) -> list[Path]:
+        """The files in the folder that a key of panel.yaml names, in order; the file itself where it names one.
+
+        Raises
+        ------
+        InputError
+            It is not there, or cannot be looked into.
+        """
+        path = self.path(name, key)
+        try:
+            return sorted(each for each in path.iterdir() if each.is_file()) if path.is_dir() else [path]
+        except OSError as error:
+            raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed="a folder that may be read") from error
 
     def path(self, name: str, key: str) -> Path:
         """The file or folder that a key of panel.yaml names.
@@ -107,6 +122,31 @@ class Stage:
     settings: Callable[[Workspace], dict[str, Any]]
     """The sections of panel.yaml that it depends on."""
     run: Callable[[Workspace, Progress], Outcome]
+    beside: dict[str, Kind] = field(default_factory=dict)
+    """Files that it writes under calib/ and that are no documents of lpcal's."""
+
+    def look(self, workspace: Workspace) -> None:
+        """Before anything is computed: the files that panel.yaml names for it are there, and its outputs replace nothing else.
+
+        Raises
+        ------
+        InputError, DegenerateError, DisagreementError, UsageError
+            As `inputs` and `refuse_places`.
+        """
+        self.refuse_places(workspace, self.inputs(workspace))
+
+    def refuse_places(self, workspace: Workspace, inputs: Iterable[Path]) -> None:
+        """Refuse to write where something else stands.
+
+        Raises
+        ------
+        InputError, UsageError
+            As `refuse_place`.
+        """
+        inputs = list(inputs)
+        outputs = {name: document_kind(kind) for name, kind in self.kinds.items()} | self.beside
+        for name, kind in outputs.items():
+            refuse_place(workspace.calib(name), kind, inputs)
 
     def provenance(self, workspace: Workspace) -> Provenance:
         """What its files are made from, as of now."""
@@ -120,7 +160,7 @@ class Stage:
                 before = read_document(workspace.calib(name), kind)["provenance"]
                 if (before["lpcal_version"], before["inputs"], before["options"]) != (__version__, now.inputs, now.options):
                     return False
-        except (LpcalError, KeyError, TypeError):
+        except (LpcalError, OSError, KeyError, TypeError):
             return False
         return True
 

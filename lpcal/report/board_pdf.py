@@ -29,6 +29,8 @@ PAGES_MM = {
     "letter": (215.9, 279.4),
 }
 PICKED = ("A4", "A3")
+TITLE = "lpcal board"
+"""What the PDF's title begins with; it tells a board that lpcal drew from any other PDF."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,7 @@ def draw(board: BoardSection, page: Page) -> bytes:
     stream = io.BytesIO()
     size = page.width_mm * POINTS_PER_MM, page.height_mm * POINTS_PER_MM
     canvas = Canvas(stream, pagesize=size, pageCompression=0, invariant=1)
-    canvas.setTitle(f"lpcal board, {yaml_line(board)}")
+    canvas.setTitle(f"{TITLE}, {yaml_line(board)}")
     canvas.transform(POINTS_PER_MM, 0, 0, -POINTS_PER_MM, 0, size[1])
     width, height = size_mm(board)
     left, top = (page.width_mm - width) / 2, (page.height_mm - height) / 2

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 
 from lpcal.geometry.arrays import Array
 
+SOFTWARE = "lpcal study"
+"""What the PNG says made it; it tells a plot of lpcal's from any other picture."""
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -34,5 +37,5 @@ def plot_png(curves: Sequence[Curve], across: str) -> bytes:
     axes.grid(visible=True, which="both", alpha=0.25)
     figure.legend(frameon=False, fontsize="small", loc="outside right center")
     data = io.BytesIO()
-    figure.savefig(data, format="png", dpi=130)
+    figure.savefig(data, format="png", dpi=130, metadata={"Software": SOFTWARE})
     return data.getvalue()
