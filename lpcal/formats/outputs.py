@@ -90,17 +90,24 @@ def refuse_place(path: Path, kind: Kind, inputs: Iterable[Path] = ()) -> None:
         if path.is_dir():
             if Path.cwd().is_relative_to(path.resolve()):
                 raise UsageError("the current folder or one above it", where=str(path), needed="a folder of its own", todo=elsewhere)
-            ours = not any(path.iterdir()) or kind.is_ours(path)
+            ours = not any(path.iterdir()) or _is(kind, path)
         elif not stat.S_ISREG(path.stat().st_mode):
             raise InputError("a device, not a file", where=str(path), needed=f"a place for {kind.name}", todo=elsewhere)
         else:
-            ours = path.stat().st_size == 0 or kind.is_ours(path)
+            ours = path.stat().st_size == 0 or _is(kind, path)
     except OSError as error:
         raise InputError(f"cannot be looked at: {error.strerror}", where=str(path), needed=f"a place for {kind.name}") from error
     if not ours:
         what = "a folder with other things in it" if path.is_dir() else "another file"
-        needed = f"a new or empty place, or {kind.name} that lpcal wrote" if kind is not NEW else "a place where nothing is yet"
+        needed = f"a new or empty place, or {kind.name} that lpcal wrote" if kind is not NEW else "a new or empty place"
         raise InputError(f"{what} is there already", where=str(path), needed=needed, todo=f"{elsewhere}, or move it away")
+
+
+def _is(kind: Kind, path: Path) -> bool:
+    try:
+        return kind.is_ours(path)
+    except (NotADirectoryError, IsADirectoryError):
+        return False
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from lpcal.formats.bundled import folder as bundled_folder
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.documents import read_document
 from lpcal.formats.field_csv import read_field
-from lpcal.formats.outputs import Kind, whole
+from lpcal.formats.outputs import whole
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.formats.surface_files import read_surface
 from lpcal.geometry import se3
@@ -23,8 +23,6 @@ from lpcal.pipeline.workspace import Workspace
 from lpcal.records.outcome import Outcome, Progress
 
 RIG = "demo_rig"
-FOLDER = Kind("a rig folder")
-"""The demo's rig, as an output: it replaces nothing but an empty folder."""
 DARKEST = 0.01
 """Points that a light gives less than this share of its brightest are not compared."""
 
@@ -37,7 +35,7 @@ def demo(target: Path, progress: Progress) -> Outcome:
     InputError, UsageError
         The folder is there and not empty, or is the current one.
     """
-    with whole(target, FOLDER) as draft:
+    with whole(target) as draft:
         shutil.copytree(bundled_folder("calib_data") / RIG, draft)
     workspace = Workspace(read_rig(target / "panel.yaml"))
     chain = run_all(workspace, progress)

@@ -15,7 +15,7 @@ import numpy as np
 
 from lpcal.errors import InputError
 from lpcal.formats.mocap_motive_write import write_motive
-from lpcal.formats.outputs import Kind, refuse_place, whole, write_text
+from lpcal.formats.outputs import NEW, refuse_place, whole, write_text
 from lpcal.formats.truth_folder import README, write_field, write_leds, write_poses, write_surface, write_yaml
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -28,9 +28,6 @@ from lpcal.simulate.motion import Session, plan
 from lpcal.simulate.recipe import Recipe
 from lpcal.simulate.sensor import Response, Stored
 from lpcal.simulate.tracking import Recording, record
-
-FOLDER = Kind("a rig folder")
-"""A simulated rig, as an output: it replaces nothing but an empty folder."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +48,11 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
         The folder is there already, or the rig asks for what cannot be simulated.
     """
     rig = rig_file.rig
-    refuse_place(folder, FOLDER)
+    refuse_place(folder, NEW)
     _check(rig_file)
     built = build(rig, recipe)
     response = _response(rig, built, recipe)
-    with whole(folder, FOLDER) as draft:
+    with whole(folder, NEW) as draft:
         draft.mkdir()
         write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
         write_text(draft / "truth" / "README.md", README)
