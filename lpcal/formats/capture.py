@@ -58,6 +58,19 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     )
 
 
+def check_lights(folder: Path, lights: Sequence[str], *, use: Sequence[str] | None = None) -> None:
+    """Whether a capture folder names an image of every light, before any image is read.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        As `read_capture` raises them for the folder, its capture.yaml and the names of its images.
+    """
+    if not folder.is_dir():
+        raise InputError("no such folder", where=str(folder), needed="a capture folder: one image a light, named after it")
+    _chosen(folder, lights, use or read_capture_section(folder / "capture.yaml").lights, _by_name(folder))
+
+
 def read_sweep(folder: Path) -> tuple[Image, Array, float]:
     """Images (N, H, W[, 3]) of one scene, their exposures times gain (N,), and one step of the stored numbers.
 

@@ -16,7 +16,7 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
-from lpcal.formats.capture import read_capture, read_mask
+from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
@@ -285,6 +285,19 @@ def _run(workspace: Workspace, progress: Progress) -> Outcome:
     return reconstruct_all(rig_tasks(workspace), workspace.calib(CALIBRATION), Wishes(), progress)
 
 
+def _look_closer(workspace: Workspace) -> None:
+    """Whether any object has an image of every light; what one object lacks does not stop the others."""
+    lights, lacking = list(workspace.rig_file.rig.lights), []
+    tasks = rig_tasks(workspace) if lights else []
+    for task in tasks:
+        try:
+            check_lights(task.capture, lights)
+        except LpcalError as error:
+            lacking.append(error)
+    if lacking and len(lacking) == len(tasks):
+        raise lacking[0]
+
+
 def _inputs(workspace: Workspace) -> list[Path]:
     objects = workspace.rig_file.rig.objects
     return [workspace.calib(CALIBRATION), *(path for key, name in objects.items() for path in workspace.files(name, f"objects.{key}"))]
@@ -297,6 +310,7 @@ STAGE = SurfaceStage(
     inputs=_inputs,
     settings=lambda workspace: {"objects": workspace.rig_file.rig.objects},
     run=_run,
+    look_closer=_look_closer,
 )
 
 

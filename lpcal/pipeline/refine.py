@@ -15,7 +15,7 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.formats.camera_yaml import read_camera
-from lpcal.formats.capture import read_capture
+from lpcal.formats.capture import check_lights, read_capture
 from lpcal.formats.lights_yaml import KIND, write_lights
 from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
@@ -175,4 +175,11 @@ def _numbers(values: Any, digits: int) -> str:
     return "[" + " ".join(f"{value:.{digits}f}" for value in values) + "]"
 
 
-STAGE = Stage("refine", {FILE: KIND}, wanted, inputs, settings, run)
+def _look_closer(workspace: Workspace) -> None:
+    """Whether every sphere has an image of every light."""
+    rig = workspace.rig_file.rig
+    for name, sphere in rig.spheres.items():
+        check_lights(workspace.path(sphere.images, f"spheres.{name}.images"), list(rig.lights))
+
+
+STAGE = Stage("refine", {FILE: KIND}, wanted, inputs, settings, run, look_closer=_look_closer)

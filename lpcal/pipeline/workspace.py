@@ -124,6 +124,8 @@ class Stage:
     run: Callable[[Workspace, Progress], Outcome]
     beside: dict[str, Kind] = field(default_factory=dict)
     """Files that it writes under calib/ and that are no documents of lpcal's."""
+    look_closer: Callable[[Workspace], None] = lambda _: None
+    """What else can be found out about its inputs before anything is computed; raises as the stage itself would."""
 
     def look(self, workspace: Workspace) -> None:
         """Before anything is computed: the files that panel.yaml names for it are there, and its outputs replace nothing else.
@@ -131,9 +133,10 @@ class Stage:
         Raises
         ------
         InputError, DegenerateError, DisagreementError, UsageError
-            As `inputs` and `refuse_places`.
+            As `inputs`, `look_closer` and `refuse_places`.
         """
         self.refuse_places(workspace, self.inputs(workspace))
+        self.look_closer(workspace)
 
     def refuse_places(self, workspace: Workspace, inputs: Iterable[Path]) -> None:
         """Refuse to write where something else stands.
