@@ -12,6 +12,7 @@ from typing import Any
 
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import central_camera, refuse_lens
+from lpcal.geometry.colmap import load_pycolmap
 from lpcal.records.calibration import Camera
 
 HALF_PIXEL = 0.5
@@ -31,7 +32,7 @@ def read_colmap_camera(path: Path) -> Camera:
     InputError
         Garbled, several cameras, or a lens that lpcal does not project with.
     """
-    import pycolmap
+    pycolmap = load_pycolmap()
 
     try:
         cameras = _binary(path.read_bytes()) if path.suffix == ".bin" else _text(path.read_text(encoding="utf-8"))
@@ -63,7 +64,7 @@ def _text(text: str) -> list[tuple[str, int, int, list[float]]]:
 
 
 def _binary(data: bytes) -> list[tuple[Any, int, int, list[float]]]:
-    import pycolmap
+    pycolmap = load_pycolmap()
 
     (count,) = struct.unpack_from("<Q", data, 0)
     place, cameras = 8, []

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
+from lpcal.geometry.colmap import load_pycolmap
 from lpcal.geometry.hull import inside_hull
 from lpcal.geometry.rigid_fit import fit as rigid_fit
 from lpcal.records.calibration import Camera
@@ -25,6 +26,8 @@ MODELS = {"opencv4": "OPENCV", "opencv8": "FULL_OPENCV"}
 """COLMAP's names of the lenses that it shares with lpcal."""
 HALF_PIXEL = 0.5
 MOST_STEPS, STOP = 300, 1e-12
+DIGITS = 4
+"""Decimals of a pixel that are kept: COLMAP orders its unknowns by their addresses, and so no run repeats another's seventh digit."""
 FEWEST_SEEN = 3
 """A corner seen in fewer views than this stays out."""
 
@@ -45,18 +48,17 @@ def check_with_free_board(problem: CornerProblem, fit: CameraFit) -> dict[str, A
     scale = np.linalg.norm(fit.points_B[kept] - fit.points_B[kept].mean(axis=0)) / np.linalg.norm(points_B - points_B.mean(axis=0))
     off_m = rigid_fit(fit.points_B[kept], scale * points_B)[2]
     return by | {
-        "f_px": [float(camera.K[0, 0]), float(camera.K[1, 1])],
-        "c_px": [float(camera.K[0, 2]), float(camera.K[1, 2])],
-        "difference_rms_px": float(np.sqrt(np.mean(apart**2))),
-        "difference_worst_px": float(apart.max()),
-        "board_off_rms_m": float(np.sqrt(np.mean(off_m**2))),
+        "f_px": [round(float(camera.K[0, 0]), DIGITS), round(float(camera.K[1, 1]), DIGITS)],
+        "c_px": [round(float(camera.K[0, 2]), DIGITS), round(float(camera.K[1, 2]), DIGITS)],
+        "difference_rms_px": round(float(np.sqrt(np.mean(apart**2))), DIGITS),
+        "difference_worst_px": round(float(apart.max()), DIGITS),
+        "board_off_rms_m": round(float(np.sqrt(np.mean(off_m**2))), DIGITS + 3),
     }
 
 
 def _adjusted(problem: CornerProblem, fit: CameraFit, kept: npt.NDArray[np.intp]) -> tuple[Camera, Array]:
     """COLMAP's camera and its points (M, 3) of the board."""
-    import pycolmap
-
+    pycolmap = load_pycolmap()
     K, (width, height) = fit.camera.K, problem.image_size
     core = [K[0, 0], K[1, 1], K[0, 2] + HALF_PIXEL, K[1, 2] + HALF_PIXEL]
     scene = pycolmap.Reconstruction()
