@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
+from lpcal.chain.k_camera.problem import DIGITS, CameraFit, CornerProblem
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.geometry.colmap import load_pycolmap
@@ -26,8 +26,6 @@ MODELS = {"opencv4": "OPENCV", "opencv8": "FULL_OPENCV"}
 """COLMAP's names of the lenses that it shares with lpcal."""
 HALF_PIXEL = 0.5
 MOST_STEPS, STOP = 300, 1e-12
-DIGITS = 4
-"""Decimals of a pixel that are kept: COLMAP orders its unknowns by their addresses, and so no run repeats another's seventh digit."""
 FEWEST_SEEN = 3
 """A corner seen in fewer views than this stays out."""
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem
+from lpcal.chain.k_camera.problem import DIGITS, DISTORTIONS, CameraFit, CornerProblem
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.records.calibration import Camera
 
@@ -41,8 +41,8 @@ def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
     apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), other.project)[0], axis=1)
     return {
         "by": "OpenCV calibrateCamera",
-        "f_px": [float(K[0, 0]), float(K[1, 1])],
-        "c_px": [float(K[0, 2]), float(K[1, 2])],
-        "difference_rms_px": float(np.sqrt(np.mean(apart**2))),
-        "difference_worst_px": float(apart.max()),
+        "f_px": [round(float(K[0, 0]), DIGITS), round(float(K[1, 1]), DIGITS)],
+        "c_px": [round(float(K[0, 2]), DIGITS), round(float(K[1, 2]), DIGITS)],
+        "difference_rms_px": round(float(np.sqrt(np.mean(apart**2))), DIGITS),
+        "difference_worst_px": round(float(apart.max()), DIGITS),
     }
