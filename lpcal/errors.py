@@ -17,6 +17,10 @@ One message says what was found, where, what was needed and what to do::
 
 from __future__ import annotations
 
+MOST_CHARACTERS = 590
+"""Characters of a message: with the program's name before it, 600, which is what a reader takes in at once."""
+ELLIPSIS = " ... "
+
 
 class LpcalError(Exception):
     """An error that the user can mend.
@@ -36,11 +40,31 @@ class LpcalError(Exception):
         super().__init__(self.message())
 
     def message(self) -> str:
-        """Where it is, what was found, what was needed and what to do, on as few lines as it takes."""
-        lines = [f"{self.where}: {self.found}" if self.where else self.found]
-        lines += [f"  needed: {self.needed}"] if self.needed else []
-        lines += [f"  do: {self.todo}"] if self.todo else []
+        """Where it is, what was found, what was needed and what to do, on as few lines as it takes, and never on more than a screen.
+
+        What comes from a file may be of any length and hold any character: long parts lose their middles, and what cannot be
+        printed is shown as ?.
+        """
+        parts = [printable(part) for part in (self.where, self.found, self.needed, self.todo)]
+        while sum(map(len, parts)) > MOST_CHARACTERS - len(": \n  needed: \n  do: "):
+            longest = max(range(len(parts)), key=lambda k: len(parts[k]))
+            parts[longest] = without_middle(parts[longest], 3 * len(parts[longest]) // 4)
+        where, found, needed, todo = parts
+        lines = [f"{where}: {found}" if where else found]
+        lines += [f"  needed: {needed}"] if needed else []
+        lines += [f"  do: {todo}"] if todo else []
         return "\n".join(lines)
+
+
+def printable(text: str) -> str:
+    """A text on one line, without control characters."""
+    return "".join(letter if letter.isprintable() else "?" for letter in " ".join(text.split()))
+
+
+def without_middle(text: str, length: int) -> str:
+    """A text cut to a length at its middle."""
+    kept = max(length - len(ELLIPSIS), 2) // 2
+    return text if len(text) <= length else text[:kept] + ELLIPSIS + text[-kept:]
 
 
 class UsageError(LpcalError):

@@ -8,8 +8,8 @@ line's own entry in a child process with a bound on its time and its memory; a c
     uv run python tools/fuzz.py [--cases 20000] [--first 0] [--formats tum,lp] [--jobs 1] [--json FILE]
     uv run python tools/fuzz.py --case 1234          # one case by itself, with all that it says; its folder is kept
 
-What counts as wrong: a traceback (exit code 1), a code that is none of the contract's, a death by a signal, more than `MOST_S` seconds, more
-than `MOST_BYTES` of memory, a message longer than `MOST_CHARACTERS`.
+What counts as wrong: a traceback (exit code 1), a code that is none of the contract's, a death by a signal, more than `MOST_S` seconds,
+more than `MOST_BYTES` of memory, a message longer than `MOST_CHARACTERS`.
 """
 
 from __future__ import annotations
@@ -45,8 +45,40 @@ CODES = {0, 2, 3, 4, 5, 6}
 """Exit codes that a file can cause."""
 BATCH = 200
 """Cases that one child runs before a fresh one takes over."""
-NUMBERS = (b"nan", b"inf", b"-inf", b"-1", b"0", b"1e308", b"-1e308", b"1e999", b"99999999999999999999", b"-0.0", b"1e-320", b"", b"x", b"9" * 5000)
-PIECES = (b"[" * 3000, b"{" * 3000, b"(" * 3000, b"A" * 70000, b"\x00", b"\xff\xfe", b",,,,,,,,", b";", b"\t", b'"', b"'", b"\r", b"\n\n", b"&a [*a]", b": ", b"- " * 2000)
+NUMBERS = (
+    b"nan",
+    b"inf",
+    b"-inf",
+    b"-1",
+    b"0",
+    b"1e308",
+    b"-1e308",
+    b"1e999",
+    b"99999999999999999999",
+    b"-0.0",
+    b"1e-320",
+    b"",
+    b"x",
+    b"9" * 5000,
+)
+PIECES = (
+    b"[" * 3000,
+    b"{" * 3000,
+    b"(" * 3000,
+    b"A" * 70000,
+    b"\x00",
+    b"\xff\xfe",
+    b",,,,,,,,",
+    b";",
+    b"\t",
+    b'"',
+    b"'",
+    b"\r",
+    b"\n\n",
+    b"&a [*a]",
+    b": ",
+    b"- " * 2000,
+)
 
 
 @dataclass(frozen=True)
@@ -202,7 +234,15 @@ def run_cases(cases: list[int], samples: list[Sample], report: Callable[[Result]
                     current, begun = answer, time.perf_counter()
         child.join()
         if done < len(cases[:BATCH]):
-            report(Result(current, samples[random.Random(current).randrange(len(samples))].name, child.exitcode or -1, time.perf_counter() - begun, ""))
+            report(
+                Result(
+                    current,
+                    samples[random.Random(current).randrange(len(samples))].name,
+                    child.exitcode or -1,
+                    time.perf_counter() - begun,
+                    "",
+                )
+            )
             done += 1
         cases = cases[done:]
 
@@ -231,7 +271,10 @@ def main() -> int:
         slowest[result.format] = max(slowest.get(result.format, 0), result.seconds)
         if result.wrong:
             wrong.append(result)
-            print(f"case {result.case}: {result.format}: {result.wrong}, code {result.code}, {result.seconds:.1f} s: {result.said[-300:]!r}", flush=True)
+            print(
+                f"case {result.case}: {result.format}: {result.wrong}, code {result.code}, {result.seconds:.1f} s: {result.said[-300:]!r}",
+                flush=True,
+            )
 
     run_cases(list(range(options.first, options.first + options.cases)), samples, report)
     for sample in samples:

@@ -22,7 +22,7 @@ ROUNDS = 10
 """At most so many rounds of solving and rejecting."""
 COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
 DIGITS = 4
-"""Decimals of a pixel that a cross-check keeps: OpenCV's threads and COLMAP's order of unknowns leave no run the seventh digit of another."""
+"""Decimals of a pixel that a cross-check keeps: OpenCV's threads and COLMAP's order of unknowns change the seventh."""
 
 
 @dataclass(frozen=True)
