@@ -19,7 +19,7 @@ from lpcal.surface.sight import Sight
 
 def test_lp_is_turned_into_the_cameras_axes(tmp_path):
     path = tmp_path / "dome.lp"
-    path.write_text("2\nmy stone 01.jpg 0.6 0.0 0.8\nC:\\photos\\img_2.tif 0 3 4\n")
+    path.write_text("2\nmy stone 01.jpg 0.6 0.0 0.8\nC:\\photos\\img_2.tif 0 0.6 0.8\n")
     name, found = read_lights(path)
     assert ".lp" in name
     assert [light.name for light in found.lights] == ["my stone 01", "img_2"]
@@ -169,7 +169,8 @@ def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
     [
         ("a.lp", "3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
         ("a.lp", "one.jpg 0 0 1\n", "does not begin with the number of lights"),
-        ("a.lp", "1\none.jpg 0 0,5 1\n", "no number"),
+        ("a.lp", "1\none.jpg 0 x 1\n", "no number"),
+        ("a.lp", "2\na.jpg 120 0 300\nb.jpg 0 90 310\n", "positions, not directions"),
         ("a.lp", "1\none.jpg 0 0 0\n", "no direction"),
         ("a.lp", "2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
         ("a.txt", "100 20 300\n0 10 400\n3 3 3\n9 9 9\n", "positions, not directions"),

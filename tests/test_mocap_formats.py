@@ -10,7 +10,7 @@ import pytest
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap
-from lpcal.formats.robot_poses import read_robot_poses
+from lpcal.formats.robot_poses import Stated, read_robot_poses
 from lpcal.geometry import se3
 
 RATE = 120.0
@@ -165,7 +165,7 @@ def test_plain_layouts(tmp_path, truth, name, text):
     ("content", "error", "words"),
     [
         (b"", InputError, "empty"),
-        (b"\x02\x50" + bytes(100), InputError, "cannot be read as C3D"),
+        (b"\x02\x50" + bytes(100), InputError, "needed: a whole C3D file"),
         (b"NO_OF_FRAMES\t10\n", InputError, "no FREQUENCY and no MARKER_NAMES"),
         (b"Trajectories,,,\n100,,\n", InputError, r"take\.csv:2: not the rows rate"),
         (b"Joints,,,\n100,,\n", InputError, "only Joints"),
@@ -211,11 +211,11 @@ def test_robot_poses(tmp_path, truth):
     (tmp_path / "columns.txt").write_text("\n".join(",".join(f"{v:.12f}" for v in H.T.ravel()) for H in H_OP))
     for name in ("flat.txt", "square.txt", "columns.txt"):
         assert np.abs(read_robot_poses(tmp_path / name).H - H_OP).max() < 1e-9
-    assert np.abs(read_robot_poses(tmp_path / "flat.txt", direction="H_PO").H @ H_OP - np.eye(4)).max() < 1e-9
+    assert np.abs(read_robot_poses(tmp_path / "flat.txt", Stated(direction="H_PO")).H @ H_OP - np.eye(4)).max() < 1e-9
     q = se3.quaternion(H_OP[:, :3, :3])
     rows = [f"im_{k}.png,{','.join(f'{v:.12f}' for v in (*(1000 * H_OP[k, :3, 3]), *q[k]))}" for k in range(40)]
     (tmp_path / "named.csv").write_text("\n".join(["file,x_m,y_m,z_m,qx,qy,qz,qw", *rows]))
-    named = read_robot_poses(tmp_path / "named.csv", units="mm")
+    named = read_robot_poses(tmp_path / "named.csv", Stated(units="mm"))
     assert named.files[3] == "im_3.png"
     assert np.abs(named.H - H_OP).max() < 1e-9
     (tmp_path / "cut.txt").write_text((tmp_path / "flat.txt").read_text()[:-30])

@@ -8,7 +8,9 @@ from pathlib import Path
 from lpcal.errors import DisagreementError, InputError
 
 
-def choose_body(names: Sequence[str], body: str | None, path: Path, parts: Callable[[str], Sequence[str]] = lambda name: (name,)) -> str:
+def choose_body(
+    names: Sequence[str], body: str | None, path: Path, parts: Callable[[str], Sequence[str]] = lambda name: name.split(":")
+) -> str:
     """The name, as the file has it, of the body that is meant; capitals do not matter where no name is exactly so.
 
     Parameters

@@ -24,8 +24,11 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.light_tables import FARTHEST_M, sane_lights
+from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, LedCluster, Light, Lobe
 
@@ -47,6 +50,7 @@ def write_calibration(path: Path, calibration: Calibration, provenance: Provenan
     write_document(path, KIND, body, provenance)
 
 
+@reader("a whole calibration file")
 def read_calibration(path: Path) -> Calibration:
     """Read calibration.yaml.
 
@@ -57,7 +61,7 @@ def read_calibration(path: Path) -> Calibration:
     """
     document = read_document(path, KIND)
     try:
-        camera = camera_from_document(document["camera"]) if document.get("camera") else None
+        camera = sane_camera(camera_from_document(document["camera"]), f"{path}, camera") if document.get("camera") else None
         lights = tuple(_light(path, entry) for entry in document["lights"])
         H_PC = _numbers(document, "H_PC", 4, 4) if document.get("H_PC") else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
@@ -65,9 +69,11 @@ def read_calibration(path: Path) -> Calibration:
         raise InputError(
             f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it anew with lpcal export"
         ) from error
-    if not lights:
-        raise InputError("holds no lights", where=str(path), needed="lights")
-    return Calibration(document.get("name", path.stem), lights, camera, H_PC, document.get("d_object_m"), focus_C)
+    distance_m = document.get("d_object_m")
+    if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
+        raise InputError(f"d_object_m: {distance_m}", where=str(path), needed="metres above zero", todo="correct it, or write null")
+    found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C)
+    return sane_lights(found, str(path))
 
 
 def light_document(light: Light) -> dict[str, Any]:
@@ -165,6 +171,6 @@ def _light(path: Path, entry: dict[str, Any]) -> Light:
 
 def _numbers(document: dict[str, Any], key: str, *shape: int) -> Array:
     value = np.asarray(document[key], dtype=float)
-    if not np.isfinite(value).all() or (shape and value.shape != shape):
+    if not np.isfinite(value).all() or (shape and value.shape != shape) or value.size == 0:
         raise ValueError(key)
     return value

@@ -25,8 +25,10 @@ def central_camera(image_size: Sequence[Any], core: Sequence[Any], distortion: S
         width, height = (int(side) for side in image_size)
         fx, fy, cx, cy = (float(number) for number in core)
         coefficients = np.array([float(number) for number in distortion])
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"no camera: {error}", where=where, needed="image size, fx fy cx cy, distortion") from error
+    if not 0 <= coefficients.size <= 14:
+        raise InputError(f"{coefficients.size} numbers of distortion", where=where, needed="OpenCV's 0, 4, 5, 8, 12 or 14")
     beyond = coefficients[8:]
     coefficients = coefficients[:8]
     count = next(count for count in MODELS if count >= coefficients.size)
@@ -51,3 +53,25 @@ def refuse_lens(model: str, where: str) -> InputError:
         needed="pinhole with radial-tangential (OpenCV) distortion, or mrcal's splined model",
         todo="solve the camera anew: lpcal intrinsics, model: splined for a very wide lens",
     )
+
+
+MOST_SIDE_PX = 200_000
+"""Pixels along a side of the largest image that is believed."""
+
+
+def sane_camera(camera: Camera, where: str) -> Camera:
+    """The camera, which can be one.
+
+    Raises
+    ------
+    InputError
+        A focal length or a size that is not positive, or a number that is not finite.
+    """
+    width, height = camera.image_size
+    fx, fy = camera.K[0, 0], camera.K[1, 1]
+    whole = bool(np.isfinite(camera.K).all() and np.isfinite(camera.distortion).all())
+    splined = camera.spline is None or np.isfinite(camera.spline).all()
+    if not (whole and splined and min(fx, fy) > 0 and min(width, height) > 0 and max(width, height) <= MOST_SIDE_PX):
+        found = f"fx {fx:g}, fy {fy:g}, cx {camera.K[0, 2]:g}, cy {camera.K[1, 2]:g}, image {width}x{height}"
+        raise InputError(found, where=where, needed="finite numbers, focal lengths and sizes above zero", todo="is it the right file?")
+    return camera

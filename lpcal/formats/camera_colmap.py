@@ -12,6 +12,7 @@ from typing import Any
 
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import central_camera, refuse_lens
+from lpcal.formats.reading import reader
 from lpcal.geometry.colmap import load_pycolmap
 from lpcal.records.calibration import Camera
 
@@ -24,6 +25,7 @@ def is_colmap(text: str) -> bool:
     return len(words) >= 5 and words[0].isdigit() and words[1].isupper() and words[2].isdigit() and words[3].isdigit()
 
 
+@reader("COLMAP's cameras, whole")
 def read_colmap_camera(path: Path) -> Camera:
     """Read the one camera of a cameras.txt or cameras.bin.
 
@@ -44,6 +46,9 @@ def read_colmap_camera(path: Path) -> Camera:
         raise InputError(
             f"cannot be read as COLMAP's cameras: {error}", where=str(path), needed="a whole file", todo="is it cut off?"
         ) from error
+    wanted = PARAMETERS.get(camera.model.name, len(params))
+    if len(params) != wanted:
+        raise InputError(f"{len(params)} parameters", where=str(path), needed=f"{wanted} of {camera.model.name}", todo="is it cut off?")
     core = (
         (camera.focal_length_x, camera.focal_length_y, camera.principal_point_x - HALF_PIXEL, camera.principal_point_y - HALF_PIXEL)
         if (camera.model.name in DISTORTION_FIRST)
@@ -54,6 +59,8 @@ def read_colmap_camera(path: Path) -> Camera:
     return central_camera((width, height), core, params[DISTORTION_FIRST[camera.model.name] :], str(path))
 
 
+PARAMETERS = {"SIMPLE_PINHOLE": 3, "PINHOLE": 4, "SIMPLE_RADIAL": 4, "RADIAL": 5, "OPENCV": 8, "FULL_OPENCV": 12}
+"""How many parameters a model has."""
 DISTORTION_FIRST = {"SIMPLE_PINHOLE": 3, "PINHOLE": 4, "SIMPLE_RADIAL": 3, "RADIAL": 3, "OPENCV": 4, "FULL_OPENCV": 4}
 """Where the distortion begins among a model's parameters; what it holds is the beginning of OpenCV's vector."""
 
@@ -67,6 +74,9 @@ def _binary(data: bytes) -> list[tuple[Any, int, int, list[float]]]:
     pycolmap = load_pycolmap()
 
     (count,) = struct.unpack_from("<Q", data, 0)
+    if count != 1:
+        found = f"{count} cameras: one is needed, in a file of its own"
+        raise ValueError(found)
     place, cameras = 8, []
     for _ in range(min(count, 2)):
         _, number, width, height = struct.unpack_from("<iiQQ", data, place)

@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from lpcal.errors import InputError
+from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_colmap import is_colmap, read_colmap_camera
 from lpcal.formats.camera_kalibr import camera_from_kalibr, is_kalibr
 from lpcal.formats.camera_opencv import read_opencv_camera
@@ -19,27 +20,32 @@ from lpcal.formats.camera_ros import camera_from_ros, is_ros
 from lpcal.formats.camera_yaml import camera_from_document, read_camera
 from lpcal.formats.cameramodel import read_cameramodel
 from lpcal.formats.documents import read_document
+from lpcal.formats.guarded_yaml import load_yaml
+from lpcal.formats.reading import reader
+from lpcal.formats.text import read_text
 from lpcal.records.calibration import Camera
 
 KNOWN = "a camera file of lpcal, mrcal, OpenCV, ROS, Kalibr or COLMAP"
 
 
+@reader(KNOWN)
 def read_camera_file(path: Path) -> Camera:
-    """The camera of a file.
+    """The camera of a file, whatever its format.
 
     Raises
     ------
     InputError
         Not there, of no format known, garbled, several cameras, or a lens that lpcal does not project with.
     """
+    return sane_camera(_read(path), str(path))
+
+
+def _read(path: Path) -> Camera:
     if not path.is_file():
         raise InputError("no such camera file", where=str(path), needed=KNOWN)
     if path.suffix == ".bin":
         return read_colmap_camera(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError("not a text file", where=str(path), needed=KNOWN) from error
+    text = read_text(path, KNOWN)
     if "lensmodel" in text and "imagersize" in text:
         return read_cameramodel(path)
     if text.startswith(("%YAML:1.0", "<?xml", "<opencv_storage")) or "opencv-matrix" in text:
@@ -51,7 +57,7 @@ def read_camera_file(path: Path) -> Camera:
 
 def _load(text: str, path: Path) -> dict[str, Any]:
     try:
-        document = yaml.safe_load(text)
+        document = load_yaml(text, path)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{path}:{mark.line + 1}" if mark else str(path)

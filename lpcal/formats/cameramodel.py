@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.guarded_yaml import refuse_bombs
 from lpcal.formats.outputs import marked
+from lpcal.formats.reading import reader
 from lpcal.records.calibration import Camera
 
 PLAIN = {"LENSMODEL_PINHOLE": "opencv4", "LENSMODEL_OPENCV4": "opencv4", "LENSMODEL_OPENCV5": "opencv5", "LENSMODEL_OPENCV8": "opencv8"}
@@ -22,6 +24,7 @@ MODEL_FILE = marked("a cameramodel", MARK)
 """A .cameramodel, as an output: only one that lpcal wrote is replaced, never a user's own."""
 
 
+@reader("a cameramodel of mrcal's")
 def read_cameramodel(path: Path) -> Camera:
     """Read a .cameramodel.
 
@@ -31,17 +34,22 @@ def read_cameramodel(path: Path) -> Camera:
         No literal, a key is lacking, or a lens model that lpcal does not project with.
     """
     try:
-        document: dict[str, Any] = ast.literal_eval(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        refuse_bombs(text, path)
+        document: dict[str, Any] = ast.literal_eval(text)
         lensmodel = str(document["lensmodel"])
         vector = np.array(document["intrinsics"], dtype=float)
         width, height = (int(side) for side in document["imagersize"])
-    except (OSError, UnicodeDecodeError, SyntaxError, ValueError, KeyError, TypeError) as error:
+    except (OSError, UnicodeDecodeError, SyntaxError, ValueError, KeyError, TypeError, OverflowError) as error:
         raise InputError(
             f"cannot be read as a cameramodel: {error}",
             where=str(path),
             needed="lensmodel, intrinsics, imagersize",
             todo="is the file cut off?",
         ) from error
+    wanted = {"LENSMODEL_PINHOLE": 4, "LENSMODEL_OPENCV4": 8, "LENSMODEL_OPENCV5": 9, "LENSMODEL_OPENCV8": 12}.get(lensmodel)
+    if vector.ndim != 1 or vector.size < 4 or (wanted and vector.size != wanted):
+        raise InputError(f"{vector.size} intrinsics of {lensmodel}", where=str(path), needed=f"{wanted or 'more'}", todo="is it cut off?")
     K = np.array([[vector[0], 0, vector[2]], [0, vector[1], vector[3]], [0, 0, 1.0]])
     if lensmodel in PLAIN:
         distortion = vector[4:] if vector.size > 4 else np.zeros(4)

@@ -19,6 +19,7 @@ import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.outputs import write_text
+from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardView
 
@@ -37,6 +38,7 @@ def write_corners(path: Path, views: Sequence[BoardView]) -> None:
     write_text(path, "\n".join(lines) + "\n")
 
 
+@reader("corners as mrcal's tools keep them")
 def read_corners(path: Path, count: int) -> dict[str, Array | None]:
     """Corners (count, 2) by image, NaN where not seen; None: no board.
 

@@ -17,7 +17,9 @@ import yaml
 
 from lpcal import __version__
 from lpcal.errors import InputError
+from lpcal.formats.guarded_yaml import load_yaml
 from lpcal.formats.outputs import Kind, marked, refuse_place, write_text
+from lpcal.formats.reading import reader, reading
 
 VERSION = 1
 
@@ -67,6 +69,7 @@ def _without_time(document: bytes) -> bytes:
     return document.rpartition(b"\n  time:")[0]
 
 
+@reader("a document that lpcal wrote")
 def read_document(path: Path, kind: str) -> dict[str, Any]:
     """Read a YAML document of a kind.
 
@@ -79,7 +82,7 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     if not path.is_file():
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
     try:
-        document = yaml.load(path.read_text(encoding="utf-8"), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        document = load_yaml(path.read_text(encoding="utf-8"), path)
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed=f"a {kind} file that lpcal wrote") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:
@@ -109,11 +112,13 @@ def read_record[Record](path: Path, kind: str, command: str, record_of: Callable
     """
     document = read_document(path, kind)
     try:
-        return record_of(document)
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{error} is lacking or garbled", where=str(path), needed=f"a whole {kind} file", todo=f"write it anew with {command}"
-        ) from error
+        with reading(path, f"a whole {kind} file"):
+            return record_of(document)
+    except InputError as error:
+        if isinstance(error.__cause__, (KeyError, TypeError, ValueError, IndexError)):
+            found = f"{error.__cause__} is lacking or garbled"
+            raise InputError(found, where=str(path), needed=f"a whole {kind} file", todo=f"write it anew with {command}") from error
+        raise
 
 
 def plain(value: Any) -> Any:

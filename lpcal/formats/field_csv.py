@@ -13,7 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.number_table import COMMENTS, is_number
 from lpcal.formats.outputs import marked, whole
+from lpcal.formats.reading import reader
+from lpcal.formats.text import read_text, with_commas
 from lpcal.geometry.arrays import Array
 
 COLUMNS = ("x_m", "y_m", "z_m")
@@ -21,27 +24,32 @@ HEADER = ("light", *COLUMNS, "dx", "dy", "dz", "irradiance")
 FIELD = marked("a light field", ",".join(HEADER))
 
 
+@reader(f"a csv with columns {', '.join(COLUMNS)}")
 def read_points(path: Path) -> Array:
     """Points (N, 3) in metres.
 
     Raises
     ------
     InputError
-        Not there, without the three columns, or a cell that is no number; with its line.
+        Not there, without the three columns, or a cell that is no finite number; with its line.
     """
-    if not path.is_file():
-        raise InputError("no such file", where=str(path), needed=f"a csv with columns {', '.join(COLUMNS)}")
-    with path.open(encoding="utf-8-sig", newline="") as stream:
-        reader = csv.DictReader(stream)
-        lacking = [name for name in COLUMNS if name not in (reader.fieldnames or [])]
-        if lacking:
-            raise InputError(f"no column {', '.join(lacking)}", where=f"{path}:1", needed=f"columns {', '.join(COLUMNS)}")
-        points = []
-        for row in reader:
-            try:
-                points.append([float(row[name]) for name in COLUMNS])
-            except (TypeError, ValueError) as error:
-                raise InputError("a cell is no number", where=f"{path}:{reader.line_num}", needed="three numbers in metres") from error
+    needed = f"a csv with columns {', '.join(COLUMNS)}"
+    lines = [
+        (number, [cell.strip() for cell in line.split(",")])
+        for number, line in enumerate(with_commas(read_text(path, needed), path).split("\n"), start=1)
+        if line.strip(", \t") and not line.lstrip().startswith(COMMENTS)
+    ]
+    names = [name.lower() for name in lines[0][1]] if lines else []
+    lacking = [name for name in COLUMNS if name not in names]
+    if lacking:
+        raise InputError(f"no column {', '.join(lacking)}", where=f"{path}:1", needed=needed, todo="name the columns so")
+    places = [names.index(name) for name in COLUMNS]
+    points = []
+    for number, cells in lines[1:]:
+        row = [cells[place] if place < len(cells) else "" for place in places]
+        if not all(is_number(cell) and np.isfinite(float(cell)) for cell in row):
+            raise InputError(f"{', '.join(row)!r}", where=f"{path}:{number}", needed="three finite numbers in metres")
+        points.append([float(cell) for cell in row])
     if not points:
         raise InputError("no points", where=str(path), needed="a line a point")
     return np.array(points)
@@ -57,6 +65,7 @@ def write_field(path: Path, x_C: Array, fields: Mapping[str, tuple[Array, Array]
                 writer.writerow([light, *(f"{value:.9g}" for value in (*point, *d, level))])
 
 
+@reader("a csv that lpcal field wrote")
 def read_field(path: Path) -> tuple[Array, dict[str, tuple[Array, Array]]]:
     """The points (N, 3) of a FIELD.csv, and by light the unit vectors (N, 3) and irradiances (N,) there; every light at the same points.
 

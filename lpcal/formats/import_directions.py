@@ -13,9 +13,11 @@ import numpy as np
 
 from lpcal.errors import InputError
 from lpcal.formats.light_tables import C_FROM_UP, distant, numbers, text_of, unit_rows
+from lpcal.formats.text import decimal_points
 from lpcal.records.calibration import Calibration
 
 UNLIKE_LENGTHS = 0.02
+"""How far from each other, and from 1, the lengths of directions may be: files keep two digits and more."""
 
 
 def is_lp(path: Path) -> bool:
@@ -31,22 +33,33 @@ def read_lp(path: Path) -> Calibration:
     InputError
         Another count of lines than the first line says, a line without three numbers, a direction 0 0 0, or two lights of one name.
     """
-    lines = [(count, line.split()) for count, line in enumerate(text_of(path).splitlines(), 1) if line.strip()]
+    text = decimal_points(text_of(path)).replace(";", " ").replace(",", " ")
+    lines = [(count, line.split()) for count, line in enumerate(text.split("\n"), 1) if line.strip() and not line.startswith("#")]
     if not lines or len(lines[0][1]) != 1 or not lines[0][1][0].isdigit():
         raise InputError("does not begin with the number of lights", where=f"{path}:1", needed="a whole number, then a line a light")
     stated = int(lines[0][1][0])
     if stated != len(lines) - 1:
-        raise InputError(f"{len(lines) - 1} lights, but the first line says {stated}", where=str(path), needed="one line a light")
+        found = f"{len(lines) - 1} lights, but the first line says {stated}"
+        raise InputError(found, where=f"{path}:1", needed="one line a light", todo="is the file cut off?")
     names, rows = [], []
     for count, words in lines[1:]:
         if len(words) < 4:
             raise InputError(f"{' '.join(words)!r}", where=f"{path}:{count}", needed="file name and x y z")
         rows.append(numbers(words[-3:], f"{path}:{count}"))
-        names.append(PureWindowsPath(" ".join(words[:-3])).stem)
+        names.append(PureWindowsPath(" ".join(words[:-3]).strip("\"'")).stem)
     if len(set(names)) < len(names):
         double = next(name for name in names if names.count(name) > 1)
         raise InputError(f"two lights are called {double}", where=str(path), needed="each image once")
-    return distant(path.stem, names, unit_rows(np.stack(rows), str(path)) * C_FROM_UP)
+    vectors = np.stack(rows) if rows else np.zeros((0, 3))
+    length = np.linalg.norm(vectors, axis=1)
+    if rows and (np.abs(length - 1) > UNLIKE_LENGTHS).any() and np.ptp(length) > UNLIKE_LENGTHS * length.max():
+        raise InputError(
+            f"vectors of lengths {length.min():.3g} to {length.max():.3g}: positions, not directions",
+            where=str(path),
+            needed="unit vectors from the object to the lights",
+            todo="divide each by its length if the lights are far away; else give them as LUCES' led_params or near_ps' light.mat",
+        )
+    return distant(path.stem, names, unit_rows(vectors, str(path)) * C_FROM_UP)
 
 
 def is_table(path: Path) -> bool:
@@ -63,8 +76,8 @@ def read_table(path: Path) -> Calibration:
         Not N x 3 or 3 x N, not directions of length 1, or another count than the first row says.
     """
     rows = [
-        (count, numbers(line.replace(",", " ").split(), f"{path}:{count}"))
-        for count, line in enumerate(text_of(path).splitlines(), 1)
+        (count, numbers(line.replace(",", " ").replace(";", " ").split(), f"{path}:{count}"))
+        for count, line in enumerate(decimal_points(text_of(path)).split("\n"), 1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     stated = int(rows[0][1][0]) if rows and len(rows[0][1]) == 1 else None

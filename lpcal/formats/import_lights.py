@@ -12,8 +12,13 @@ from pathlib import Path
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
 from lpcal.formats.images import ENDINGS
+from lpcal.formats.light_tables import sane_lights
+from lpcal.formats.named_files import exists, hidden
+from lpcal.formats.reading import reading
 from lpcal.records.calibration import Calibration
 
+NO_LIGHT = re.compile(r"(^|[_-])(mask|ambient|background|normals?|depth)([_-]|\d*$)|^short_", re.IGNORECASE)
+"""What the names of images hold that show no light: ambient.png, ball_mask.png, short_L0.png."""
 FORMATS = {
     "RTI light file (.lp)": import_directions.LP,
     "DiLiGenT folder": import_diligent.FORMAT,
@@ -31,11 +36,12 @@ def read_lights(path: Path) -> tuple[str, Calibration]:
     InputError
         Not there, of no known format, or not what a file of its format holds.
     """
-    if not path.exists():
+    if not exists(path):
         raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
     for name, (is_one, read) in FORMATS.items():
         if is_one(path):
-            return name, read(path)
+            with reading(path, name):
+                return name, sane_lights(read(path), str(path))
     raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
 
 
@@ -51,8 +57,8 @@ def named_after(calibration: Calibration, folder: Path) -> Calibration:
     """
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light")
-    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS]
-    stems = [stem for stem in stems if stem != "mask" and not stem.startswith(("ambient", "short_"))]
+    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS and not hidden(path)]
+    stems = [stem for stem in stems if not NO_LIGHT.search(stem)]
     stems.sort(key=lambda stem: [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)])
     if len(stems) != len(calibration.lights):
         raise DisagreementError(f"{len(stems)} images", where=str(folder), needed=f"{len(calibration.lights)}, one a light")

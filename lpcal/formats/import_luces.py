@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.camera_coefficients import MOST_SIDE_PX, sane_camera
 from lpcal.formats.light_tables import numbers, text_of, unit_rows
 from lpcal.records.calibration import Calibration, Camera, Light, Lobe
 
@@ -45,6 +46,14 @@ def read(path: Path) -> Calibration:
     if not rows or len(rows[0]) < 7 or any(len(row) < 10 for row in rows[1:]):
         raise InputError("not the rows of led_params", where=str(file), needed="N nrows ncols f x0 y0 distance, then 11 numbers a light")
     heading, body = rows[0], np.stack([row[:10] for row in rows[1:]]) if rows[1:] else np.zeros((0, 10))
+    if not (
+        0 < heading[1] <= MOST_SIDE_PX and 0 < heading[2] <= MOST_SIDE_PX and heading[3] > 0 and heading[6] > 0 and 0 < heading[0] < 1e5
+    ):
+        found = f"the heading {' '.join(f'{number:g}' for number in heading[:7])}"
+        raise InputError(found, where=str(file), needed="N nrows ncols f x0 y0 distance, above zero", todo="is it whole?")
+    if np.any(body[:, 6:9] < 0) or not np.all(body[:, 6:9].sum(axis=1) > 0):
+        dark = int(np.argmin(body[:, 6:9].min(axis=1)))
+        raise InputError(f"light {dark + 1} has no power", where=str(file), needed="powers above zero", todo="correct its row")
     if len(body) != int(heading[0]):
         raise DisagreementError(f"{len(body)} lights", where=str(file), needed=f"{int(heading[0])}, as its heading says")
     first, second, f, x0, y0, distance = heading[1:7]
@@ -60,6 +69,7 @@ def read(path: Path) -> Calibration:
         towards = (source - focus_C) / np.linalg.norm(source - focus_C)
         lobe = Lobe("cosine", exponent=float(row[9])) if row[9] > 0 else Lobe()
         lights.append(Light(f"{k + 1:02d}", towards, power[k], None, source, axes[k], lobe))
+    sane_camera(camera, str(file))
     return Calibration(file.parent.name or file.stem, tuple(lights), camera, None, float(distance * M_FROM_MM), focus_C)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Light
 
@@ -25,10 +26,7 @@ def text_of(path: Path) -> str:
     InputError
         Not there, or not text.
     """
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError("cannot be read as text", where=str(path), needed="a text file of lights") from error
+    return read_text(path, "a text file of lights")
 
 
 def numbers(words: Sequence[str], where: str) -> Array:
@@ -91,3 +89,52 @@ def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Arr
     """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to the contract's mean of 1."""
     intensity = np.ones((len(names), 1)) if intensity is None else intensity / intensity.mean()
     return Calibration(name, tuple(Light(one, d, value) for one, d, value in zip(names, directions_C, intensity, strict=True)))
+
+
+FARTHEST_M = 100.0
+"""Metres beyond which no near light is believed."""
+SHARPEST = 5000.0
+"""The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
+KINDS = ("isotropic", "cosine", "table", "leds")
+
+
+def sane_lights(calibration: Calibration, where: str) -> Calibration:
+    """The calibration, whose lights can be lights.
+
+    Raises
+    ------
+    InputError
+        No light; a name twice, or none that a file could bear; a direction, an intensity, a place or a lobe that cannot be.
+    """
+    if not calibration.lights:
+        raise InputError("holds no lights", where=where, needed="lights")
+    names = [light.name for light in calibration.lights]
+    for light in calibration.lights:
+        found = _wrong(light) or ("two lights of one name" if names.count(light.name) > 1 else "")
+        if found:
+            raise InputError(found, where=f"{where}, light {light.name}", needed="a light as there can be", todo="correct it")
+    return calibration
+
+
+def _wrong(light: Light) -> str:
+    """What is wrong with a light, in words; empty where nothing is."""
+    if not light.name.strip() or set(light.name) & set("/\\\0") or light.name in {".", ".."}:
+        return f"the name {light.name!r}, which no image can have"
+    if not np.isfinite(light.direction_C).all() or not np.any(light.direction_C):
+        return "a direction that is none"
+    if not np.isfinite(light.intensity).all() or np.any(light.intensity < 0) or not np.any(light.intensity > 0):
+        return f"an intensity of {', '.join(f'{value:g}' for value in light.intensity)}"
+    if light.source_C is not None and not (np.abs(light.source_C) <= FARTHEST_M).all():
+        return f"a source at {', '.join(f'{value:g}' for value in light.source_C)} m"
+    if light.axis_C is not None and (not np.isfinite(light.axis_C).all() or not np.any(light.axis_C)):
+        return "an emission axis that is none"
+    lobe = light.lobe
+    if lobe.kind not in KINDS or not 0 <= lobe.exponent <= SHARPEST:
+        return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}"
+    if (
+        len(lobe.value) != len(lobe.angle_rad)
+        or np.any(np.diff(lobe.angle_rad) <= 0)
+        or (lobe.kind in {"table", "leds"} and len(lobe.value) < 2)
+    ):
+        return "a lobe whose angles do not grow, or with unlike numbers of angles and values"
+    return ""

@@ -12,6 +12,7 @@ import numpy as np
 
 from lpcal.errors import InputError
 from lpcal.formats.light_tables import numbers
+from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Lobe
 
@@ -20,8 +21,11 @@ PHOTOMETRY_C = 1
 LDT_SETS, LDT_RATIOS = 25, 10
 """Line (from 0) of an .ldt file with the count of lamp sets, six lines each; direct ratios after them."""
 TURN_DEG = 360.0
+MOST_ANGLES = 10_000
+"""Angles, planes or lamp sets of the largest file that is believed."""
 
 
+@reader("a photometric file")
 def read_lobe(path: Path) -> Lobe:
     """The mean lobe of a photometric file, by its ending.
 
@@ -30,15 +34,15 @@ def read_lobe(path: Path) -> Lobe:
     InputError
         Not there, cut off, another format or photometry, or dark on the axis.
     """
-    readers = {".ies": _ies, ".ldt": _ldt}
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
+    forms = {".ies": _ies, ".ldt": _ldt}
+    form = forms.get(path.suffix.lower())
+    if form is None:
         raise InputError(f"a lobe in {path.suffix or 'no'} format", where=str(path), needed="an .ies or .ldt file", todo="export it as one")
     try:
         text = path.read_text(encoding="utf-8-sig", errors="replace")  # makers' names come in any code; the numbers are plain
     except OSError as error:
         raise InputError("cannot be read", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?") from error
-    gamma_deg, plane_deg, intensity = reader(text, str(path))
+    gamma_deg, plane_deg, intensity = form(text, str(path))
     mean = _mean_over_planes(plane_deg, intensity)
     front = gamma_deg <= 180
     if gamma_deg.size < 2 or gamma_deg[0] != 0 or np.any(np.diff(gamma_deg) <= 0) or mean[0] <= 0 or np.any(mean < 0):
@@ -90,6 +94,9 @@ def _ldt(text: str, where: str) -> tuple[Array, Array, Array]:
     _whole(len(lines), LDT_SETS + 1, where)
     symmetry, planes, angles, sets = (int(numbers(lines[k : k + 1], where)[0]) for k in (2, 3, 5, LDT_SETS))
     start = LDT_SETS + 1 + 6 * sets + LDT_RATIOS
+    if not (0 < planes <= MOST_ANGLES and 0 < angles <= MOST_ANGLES and 0 <= sets <= MOST_ANGLES):
+        found = f"{planes} planes, {angles} angles, {sets} sets of lamps"
+        raise InputError(found, where=f"{where}:4", needed="counts above zero", todo="is it an EULUMDAT file?")
     given = {0: (0, planes), 1: (0, 1), 2: (0, planes // 2 + 1), 3: (planes // 4, 3 * planes // 4 + 1), 4: (0, planes // 4 + 1)}
     if symmetry not in given:
         raise InputError(f"symmetry {symmetry}", where=f"{where}:3", needed="0 to 4", todo="is it an EULUMDAT file?")
@@ -104,7 +111,7 @@ def _ldt(text: str, where: str) -> tuple[Array, Array, Array]:
 
 
 def _count(values: Array, place: int, where: str) -> int:
-    if values.size <= place or values[place] < 1 or values[place] != int(values[place]):
+    if values.size <= place or not 1 <= values[place] <= MOST_ANGLES or values[place] != int(values[place]):
         raise InputError("its head is cut off or garbled", where=where, needed="counts of angles", todo="export it again")
     return int(values[place])
 

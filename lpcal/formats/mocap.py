@@ -5,15 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 from lpcal.errors import InputError
-from lpcal.formats import mocap_c3d, mocap_generic, mocap_motive, mocap_qualisys, mocap_ros, mocap_tum, mocap_vicon
+from lpcal.formats import mocap_c3d, mocap_generic, mocap_motive, mocap_qualisys, mocap_ros, mocap_trc, mocap_tum, mocap_vicon
 from lpcal.formats.marker_table import MarkerTable, markers_of
 from lpcal.formats.pose_table import PoseTable, stream_of
+from lpcal.formats.reading import reader
+from lpcal.formats.text import decimal_points, read_text, with_commas
 from lpcal.records.observations import MarkerStream, PoseStream
 
-KNOWN = "Motive, Vicon or Qualisys text, C3D, a ROS bag, TUM, EuRoC, or a csv of t_s, x_m, y_m, z_m, qx, qy, qz, qw"
+KNOWN = "Motive, Vicon or Qualisys text, TRC, C3D, a ROS bag, TUM, EuRoC, or a csv of t_s, x_m, y_m, z_m, qx, qy, qz, qw"
 HEAD_BYTES = 4096
 
 
+@reader("a whole motion-capture recording")
 def read_mocap(
     path: Path, body: str | None = None, *, quaternion: str | None = None, units: str | None = None, direction: str = "H_OP"
 ) -> PoseStream | MarkerStream:
@@ -48,20 +51,63 @@ def _table(path: Path, body: str | None, quaternion: str | None, units: str | No
         return mocap_ros.read_ros(path, body, units)
     if mocap_c3d.is_c3d(head):
         return mocap_c3d.read_c3d(path, units)
-    if b"\x00" in head:
-        raise InputError("not a text file", where=str(path), needed=KNOWN, todo="export it as one of these")
-    text = head.decode("utf-8-sig", errors="replace")
+    for mark, found in OTHER_FILES.items():
+        if head.startswith(mark):
+            what, _, todo = found.partition("; ")
+            raise InputError(what, where=str(path), needed=KNOWN, todo=todo)
+    text = read_text(path, KNOWN)
     if not text.strip():
         raise InputError("empty", where=str(path), needed=KNOWN, todo="export the recording again")
-    if mocap_motive.is_motive(text):
-        return mocap_motive.read_motive(path, body, quaternion, units)
+    refuse_other_systems(text, path)
     if mocap_qualisys.is_qualisys(text):
-        return mocap_qualisys.read_qualisys(path, body, units)
-    if mocap_vicon.is_vicon(text):
-        return mocap_vicon.read_vicon(path, body, units)
+        return mocap_qualisys.read_qualisys(decimal_points(text), path, body, units)
+    if mocap_trc.is_trc(text):
+        return mocap_trc.read_trc(decimal_points(text), path, units)
     if mocap_tum.is_tum(text):
-        return mocap_tum.read_tum(path, quaternion, units)
-    return mocap_generic.read_generic(path, quaternion, units)
+        return mocap_tum.read_tum(decimal_points(text), path, quaternion, units)
+    text = with_commas(text, path)
+    if mocap_motive.is_motive(text):
+        return mocap_motive.read_motive(text, path, body, quaternion, units)
+    if mocap_vicon.is_vicon(text):
+        return mocap_vicon.read_vicon(text, path, body, units)
+    return mocap_generic.read_generic(text, path, quaternion, units)
+
+
+@reader("a csv of poses")
+def read_pose_csv(path: Path, quaternion: str | None = None, units: str | None = None) -> PoseTable:
+    """The poses of a plain csv, as `read_generic`; of whatever encoding and delimiter."""
+    return mocap_generic.read_generic(with_commas(read_text(path, "a csv of poses"), path), path, quaternion, units)
+
+
+OTHER_SYSTEMS = {
+    "HIERARCHY": "a BVH file: it holds joint angles of a skeleton; export rigid bodies as csv",
+    "; FBX": "an FBX scene; export rigid bodies as csv or markers as C3D",
+    "{": "a JSON document; write t_s, x_m, y_m, z_m, qx, qy, qz, qw as csv",
+    "<?xml": "an XML document; export csv, tsv or C3D",
+}
+"""How other systems' texts begin, and what to export instead."""
+OTHER_FILES = {
+    b"PK\x03\x04": "a zip archive or an Excel workbook; save it as csv",
+    b"\xd0\xcf\x11\xe0": "an old Excel workbook; save it as csv",
+    b"Kaydara FBX": "an FBX scene; export rigid bodies as csv or markers as C3D",
+    b"\x89HDF": "an HDF5 or MATLAB 7.3 file; export csv",
+    b"MATLAB": "a MATLAB file; export csv",
+}
+"""How other systems' binary files begin, and what to export instead."""
+
+
+def refuse_other_systems(text: str, path: Path) -> None:
+    """Name a text of a kind that is not read.
+
+    Raises
+    ------
+    InputError
+        It is one.
+    """
+    for mark, found in OTHER_SYSTEMS.items():
+        if text.lstrip().startswith(mark):
+            what, _, todo = found.partition("; ")
+            raise InputError(what, where=str(path), needed=KNOWN, todo=todo)
 
 
 def _head(path: Path) -> bytes:

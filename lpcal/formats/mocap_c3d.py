@@ -6,11 +6,14 @@ Read with ezc3d. Source: the C3D file format, c3d.org.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.limited import parse_limited
 from lpcal.formats.marker_table import MarkerTable
+from lpcal.formats.number_table import is_rate
 from lpcal.formats.pose_table import METRES
 
 
@@ -27,25 +30,33 @@ def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
     InputError
         Cut off or garbled, no markers, or a unit that nothing states.
     """
-    import ezc3d
-
-    try:
-        content = ezc3d.c3d(str(path))
-        points, parameters = np.asarray(content["data"]["points"], dtype=float), content["parameters"]["POINT"]
-        residuals = np.asarray(content["data"]["meta_points"]["residuals"], dtype=float)[0]
-        first = int(content["header"]["points"]["first_frame"])
-    except (OSError, RuntimeError, ValueError, KeyError, IndexError, MemoryError) as error:
-        raise InputError(
-            "cannot be read as C3D", where=str(path), needed="a whole C3D file", todo="is it cut off? export it again"
-        ) from error
+    found = parse_limited(parse, path, "a whole C3D file")
+    points, residuals, first, parameters = found["points"], found["residuals"], found["first_frame"], found["parameters"]
     labels = [str(label).strip() for key in ("LABELS", "LABELS2") for label in parameters.get(key, {"value": []})["value"]]
     if not points.size or not labels:
         raise InputError("no markers", where=str(path), needed="points with labels", todo="export the marker trajectories")
     stated = "".join(parameters.get("UNITS", {"value": []})["value"]).strip().lower()
     if units is None and stated not in METRES:
         raise InputError(f"{stated!r} as unit of length", where=str(path), needed="m, cm or mm", todo="state mocap.units in panel.yaml")
-    rate = float(parameters["RATE"]["value"][0])
+    rate = float(parameters.get("RATE", {"value": [0]})["value"][0])
+    if not is_rate(str(rate)):
+        raise InputError(f"a rate of {rate:g} Hz", where=str(path), needed="the frames a second", todo="export it again")
     x = np.where(residuals[..., None] < 0, np.nan, np.moveaxis(points[:3], 0, -1))
     notes = (f"lengths read as {units}, as panel.yaml says, against the file's {stated}",) if units and stated not in {"", units} else ()
     t_s = (first + np.arange(points.shape[2])) / rate
     return MarkerTable(t_s, dict(zip(labels, x, strict=False)), units or stated, notes)
+
+
+def parse(path: str) -> dict[str, Any]:
+    """What ezc3d finds in a file: points (4, markers, frames), residuals (markers, frames), the first frame, POINT's parameters."""
+    import ezc3d
+
+    content = ezc3d.c3d(path)
+    parameters = content["parameters"]["POINT"]
+    wanted = ("LABELS", "LABELS2", "UNITS", "RATE")
+    return {
+        "points": np.asarray(content["data"]["points"], dtype=float),
+        "residuals": np.asarray(content["data"]["meta_points"]["residuals"], dtype=float)[0],
+        "first_frame": int(content["header"]["points"]["first_frame"]),
+        "parameters": {key: {"value": list(parameters[key]["value"])} for key in wanted if key in parameters},
+    }

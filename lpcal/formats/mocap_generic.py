@@ -2,64 +2,79 @@
 
 Without names the eight columns are ``t, x, y, z, qx, qy, qz, qw`` (seconds, metres). With names the columns may stand in any order:
 ``t|time|timestamp[_s|_ns]``, ``x|px|tx|p_x..``, ``qx|q_x..qw``; a unit may follow, ``x_mm`` or ``x [mm]``.
-Times over 1e14 are nanoseconds.
+Names of ROS messages (``field.pose.position.x``) are known too; stamps too large for seconds are milli-, micro- or nanoseconds.
 """
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.number_table import is_number, read_numbers, read_text
+from lpcal.formats.number_table import COMMENTS, UNITS_S, is_number, read_numbers, unit_of_stamps
 from lpcal.formats.pose_table import PoseTable
 from lpcal.geometry.arrays import Array
 
 PLAIN = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"]
 LAYOUT = "t_s, x_m, y_m, z_m, qx, qy, qz, qw"
-NANOSECONDS = 1e14
-"""Times over this are nanoseconds: as seconds they would be three million years."""
-TIMES = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 
-def read_generic(path: Path, quaternion: str | None = None, units: str | None = None) -> PoseTable:
-    """The poses of a csv; it knows no bodies.
+def read_generic(text: str, path: Path, quaternion: str | None = None, units: str | None = None) -> PoseTable:
+    """The poses of a csv, its cells divided by commas or by blanks; it knows no bodies.
 
     Raises
     ------
     InputError
         Its columns cannot be told, or a row cannot be read.
     """
-    text = read_text(path)
-    lines = text.splitlines()
-    start = next((i for i, line in enumerate(lines) if line.strip()), None)
-    if start is None:
-        raise InputError("empty", where=str(path), needed=f"a csv of {LAYOUT}", todo="export it again")
-    delimiter = max(",;\t", key=lines[start].count)
-    cells = next(csv.reader([lines[start].lstrip("# ")], delimiter=delimiter))
+    lines = [line if "," in line else ",".join(line.split()) for line in text.split("\n")]
+    start, cells = _first_row(lines, path)
     named = not is_number(cells[0])
+    where = f"{path}:{start + 1}"
     if named:
-        places, unit_of_time, unit_of_length = _named(cells, f"{path}:{start + 1}")
-    elif len(cells) == len(PLAIN):
+        places, unit_of_time, unit_of_length = _named(cells, where)
+    elif len(cells) >= len(PLAIN):
+        _refuse_unlike(cells, where)
         places, unit_of_time, unit_of_length = list(range(8)), None, None
     else:
-        raise InputError(f"{len(cells)} columns without names", where=f"{path}:{start + 1}", needed=LAYOUT, todo="add a row of names")
+        raise InputError(f"{len(cells)} columns without names", where=where, needed=LAYOUT, todo="add a row of names")
     if quaternion == "wxyz" and not named:
         places = [*places[:4], *(places[i] for i in (5, 6, 7, 4))]
     first = start + 1 + named
-    numbers = read_numbers("\n".join(lines[first - 1 :]), first, path, delimiter=delimiter, columns=places)
-    unit = unit_of_time or ("ns" if np.nanmax(np.abs(numbers[:, 0]), initial=0) > NANOSECONDS else "s")
-    t_s = _whole_ns(lines[first - 1 :], delimiter, places[0], len(numbers)) if unit == "ns" else None
-    t_s = numbers[:, 0] * TIMES[unit] if t_s is None else t_s
-    return PoseTable("", t_s, numbers[:, 1:4], None, numbers[:, 4:8], units or unit_of_length or "m", first_line=first)
+    numbers = read_numbers("\n".join(lines[first - 1 :]), first, path, delimiter=",", columns=places)
+    unit = unit_of_time if unit_of_time not in {None, "s"} else unit_of_stamps(float(np.nanmax(np.abs(numbers[:, 0]), initial=0)))
+    t_s = _whole_ns(lines[first - 1 :], ",", places[0], len(numbers)) if unit == "ns" else None
+    t_s = numbers[:, 0] * UNITS_S[str(unit)] if t_s is None else t_s
+    notes = (f"times are {unit}",) if unit != "s" else ()
+    return PoseTable("", t_s, numbers[:, 1:4], None, numbers[:, 4:8], units or unit_of_length or "m", first_line=first, notes=notes)
+
+
+def _first_row(lines: list[str], path: Path) -> tuple[int, list[str]]:
+    """The place and the cells of the first row that is names or numbers; a comment is either names or nothing."""
+    for place, line in enumerate(lines):
+        if not line.strip(", \t"):
+            continue
+        cells = [cell.strip() for cell in line.lstrip("#%/ ").split(",")]
+        if line.lstrip().startswith(COMMENTS) and not {"x", "y", "z"} <= {_key(_split(cell)[0]) for cell in cells}:
+            continue
+        return place, cells
+    raise InputError("no rows of numbers", where=str(path), needed=f"a csv of {LAYOUT}", todo="export it again")
+
+
+def _refuse_unlike(cells: list[str], where: str) -> None:
+    """Without names the fifth to eighth numbers must be a quaternion where there are more than eight."""
+    if len(cells) == len(PLAIN):
+        return
+    numbers = [float(cell) if is_number(cell) else np.nan for cell in cells[4:8]]
+    if not abs(np.linalg.norm(numbers) - 1) < 0.02:
+        raise InputError(f"{len(cells)} columns without names", where=where, needed=LAYOUT, todo="add a row of names")
 
 
 def _whole_ns(lines: list[str], delimiter: str, place: int, count: int) -> Array | None:
     """Times (N,) of whole nanoseconds, which a float of nanoseconds would round to 256; None where they are not whole."""
-    rows = (line.split(delimiter) for line in lines if line.strip() and not line.startswith("#"))
+    rows = (line.split(delimiter) for line in lines if line.strip(", \t") and not line.lstrip().startswith(COMMENTS))
     stamps = [row[place].strip() for row in rows if place < len(row)]
     if len(stamps) != count or not all(stamp.isdigit() for stamp in stamps):
         return None
@@ -73,28 +88,60 @@ def _named(cells: list[str], where: str) -> tuple[list[int], str | None, str | N
     for place, cell in enumerate(cells):
         name, unit = _split(cell)
         key = _key(name)
-        if key and key not in found:
+        if key and (key not in found or (key == "t" and "stamp" in name and "stamp" not in _split(cells[found["t"]])[0])):
             found[key] = place
             units[key] = unit
     lacking = [key for key in PLAIN if key not in found]
     if lacking:
         raise InputError(f"no column for {', '.join(lacking)}", where=where, needed=LAYOUT, todo="name the columns so")
-    time = units["t"] if units["t"] in TIMES else None
+    time = units["t"] if units["t"] in UNITS_S else None
     return [found[key] for key in PLAIN], time, units["x"] if units["x"] in {"m", "cm", "mm"} else None
 
 
 def _split(cell: str) -> tuple[str, str]:
-    """A column's name and unit: ``p_RS_R_x [m]``, ``x_mm``."""
-    text = cell.strip().lower()
+    """A column's name, its words joined by _, and its unit: ``p_RS_R_x [m]``, ``x_mm``, ``field.pose.position.x``."""
+    text = cell.strip().lower().lstrip("%#")
     match = re.fullmatch(r"(.*?)\s*[\[(]\s*([^\])]*)\s*[\])]", text) or re.fullmatch(r"(.*)_(mm|cm|m|s|ms|us|ns)", text)
-    return (match.group(1).strip(), match.group(2).strip()) if match else (text, "")
+    name, unit = (match.group(1).strip(), match.group(2).strip()) if match else (text, "")
+    return re.sub(r"[^a-z0-9]+", "_", name).strip("_"), unit
+
+
+TIMES = {"t", "time", "timestamp", "stamp", "sec", "seconds", "secs"}
+TURNS = ("orientation", "rotation", "rot", "quat", "quaternion", "q")
+PLACES = ("p", "t", "pos", "position", "translation", "trans", "pose", "field", "transform", "loc", "location")
+"""How a column of positions may begin beside its axis."""
+STRANGERS = {
+    "v",
+    "b",
+    "w",
+    "r",
+    "vel",
+    "velocity",
+    "twist",
+    "linear",
+    "angular",
+    "acc",
+    "accel",
+    "bias",
+    "cov",
+    "covariance",
+    "omega",
+    "force",
+}
+"""Words of columns that are neither positions nor orientations."""
 
 
 def _key(name: str) -> str | None:
-    if name in {"t", "time", "timestamp", "stamp", "#timestamp", "sec", "seconds"}:
+    """t, x, y, z, qx, qy, qz or qw, by the words of a column's name; None for another column."""
+    words = name.split("_")
+    if words[-1] in TIMES and len(words) <= 3:
         return "t"
-    match = re.fullmatch(r"q(?:uat(?:ernion)?)?_?(?:.*_)?([xyzw])", name)
-    if match:
-        return f"q{match.group(1)}"
-    match = re.fullmatch(r"(?:p|t|pos(?:ition)?|translation)?_?(?:[a-z0-9_]*_)?([xyz])", name)
-    return match.group(1) if match and not name.startswith(("v", "b_", "r", "w")) else None
+    if words[0] in STRANGERS or set(words) & (STRANGERS - {"r", "w", "b", "v"}):
+        return None
+    turn = re.fullmatch(r"(?:q|quat|rot|orientation)([xyzw])", words[-1])
+    if turn:
+        return f"q{turn.group(1)}"
+    if words[-1] in {"x", "y", "z", "w"} and any(word in TURNS for word in words[:-1]):
+        return f"q{words[-1]}"
+    place = re.fullmatch(r"(?:p|t|pos)?([xyz])", words[-1])
+    return place.group(1) if place and (len(words) == 1 or words[0] in PLACES) else None

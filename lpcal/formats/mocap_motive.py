@@ -18,7 +18,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.body_choice import choose_body
 from lpcal.formats.marker_table import MarkerTable
-from lpcal.formats.number_table import read_numbers, read_text
+from lpcal.formats.number_table import read_numbers
 from lpcal.formats.pose_table import PoseTable
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -54,7 +54,9 @@ def is_motive(text: str) -> bool:
     return text.lstrip('"').startswith("Format Version")
 
 
-def read_motive(path: Path, body: str | None, quaternion: str | None = None, units: str | None = None) -> PoseTable | MarkerTable:
+def read_motive(
+    text: str, path: Path, body: str | None, quaternion: str | None = None, units: str | None = None
+) -> PoseTable | MarkerTable:
     """The poses of one body, or the tracks of all markers where the file has no body.
 
     Raises
@@ -64,13 +66,16 @@ def read_motive(path: Path, body: str | None, quaternion: str | None = None, uni
     DisagreementError
         The named body is not in the file; those that are there are listed.
     """
-    text = read_text(path)
     header = _header(text, path)
     bodies = list(dict.fromkeys(c.name for c in header.columns if c.kind in BODY_TYPES and c.category == "rotation"))
     if not bodies:
         return _marker_table(text, header, units, path)
     name = choose_body(bodies, body, path)
     of_body = [column for column in header.columns if column.name == name and column.kind in BODY_TYPES]
+    axes = [c.axis for c in of_body if c.category == "position"]
+    if sorted(axes) != list("XYZ"):
+        found = f"position columns {', '.join(axes) or 'none'} of {name}"
+        raise InputError(found, where=f"{path}:{header.first_line - 1}", needed="X, Y, Z", todo="export the take again")
     rotation = [column for column in of_body if column.category == "rotation"]
     position = sorted((column for column in of_body if column.category == "position"), key=lambda column: column.axis)
     error = [column for column in of_body if column.category in ERRORS]
@@ -178,7 +183,11 @@ def _rotation(
     if len(columns) == 4:
         if quaternion == "wxyz":
             return None, values[:, [1, 2, 3, 0]], ["quaternion read as w, x, y, z, as panel.yaml says, against the file's labels"]
-        return None, values[:, [[c.axis for c in columns].index(axis) for axis in "XYZW"]], []
+        axes = [column.axis for column in columns]
+        if sorted(axes) != list("WXYZ"):
+            found = f"rotation columns {', '.join(axes)}"
+            raise InputError(found, where=f"line {header.first_line - 1}", needed="X, Y, Z, W", todo="export the take again")
+        return None, values[:, [axes.index(axis) for axis in "XYZW"]], []
     order = header.keys.get("rotation type", "").upper()
     notes = [] if sorted(order) == list("XYZ") else ["the file does not say the order of its Euler angles: XYZ taken"]
     order = "XYZ" if notes else order

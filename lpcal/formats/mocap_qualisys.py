@@ -17,7 +17,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.body_choice import choose_body
 from lpcal.formats.marker_table import MarkerTable
-from lpcal.formats.number_table import is_number, read_numbers, read_text
+from lpcal.formats.number_table import is_number, is_rate, read_numbers
 from lpcal.formats.pose_table import PoseTable
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -43,7 +43,7 @@ def is_qualisys(text: str) -> bool:
     return text.startswith("NO_OF_FRAMES")
 
 
-def read_qualisys(path: Path, body: str | None, units: str | None = None) -> PoseTable | MarkerTable:
+def read_qualisys(text: str, path: Path, body: str | None, units: str | None = None) -> PoseTable | MarkerTable:
     """The poses of one body, or the tracks of all markers.
 
     Raises
@@ -53,7 +53,6 @@ def read_qualisys(path: Path, body: str | None, units: str | None = None) -> Pos
     DisagreementError
         The named body is not in the file.
     """
-    text = read_text(path)
     lines = text.splitlines()
     bodies = "BODY_NAMES" in "\n".join(lines[:30])
     names_key, width = ("BODY_NAMES", BODY_COLUMNS) if bodies else ("MARKER_NAMES", 3)
@@ -94,7 +93,7 @@ def _header(lines: list[str], names_key: str, width: int, path: Path) -> _Header
     at = next((k for k, row in enumerate(rows) if not KEY.fullmatch(row[0])), len(rows))
     keys = {row[0]: [cell for cell in row[1:] if cell] for row in rows[:at]}
     lacking = [key for key in ("FREQUENCY", names_key) if not keys.get(key)]
-    if lacking or not is_number(keys["FREQUENCY"][0]):
+    if lacking or not is_rate(keys["FREQUENCY"][0]):
         raise InputError(
             f"no {' and no '.join(lacking) or 'number for FREQUENCY'}", where=f"{path}:1", needed="QTM's header", todo="export it again"
         )

@@ -17,14 +17,14 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.body_choice import choose_body
 from lpcal.formats.marker_table import MarkerTable
-from lpcal.formats.number_table import is_number, read_numbers, read_text
+from lpcal.formats.number_table import is_rate, read_numbers
 from lpcal.formats.pose_table import METRES, PoseTable
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
 SECTIONS = ("Objects", "Segments", "Trajectories")
 """Those that are read, the first that is there."""
-TITLES = {*SECTIONS, "Joints", "Model Outputs", "Devices"}
+TITLES = {*SECTIONS, "Joints", "Model Outputs", "Devices", "Events", "Forces", "Gait Cycle Parameters"}
 HEADER_ROWS = 5
 
 
@@ -45,7 +45,7 @@ def is_vicon(text: str) -> bool:
     return _title(text.split("\n", 1)[0]) in TITLES
 
 
-def read_vicon(path: Path, body: str | None, units: str | None = None) -> PoseTable | MarkerTable:
+def read_vicon(text: str, path: Path, body: str | None, units: str | None = None) -> PoseTable | MarkerTable:
     """The poses of one body, or the tracks of all markers where the file has no poses.
 
     Raises
@@ -55,7 +55,7 @@ def read_vicon(path: Path, body: str | None, units: str | None = None) -> PoseTa
     DisagreementError
         The named body is not in the file.
     """
-    lines = read_text(path).splitlines(keepends=True)
+    lines = text.splitlines(keepends=True)
     starts = {_title(line): k for k, line in enumerate(lines) if _title(line) in TITLES}
     name = next((name for name in SECTIONS if name in starts), None)
     if name is None:
@@ -72,7 +72,7 @@ def _title(line: str) -> str:
 
 def _section(lines: list[str], start: int, path: Path) -> _Section:
     rows = list(csv.reader(lines[start : start + HEADER_ROWS]))
-    if len(rows) < HEADER_ROWS or not is_number(rows[1][0] if rows[1] else "") or rows[3][0].strip() != "Frame":
+    if len(rows) < HEADER_ROWS or not all(rows) or not is_rate(rows[1][0]) or rows[3][0].strip() != "Frame":
         raise InputError(
             "not the rows rate, names, Frame.., units", where=f"{path}:{start + 2}", needed="Vicon's CSV", todo="export the file again"
         )

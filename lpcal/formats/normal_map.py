@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from lpcal.errors import InputError
 from lpcal.formats.images import read_image
+from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image, Mask
 
 C_FROM_GL = np.array([1.0, -1.0, -1.0], np.float32)
@@ -23,6 +24,7 @@ LENGTHS = (0.5, 1.5)
 """A pixel whose vector is no longer or shorter holds a normal."""
 
 
+@reader("a normal map: .npz, .npy, .png or .tif")
 def read_normals(path: Path) -> tuple[Image, Mask]:
     """Normals (H, W, 3) in C, not made unit, and the pixels (H, W) that hold one.
 

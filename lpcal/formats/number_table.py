@@ -12,23 +12,11 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
 
+MOST_HZ = 1e6
+"""Hz of the fastest recording that is believed."""
+COMMENTS = ("#", "//", "%")
+"""What a line begins with that holds no numbers."""
 BLANK_ROW = re.compile(r"(?:nan|[\s,;])*")
-
-
-def read_text(path: Path) -> str:
-    """The text of a file.
-
-    Raises
-    ------
-    InputError
-        It is not there, or not text.
-    """
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError as error:
-        raise InputError("no such file", where=str(path), needed="a motion-capture file", todo="correct the name") from error
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError("not a text file", where=str(path), needed="text in UTF-8") from error
 
 
 def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | None, columns: Sequence[int] | None = None) -> Array:
@@ -46,7 +34,7 @@ def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | Non
     if delimiter is not None and not text.endswith("\n") and len(lines) > 1:
         _refuse_cut(text, first_line, path, delimiter)
     try:
-        return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments="#")
+        return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments=COMMENTS)
     except ValueError as error:
         raise _complaint(text, first_line, path, delimiter, columns) from error
 
@@ -75,7 +63,7 @@ def _complaint(text: str, first_line: int, path: Path, delimiter: str | None, co
     needed = 0
     for number, line in enumerate(text.splitlines(), start=first_line):
         cells = [cell.strip() for cell in line.split(delimiter)]
-        if not any(cells) or line.startswith("#"):
+        if not any(cells) or line.lstrip().startswith(COMMENTS):
             continue
         needed = needed or (1 + max(columns) if columns else len(cells))
         if len(cells) < needed:
@@ -95,3 +83,30 @@ def is_number(cell: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def is_rate(cell: str) -> bool:
+    """Whether a cell holds a rate in Hz: a number over zero that a camera can have."""
+    return is_number(cell) and 0 < float(cell) < MOST_HZ
+
+
+UNITS_S = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+"""Seconds in a unit of time."""
+LATEST_S = 1e11
+"""Seconds since any epoch that are believed: the year 5138 in Unix time. Larger stamps count milli-, micro- or nanoseconds."""
+
+
+def unit_of_stamps(largest: float) -> str:
+    """The unit of stamps that do not state one: the coarsest in which the largest is a time of this age."""
+    return next((unit for unit in ("s", "ms", "us") if abs(largest) * UNITS_S[unit] <= LATEST_S), "ns")
+
+
+def seconds(stamps: Sequence[str], unit: str | None = None) -> Array:
+    """Stamps (N,) as seconds; whole numbers keep all their digits. Without a unit, or as too late seconds, it is found from their size."""
+    values = np.array([float(stamp) for stamp in stamps])
+    if unit in {None, "s"}:
+        unit = unit_of_stamps(float(np.abs(values).max(initial=0.0)))
+    if unit == "s" or not all(stamp.strip().lstrip("-").isdigit() for stamp in stamps):
+        return np.asarray(values * UNITS_S[str(unit)])
+    ticks = round(1 / UNITS_S[str(unit)])
+    return np.array([int(stamp) // ticks + (int(stamp) % ticks) / ticks for stamp in stamps])

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from lpcal.errors import InputError
+from lpcal.formats.guarded_yaml import refuse_bombs
+from lpcal.formats.reading import reader
 from lpcal.records.rig import CaptureSection, Rig, RigFile
 
 if TYPE_CHECKING:
@@ -50,6 +52,7 @@ def find(start: Path) -> Path:
     )
 
 
+@reader("a panel.yaml")
 def read_rig(path: Path) -> RigFile:
     """Read a panel.yaml.
 
@@ -64,6 +67,7 @@ def read_rig(path: Path) -> RigFile:
     return RigFile(rig=_checked(Rig, document, path, lines), file=path, lines=lines)
 
 
+@reader("a capture.yaml")
 def read_capture_section(path: Path) -> CaptureSection:
     """Read a capture.yaml; an absent file, or one of comments alone, states nothing."""
     if not path.is_file():
@@ -89,6 +93,7 @@ def _load(path: Path) -> tuple[Any, dict[str, int]]:
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed="a text file") from error
     lines: dict[str, int] = {}
+    refuse_bombs(text, path)
     try:
         _collect_lines(yaml.compose(text, Loader=_AsWritten), "", lines, path, ())
         document = yaml.load(text, Loader=_AsWritten)

@@ -1,26 +1,64 @@
 """``mocap.poses``: one pose an image, without a clock.
 
-Either a csv whose names say ``file, x_m, y_m, z_m, qx, qy, qz, qw``, or a text of 4x4 matrices in the images' order: 16 (or 12) numbers a
-line, or a row of four a line. A matrix may stand transposed (its translation in the last row).
+Either a csv whose names say the image, the position and the rotation, or rows of numbers in the images' order: 4x4 matrices, 16 (or 12)
+numbers a line or a row of four a line (a matrix may stand transposed, its translation in the last row), or six numbers a line where
+``mocap.rotation`` says what the last three are. A unit may follow a name: ``x_mm``, ``A [deg]``.
+
+========================  =============================================================================================
+columns                   rotation
+========================  =============================================================================================
+qx, qy, qz, qw            a quaternion
+rx, ry, rz                a rotation vector in radians (Universal Robots)
+A, B, C                   R = Rz(A) Ry(B) Rx(C), degrees (KUKA)
+roll, pitch, yaw          R = Rz(yaw) Ry(pitch) Rx(roll) (URDF, ROS); W, P, R likewise in degrees (Fanuc)
+========================  =============================================================================================
 """
 
 from __future__ import annotations
 
-import csv
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from lpcal.errors import InputError
-from lpcal.formats.number_table import is_number, read_text
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.number_table import COMMENTS, is_number
 from lpcal.formats.pose_table import METRES
+from lpcal.formats.reading import reader
+from lpcal.formats.text import read_text, with_commas
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
 LAYOUT = "file, x_m, y_m, z_m, qx, qy, qz, qw, or 4x4 matrices in the images' order"
 RIGID = 5e-3
+"""How far the product of a matrix and its transpose may be from the unit matrix: files keep four digits and more."""
+MOST_M = 20.0
+"""Metres that no robot or room reaches: larger numbers without a unit are millimetres."""
+NAMES = {"file": ("file", "image", "filename", "name"), "x": ("x", "tx", "px"), "y": ("y", "ty", "py"), "z": ("z", "tz", "pz")}
+UNIT = re.compile(r"(.*?)(?:_|\s*[\[(]\s*)(m|cm|mm|rad|deg)\s*[\])]?$")
+
+
+def _about(axis: int, angle: Array) -> Array:
+    return se3.rotation(np.eye(3)[axis] * angle[:, None])
+
+
+ROTATIONS: dict[str, Callable[[Array], Array]] = {
+    "rotation_vector": se3.rotation,
+    "rotation_vector_deg": lambda v: se3.rotation(np.deg2rad(v)),
+    "abc_deg": lambda v: _about(2, np.deg2rad(v[:, 0])) @ _about(1, np.deg2rad(v[:, 1])) @ _about(0, np.deg2rad(v[:, 2])),
+    "rpy_deg": lambda v: _about(2, np.deg2rad(v[:, 2])) @ _about(1, np.deg2rad(v[:, 1])) @ _about(0, np.deg2rad(v[:, 0])),
+    "rpy_rad": lambda v: _about(2, v[:, 2]) @ _about(1, v[:, 1]) @ _about(0, v[:, 0]),
+}
+"""Rotations (N, 3, 3) of three numbers (N, 3), by what ``mocap.rotation`` calls them."""
+TRIPLES: dict[tuple[str, ...], str] = {
+    ("rx", "ry", "rz"): "rotation_vector",
+    ("a", "b", "c"): "abc_deg",
+    ("roll", "pitch", "yaw"): "",
+    ("w", "p", "r"): "rpy_deg",
+}
+"""What columns of these names hold where neither a unit nor panel.yaml says otherwise; empty: it must be said."""
 
 
 @dataclass(frozen=True)
@@ -29,72 +67,184 @@ class ImagePoses:
 
     H: Array
     files: tuple[str, ...] | None
+    notes: tuple[str, ...] = ()
 
 
-def read_robot_poses(path: Path, *, quaternion: str | None = None, units: str | None = None, direction: str = "H_OP") -> ImagePoses:
+@dataclass(frozen=True)
+class Stated:
+    """What panel.yaml says of the file."""
+
+    quaternion: str | None = None
+    units: str | None = None
+    direction: str = "H_OP"
+    rotation: str | None = None
+
+
+@reader("a csv of poses, or rows of numbers")
+def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
     """One pose an image.
 
     Raises
     ------
     InputError
-        Neither layout, or a matrix that is no rigid transform; with its line.
+        None of the layouts, or a matrix that is no rigid transform; with its line.
+    DisagreementError
+        Two rows for one image.
     """
-    text = read_text(path)
-    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip() and not line.lstrip().startswith("#")]
+    text = with_commas(read_text(path, LAYOUT), path)
+    lines = [
+        (number, line.strip())
+        for number, line in enumerate(text.split("\n"), start=1)
+        if line.strip(", \t") and not line.lstrip().startswith(COMMENTS)
+    ]
     if not lines:
         raise InputError("empty", where=str(path), needed=LAYOUT)
-    cells = [cell for cell in re.split(r"[,;\s]+", lines[0][1].strip()) if cell]
-    poses = _matrices(lines, path) if all(map(is_number, cells)) else _table(text, path, quaternion)
-    H = poses.H.copy()
-    H[:, :3, 3] *= METRES[units or "m"]
-    return ImagePoses(se3.inv(H) if direction == "H_PO" else H, poses.files)
+    cells = [_cells(line) for _, line in lines]
+    numbers = [number for number, _ in lines]
+    if not all(map(is_number, cells[0])):
+        poses = _table(cells, numbers, path, stated)
+    elif len(cells[0]) == 6:
+        poses = _sixes(cells, numbers, path, stated)
+    else:
+        poses = _matrices(cells, numbers, path, stated)
+    return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, poses.notes)
 
 
-def _table(text: str, path: Path, quaternion: str | None) -> ImagePoses:
-    reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
-    names = {name: re.sub(r"_m$", "", name.strip().lower()) for name in reader.fieldnames or ()}
-    lacking = {"file", "x", "y", "z", "qx", "qy", "qz", "qw"} - set(names.values())
+def _cells(line: str) -> list[str]:
+    if "," in line:
+        return [cell.strip() for cell in line.split(",")]
+    return line.split()
+
+
+def _floats(cells: list[str], where: str) -> list[float]:
+    """Cells as finite numbers."""
+    wrong = next((cell for cell in cells if not is_number(cell) or not np.isfinite(float(cell))), None)
+    if wrong is not None:
+        raise InputError(f"{wrong!r}", where=where, needed="a finite number", todo="is the file cut off?")
+    return [float(cell) for cell in cells]
+
+
+def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
+    """A csv with names."""
+    names, units = _names(cells[0])
+    triple = next((triple for triple in TRIPLES if set(triple) <= set(names)), None)
+    turn = ("qx", "qy", "qz", "qw") if "qw" in names or triple is None else triple
+    lacking = [name for name in ("file", "x", "y", "z", *turn) if name not in names]
     if lacking:
-        raise InputError(f"no column for {', '.join(sorted(lacking))}", where=f"{path}:1", needed=LAYOUT, todo="name the columns so")
-    files, rows = [], []
-    for row in reader:
-        cells = {names[name]: value for name, value in row.items() if name in names}
-        try:
-            rows.append([float(cells[key]) for key in ("x", "y", "z", "qx", "qy", "qz", "qw")])
-        except (TypeError, ValueError) as error:
-            raise InputError("a cell that is no number", where=f"{path}:{reader.line_num}", needed=LAYOUT, todo="is it cut off?") from error
-        files.append(str(cells["file"]).strip())
-        if not 0.98 < np.linalg.norm(rows[-1][3:]) < 1.02:
-            raise InputError(
-                f"a quaternion of length {np.linalg.norm(rows[-1][3:]):.3g}", where=f"{path}:{reader.line_num}", needed="length 1"
+        raise InputError(f"no column for {', '.join(lacking)}", where=f"{path}:{lines[0]}", needed=LAYOUT, todo="name the columns so")
+    files: dict[str, int] = {}
+    rows = []
+    for row, line in zip(cells[1:], lines[1:], strict=True):
+        if len(row) < len(cells[0]):
+            raise InputError(f"{len(row)} cells", where=f"{path}:{line}", needed=f"{len(cells[0])}", todo="is the file cut off?")
+        name = row[names["file"]]
+        if name in files:
+            raise DisagreementError(
+                f"{name} stands in line {files[name]} already",
+                where=f"{path}:{line}",
+                needed="one pose an image",
+                todo="remove one of them",
             )
-    numbers = np.array(rows).reshape(-1, 7)
-    q = numbers[:, [4, 5, 6, 3]] if quaternion == "wxyz" else numbers[:, 3:]
-    return ImagePoses(se3.transform(se3.rotation_from_quaternion(q), numbers[:, :3]), tuple(files))
+        files[name] = line
+        rows.append(_floats([row[names[key]] for key in ("x", "y", "z", *turn)], f"{path}:{line}"))
+    numbers = np.array(rows).reshape(-1, 3 + len(turn))
+    if not rows:
+        raise InputError("no rows", where=str(path), needed="a row an image")
+    x, notes = _metres(numbers[:, :3], units.get("x"), stated)
+    if turn[0] == "qx":
+        length = np.linalg.norm(numbers[:, 3:], axis=1)
+        wrong = np.flatnonzero(np.abs(length - 1) > 0.02)
+        if wrong.size:
+            found = f"a quaternion of length {length[wrong[0]]:.3g}"
+            raise InputError(found, where=f"{path}:{lines[1 + wrong[0]]}", needed="length 1", todo="is the row cut off?")
+        q = numbers[:, [4, 5, 6, 3]] if stated.quaternion == "wxyz" and names["qx"] < names["qw"] else numbers[:, 3:]
+        return ImagePoses(se3.transform(se3.rotation_from_quaternion(q), x), tuple(files), notes)
+    R, said = _rotations(numbers[:, 3:], turn, units.get(turn[0]), stated, f"{path}:{lines[0]}")
+    return ImagePoses(se3.transform(R, x), tuple(files), (*notes, *said))
 
 
-def _matrices(lines: list[tuple[int, str]], path: Path) -> ImagePoses:
+def _names(cells: list[str]) -> tuple[dict[str, int], dict[str, str]]:
+    """Places of the columns by name, and their units where the names state them."""
+    names: dict[str, int] = {}
+    units: dict[str, str] = {}
+    for place, cell in enumerate(cells):
+        text = cell.strip().lower().replace("pos_", "").replace("position_", "").replace("quat_", "q")
+        match = UNIT.fullmatch(text)
+        text, unit = (match.group(1).strip(), match.group(2)) if match else (text, "")
+        key = next((key for key, known in NAMES.items() if text in known), text)
+        if key not in names:
+            names[key] = place
+            units[key] = unit
+    return names, units
+
+
+def _metres(x: Array, unit: str | None, stated: Stated) -> tuple[Array, tuple[str, ...]]:
+    """Positions in metres, by what panel.yaml or the names say, or by their size."""
+    if stated.units or unit in METRES:
+        return METRES[stated.units or str(unit)] * x, ()
+    if np.median(np.abs(x).max(axis=1)) > MOST_M:
+        return 1e-3 * x, ("positions without a unit are taken as millimetres: as metres they would be hundreds; mocap.units states it",)
+    return x, ()
+
+
+def _rotations(v: Array, names: tuple[str, ...], unit: str | None, stated: Stated, where: str) -> tuple[Array, tuple[str, ...]]:
+    """Rotations (N, 3, 3) of three numbers, by what panel.yaml says, the names and their unit."""
+    kind = stated.rotation or TRIPLES[names]
+    if stated.rotation is None and unit in {"deg", "rad"}:
+        kind = {"rotation_vector": {"deg": "rotation_vector_deg", "rad": "rotation_vector"}}.get(
+            kind, {"deg": "rpy_deg", "rad": "rpy_rad"}
+        )[unit]
+        kind = "abc_deg" if names[0] == "a" and unit == "deg" else kind
+    too_large = kind in {"rotation_vector", "rpy_rad"} and np.abs(v).max() > 2 * np.pi + 1e-3
+    if not kind or too_large:
+        found = f"{', '.join(names)}: {'too large for radians' if too_large else 'degrees or radians'}"
+        raise InputError(
+            found, where=where, needed="what they are", todo=f"state mocap.rotation in panel.yaml: {' | '.join(ROTATIONS)}, or name a unit"
+        )
+    return ROTATIONS[kind](v), (f"{', '.join(names)} read as {kind.replace('_', ' ')}",)
+
+
+def _sixes(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
+    """Six numbers a line: a position, and what panel.yaml says."""
+    if stated.rotation is None:
+        raise InputError(
+            "six numbers a line: a position, and a rotation that nothing names",
+            where=f"{path}:{lines[0]}",
+            needed="what the last three are",
+            todo=f"state mocap.rotation in panel.yaml: {' | '.join(ROTATIONS)}",
+        )
+    for row, line in zip(cells, lines, strict=True):
+        if len(row) != 6:
+            raise InputError(f"{len(row)} numbers", where=f"{path}:{line}", needed="six, as in the first row", todo="is the file cut off?")
+    numbers = np.array([_floats(row, f"{path}:{line}") for row, line in zip(cells, lines, strict=True)])
+    x, notes = _metres(numbers[:, :3], None, stated)
+    return ImagePoses(se3.transform(ROTATIONS[stated.rotation](numbers[:, 3:]), x), None, notes)
+
+
+def _matrices(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
     numbers: list[float] = []
     starts: list[int] = []
-    for number, line in lines:
-        cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
-        wrong = next((cell for cell in cells if not is_number(cell)), None)
-        if wrong is not None or len(cells) not in {4, 12, 16}:
-            found = f"{wrong!r}" if wrong is not None else f"{len(cells)} numbers"
-            raise InputError(found, where=f"{path}:{number}", needed="16, 12 or 4 numbers a line", todo="is the file cut off?")
-        numbers += [*map(float, cells), *([0.0, 0.0, 0.0, 1.0] if len(cells) == 12 else [])]
-        starts += [number] * (4 if len(cells) > 4 else 1)
+    for row, line in zip(cells, lines, strict=True):
+        found = [cell for cell in row if cell]
+        values = _floats(found, f"{path}:{line}")
+        if len(values) not in {4, 12, 16}:
+            found_many = f"{len(values)} numbers"
+            raise InputError(found_many, where=f"{path}:{line}", needed="16, 12 or 4 numbers a line", todo="is the file cut off?")
+        numbers += [*values, *([0.0, 0.0, 0.0, 1.0] if len(values) == 12 else [])]
+        starts += [line] * (4 if len(values) > 4 else 1)
     if len(numbers) % 16:
-        raise InputError(f"{len(numbers)} numbers", where=f"{path}:{lines[-1][0]}", needed="16 a pose", todo="is the file cut off?")
+        raise InputError(f"{len(numbers)} numbers", where=f"{path}:{lines[-1]}", needed="16 a pose", todo="is the file cut off?")
     H = np.array(numbers).reshape(-1, 4, 4)
     if np.any(H[:, 3, :3]) and not np.any(H[:, :3, 3]):
         H = np.swapaxes(H, 1, 2).copy()
     R = H[:, :3, :3]
-    off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) + np.abs(H[:, 3] - [0, 0, 0, 1]).max(axis=1)
-    wrong_ones = np.flatnonzero(~(off < RIGID) | (np.linalg.det(R) < 0))
-    if wrong_ones.size:
+    with np.errstate(over="ignore", invalid="ignore"):
+        off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) + np.abs(H[:, 3] - [0, 0, 0, 1]).max(axis=1)
+        wrong = np.flatnonzero(~(off < RIGID) | (np.linalg.det(R) < 0))
+    if wrong.size:
         raise InputError(
-            "a matrix that is no rotation and translation", where=f"{path}:{starts[4 * wrong_ones[0]]}", needed="a rigid 4x4 matrix"
+            "a matrix that is no rotation and translation", where=f"{path}:{starts[4 * wrong[0]]}", needed="a rigid 4x4 matrix"
         )
     H[:, :3, :3] = se3.nearest_rotation(R)
-    return ImagePoses(H, None)
+    H[:, :3, 3], notes = _metres(H[:, :3, 3], None, stated)
+    return ImagePoses(H, None, notes)

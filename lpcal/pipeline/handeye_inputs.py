@@ -14,10 +14,9 @@ from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.image_times import read_image_times
-from lpcal.formats.mocap import read_mocap
-from lpcal.formats.mocap_generic import read_generic
+from lpcal.formats.mocap import read_mocap, read_pose_csv
 from lpcal.formats.pose_table import timed_poses
-from lpcal.formats.robot_poses import ImagePoses, read_robot_poses
+from lpcal.formats.robot_poses import ImagePoses, Stated, read_robot_poses
 from lpcal.geometry.arrays import Array
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Camera
@@ -174,7 +173,7 @@ def _from_poses(workspace: Workspace, section: MocapSection, known: BoardPoses, 
     from lpcal.pipeline.intrinsics import camera_images, mocap_images
 
     path = workspace.path(str(section.poses), "mocap.poses")
-    poses = read_robot_poses(path, quaternion=section.quaternion, units=section.units, direction=section.direction)
+    poses = read_robot_poses(path, Stated(section.quaternion, section.units, section.direction, section.rotation))
     images = [workspace.relative(image) for image in (mocap_images(workspace) or camera_images(workspace))]
     pose_of = _paired(poses, images, path)
     boards, without = _chosen(known, images)
@@ -185,7 +184,8 @@ def _from_poses(workspace: Workspace, section: MocapSection, known: BoardPoses, 
         )
     boards = boards.of(np.array([k for k, image in enumerate(boards.images) if image in pose_of], dtype=np.intp))
     H_OP = np.array([pose_of[image] for image in boards.images])
-    return HandEyeInputs(boards, camera, _share(workspace, boards), None, H_OP, without, tuple(images), None, unposed)
+    share = _share(workspace, boards)
+    return HandEyeInputs(boards, camera, share, None, H_OP, without, tuple(images), None, unposed, notes=poses.notes)
 
 
 def _from_rests(workspace: Workspace, section: MocapSection, known: BoardPoses, camera: Camera) -> HandEyeInputs:
@@ -229,7 +229,7 @@ def _from_board_poses(workspace: Workspace, section: MocapSection) -> HandEyeInp
     """Board poses found elsewhere: no images, no corners, no camera."""
     assert section.board_poses is not None
     path = workspace.path(section.board_poses.file, "mocap.board_poses")
-    rows = timed_poses(read_generic(path), path, inverse=section.board_poses.direction == "H_BC")
+    rows = timed_poses(read_pose_csv(path), path, inverse=section.board_poses.direction == "H_BC")
     names = tuple(f"{path.name} at {t:.4f} s" for t in rows.t_s)
     found = BoardPoses(names, rows.t_s, rows.H)
     if section.file is None:

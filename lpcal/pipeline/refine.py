@@ -176,7 +176,9 @@ def _numbers(values: Any, digits: int) -> str:
 
 
 def _look_closer(workspace: Workspace) -> None:
-    """Whether every sphere has an image of every light."""
+    """Whether every sphere has an image of every light, and every lobe can be read."""
+    for _, path in _lobe_files(workspace):
+        read_lobe(path)
     rig = workspace.rig_file.rig
     for name, sphere in rig.spheres.items():
         check_lights(workspace.path(sphere.images, f"spheres.{name}.images"), list(rig.lights))

@@ -92,6 +92,8 @@ class MocapSection(Section):
     poses: str | None = None
     direction: Literal["H_OP", "H_PO"] = "H_OP"
     quaternion: Literal["xyzw", "wxyz"] | None = None
+    rotation: Literal["rotation_vector", "rotation_vector_deg", "abc_deg", "rpy_deg", "rpy_rad"] | None = None
+    """What the three numbers of a rotation are in ``poses``, where their names do not say."""
     units: Literal["m", "mm", "cm"] | None = None
     clock_offset: Annotated[Literal["estimate"] | float, BeforeValidator(_offset)] = "estimate"
 

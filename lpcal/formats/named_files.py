@@ -1,0 +1,67 @@
+"""Files as people name them in files: with slashes or backslashes, in any Unicode form, and of the kinds that are no pictures yet.
+
+A name that is there as it is written is taken so, before anything else is made of it.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable
+from pathlib import Path, PureWindowsPath
+
+VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".mpg", ".mpeg", ".webm", ".wmv")
+RAWS = (
+    ".cr2",
+    ".cr3",
+    ".nef",
+    ".nrw",
+    ".arw",
+    ".srf",
+    ".sr2",
+    ".dng",
+    ".raf",
+    ".orf",
+    ".rw2",
+    ".pef",
+    ".srw",
+    ".x3f",
+    ".3fr",
+    ".iiq",
+    ".raw",
+)
+OTHERS = (".heic", ".heif", ".gif", ".psd", ".exr", ".hdr", ".svg", ".pdf")
+
+
+def exists(path: Path) -> bool:
+    """Whether something is there; a name that no system takes is not there."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def resolve_named(folder: Path, name: str) -> Path | None:
+    """The file or folder that a name in a file means, relative to a folder; None where it is not there."""
+    for spelled in dict.fromkeys((name, *(unicodedata.normalize(form, name) for form in ("NFC", "NFD")))):
+        if exists(folder / spelled):
+            return folder / spelled
+    if "\\" in name:
+        windows = PureWindowsPath(name)
+        if exists(folder / windows.as_posix()):
+            return folder / windows.as_posix()
+    return None
+
+
+def hidden(path: Path) -> bool:
+    """Whether a file is one that the system hides: ``._x.png`` beside x.png, ``.DS_Store``."""
+    return path.name.startswith(".")
+
+
+def kind_of_other(paths: Iterable[Path]) -> str:
+    """What files are that cannot be read as pictures, in words; empty where there is nothing to say of them."""
+    endings = {path.suffix.lower() for path in paths}
+    for known, what in ((VIDEOS, "a video"), (RAWS, "a camera's raw file"), (OTHERS, "of a kind that is not read")):
+        found = sorted(endings & set(known))
+        if found:
+            return f"{found[0]} is {what}: turn it into PNG or TIFF first"
+    return ""
