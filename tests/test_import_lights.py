@@ -170,7 +170,7 @@ def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
         ("a.lp", "3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
         ("a.lp", "one.jpg 0 0 1\n", "does not begin with the number of lights"),
         ("a.lp", "1\none.jpg 0 x 1\n", "no number"),
-        ("a.lp", "2\na.jpg 120 0 300\nb.jpg 0 90 310\n", "positions, not directions"),
+        ("a.lp", "2\na.jpg 120 0 300\nb.jpg 0 90 410\n", "positions, not directions"),
         ("a.lp", "1\none.jpg 0 0 0\n", "no direction"),
         ("a.lp", "2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
         ("a.txt", "100 20 300\n0 10 400\n3 3 3\n9 9 9\n", "positions, not directions"),
