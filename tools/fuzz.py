@@ -262,6 +262,9 @@ def main() -> int:
         result = run_case(options.case, samples, folder)
         print(f"{folder}: {result.format}, code {result.code}, {result.seconds:.2f} s {result.wrong}\n{result.said}")
         return 0
+    for sample in samples:  # once, before the children are forked
+        with tempfile.TemporaryDirectory() as folder:
+            sample.make(Path(folder), random.Random(0))
     counts: Counter[tuple[str, str]] = Counter()
     wrong: list[Result] = []
     slowest: dict[str, float] = {}

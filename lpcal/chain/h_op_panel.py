@@ -8,15 +8,30 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.errors import DegenerateError
 from lpcal.geometry import pose_track, se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import PoseStream
 
 
 def track_of(stream: PoseStream) -> pose_track.PoseTrack:
-    """The trusted samples of a stream, H_OP, cut into runs without a gap or a jump."""
+    """The trusted samples of a stream, H_OP, cut into runs without a gap or a jump.
+
+    Raises
+    ------
+    DegenerateError
+        No sample can be trusted.
+    """
     variance = None if stream.covariance is None else _over_the_usual(stream.covariance, stream.H_OP)
-    return pose_track.clean(stream.t_s, stream.H_OP, stream.error_m, variance)
+    track = pose_track.clean(stream.t_s, stream.H_OP, stream.error_m, variance)
+    if not len(track.t_s):
+        why = ", ".join(f"{count} {reason}" for reason, count in track.dropped.items() if count)
+        raise DegenerateError(
+            f"none of the {len(stream.t_s)} poses of {stream.body or 'the body'} can be trusted{': ' * bool(why)}{why}",
+            needed="a recording of some seconds in which the body moves as a panel can",
+            todo="look at the recording: are its markers, its units and its rate right?",
+        )
+    return track
 
 
 def _over_the_usual(covariance: Array, H_OP: Array) -> Array:

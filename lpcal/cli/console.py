@@ -18,7 +18,7 @@ def show(outcome: Outcome, *, as_json: bool) -> None:
     if as_json:
         from lpcal.formats.documents import plain
 
-        print(json.dumps(plain(outcome.document | {"warnings": outcome.warnings}), indent=1))  # noqa: T201
+        print(json.dumps(plain(outcome.document | {"warnings": outcome.warnings}), indent=1, allow_nan=False))  # noqa: T201
     else:
         print("\n".join(outcome.summary))  # noqa: T201
         if outcome.next_command:
