@@ -123,7 +123,7 @@ def refuse_another_count(images: Sequence[Path], picks: Sequence[int], first: Bo
     if board.kind != "chessboard":
         return
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        others = pool.map(lambda row: count_corners(_grey(images[row]), board.corners), picks)
+        others = pool.map(lambda row: count_corners(_grey(images[row])), picks)
         counts = Counter(other for other in others if other is not None)
     counts.pop((max(board.corners), min(board.corners)), None)
     if not counts or counts.most_common(1)[0][1] <= len(picks) / 2:
