@@ -19,7 +19,7 @@ def sheet(corners: tuple[int, int], *, outer: float = 1.0, surround: int = LIGHT
     black = (np.floor(x) + np.floor(y)) % 2 == 0
     out = np.maximum(np.maximum(-x, x - (nx - 1)), np.maximum(-y, y - (ny - 1)))
     board = np.where(black, DARK, LIGHT)
-    return np.where(out <= outer, board, np.where(out <= outer + frame[0], frame[1], surround)).astype(np.uint8)
+    return np.where(out < outer, board, np.where(out < outer + frame[0], frame[1], surround)).astype(np.uint8)
 
 
 def seen(paper: np.ndarray, seed: int, *, size: tuple[int, int] = (960, 720), noise: float = 2.0, fill: float = 0.9) -> np.ndarray:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.detect.board_grid import contrast, spacing_px
+from lpcal.detect.board_grid import contrast, extended, spacing_px
 from lpcal.detect.board_links import without_holes
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 
@@ -28,9 +28,9 @@ BLURRED_PX = 3.0
 """A picture whose steepest edge has more blur than this is blurred."""
 FINE_PX = 8.0
 """Corners closer than this are seen in part only."""
-EDGE_SQUARES = 1.5
-"""A grid whose last corner is closer to the image's edge than so many squares runs out of it."""
-
+RIM_SQUARES, MOSTLY = 0.3, 0.4
+"""A corner cannot be seen nearer to the image's edge than so many squares; a grid is cut off where more than this share of its next line
+cannot be seen, since a line of it is known by the rest."""
 GLARE_SQUARES = 1.8
 """Area, in squares, of a saturated spot within the grid that is no white square."""
 
@@ -39,10 +39,10 @@ def hardly_any_contrast(image: Image | Labels) -> str | None:
     """In words, where a grey image (H, W) of any scale holds nothing but its own noise; None: there is more in it."""
     import cv2
 
-    scale = {"uint8": 1.0, "uint16": 255 / 65535}.get(image.dtype.name)
     light = image.astype(np.float32)
+    scale = {"uint8": 1.0, "uint16": 255 / 65535}.get(image.dtype.name, 255.0 if light.max() <= 1 else None)
     mask = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], np.float32)
-    noise = 1.4826 * float(np.median(np.abs(cv2.filter2D(light, -1, mask)[::2, ::2]))) / 6
+    noise = 1.4826 * float(np.median(np.abs(cv2.filter2D(light, -1, mask)[::4, ::4]))) / 6
     smooth = cv2.blur(light, (3, 3))
     block = np.ones((BLOCK_PX, BLOCK_PX), np.uint8)
     spans = (cv2.dilate(smooth, block) - cv2.erode(smooth, block))[:: BLOCK_PX // 2, :: BLOCK_PX // 2]
@@ -50,7 +50,7 @@ def hardly_any_contrast(image: Image | Labels) -> str | None:
     least = LEAST_STEPS if image.dtype == np.uint8 else 0.0
     if span > max(least, LEAST_NOISES * noise) and span > 0:
         return None
-    low, high = np.percentile(light[::2, ::2], [1, 99])
+    low, high = np.percentile(light[::4, ::4], [1, 99])
     size = f"{low:.4g} to {high:.4g}" if scale is None else f"{scale * low:.0f} to {scale * high:.0f} of 255"
     if scale is None or scale * (high - low) < CLEAR_STEPS:
         return f"the image has hardly any contrast ({size})"
@@ -91,7 +91,9 @@ def _instead(grid: Array, corners: tuple[int, int], shape: tuple[int, ...], satu
         return f"it is too small: {size} is there, {spacing:.1f} px apart; come closer"
     if (columns, rows) == (long, short):
         missing = int(np.isnan(grid[..., 0]).sum())
-        return f"{size} is there, but {missing} of them are not clear enough" if missing else f"{size} is there, but they are not clear enough"
+        return (
+            f"{size} is there, but {missing} of them are not clear enough" if missing else f"{size} is there, but they are not clear enough"
+        )
     sides = cut_sides(grid, shape)
     if sides:
         return f"it is cut off at the {' and the '.join(sides)}: {size} is in the image"
@@ -114,8 +116,14 @@ def _spot_squares(grid: Array, saturated: Mask) -> float:
 
 
 def cut_sides(grid: Array, shape: tuple[int, ...]) -> list[str]:
-    """The image's edges that a grid runs into."""
-    margin = EDGE_SQUARES * spacing_px(grid)
-    low, high = np.nanmin(grid, axis=(0, 1)), np.nanmax(grid, axis=(0, 1))
-    near = {"left": low[0] < margin, "top": low[1] < margin, "right": high[0] > shape[1] - margin, "bottom": high[1] > shape[0] - margin}
-    return [f"{side} edge" for side, is_near in near.items() if is_near]
+    """The image's edges beyond which a grid may go on: its next line would lie outside the image."""
+    wide = extended(without_holes(grid), 1)
+    low, high = -RIM_SQUARES * spacing_px(wide), np.array(shape[1::-1]) - 1
+    outside = {
+        "left edge": wide[..., 0] < -low,
+        "top edge": wide[..., 1] < -low,
+        "right edge": wide[..., 0] > high[0] + low,
+        "bottom edge": wide[..., 1] > high[1] + low,
+    }
+    lines = [np.s_[1:-1, 0], np.s_[1:-1, -1], np.s_[0, 1:-1], np.s_[-1, 1:-1]]
+    return [edge for edge, beyond in outside.items() if any(beyond[line].mean() > MOSTLY for line in lines)]

@@ -23,6 +23,8 @@ ALONG_COS, PARALLEL_COS, TURNED_COS = 0.955, 0.9, 0.6
 degrees of crosswise: what a lens and a tilted board bend from one square to the next."""
 FEWEST = 9
 """Linked saddles that make a grid, 3x3: noise and foliage link three or four."""
+COMPONENTS = 3
+"""Connected components that are laid out: boards that stand side by side are a few."""
 RING_SHARE = 0.3
 """Radius of the ring about a place where a corner is looked for, in units of the spacing."""
 LIKE = 0.7
@@ -30,12 +32,14 @@ LIKE = 0.7
 QUARTER_SHARE, CONTRAST = 0.25, 0.4
 """Where a quarter's light is read, in units of the spacing along both axes; and the least contrast of its quarters, of the grid's own: a
 square cut at the rim, or its end against a table, has light and dark on the wrong side."""
+RIM_SHARE = 0.08
+"""The same share for corners that were linked: squares cut to a tenth of their width are squares, a thinner line is a frame."""
 STRAY = 0.22
 """A corner looked for lies this near to where it should be, in units of the spacing."""
 FULL = 0.6
 """Share of a line's places that must hold a corner, for the line to belong to the grid."""
 LARGE_PX, SMALL_PX = 2000, 1000
-"""Images of a longer side than the one are searched at half size first, of a shorter side than the other at twice their size last."""
+"""Images of a longer side than the one are searched at half size and less, of a shorter side than the other at twice their size last."""
 MOST_LINES = 100
 """Lines of a grid along a side, at most."""
 
@@ -48,18 +52,16 @@ def seen_grid(grey: Labels, corners: tuple[int, int] | None = None) -> Array | N
     import cv2
 
     best: Array | None = None
-    sizes = [1.0, 0.5, 0.25] if max(grey.shape) <= LARGE_PX else [0.5, 0.25, 0.125, 1.0]
+    sizes = [1.0, 0.5, 0.25] if max(grey.shape) <= LARGE_PX else [0.5, 0.25, 0.125]
     if max(grey.shape) < SMALL_PX:
         sizes.append(2.0)
     for size in sizes:
-        if size >= 1 and size * max(grey.shape) > LARGE_PX and best is not None:
-            break
         smooth = cv2.INTER_AREA if size < 1 else cv2.INTER_CUBIC
         small = grey if size == 1 else np.asarray(cv2.resize(grey, None, fx=size, fy=size, interpolation=smooth), dtype=np.uint8)
         grid = linked_grid(saddle_points(small))
         if grid is None:
             continue
-        grid = grown(small, grid)
+        grid = grown(small, _crossed(small.astype(np.float32), grid))
         grid = (grid + 0.5) / size - 0.5
         if best is None or np.isfinite(grid).sum() > np.isfinite(best).sum():
             best = grid
@@ -77,9 +79,7 @@ def linked_grid(found: SaddlePoints) -> Array | None:
     place = np.zeros((count, 2), dtype=int)
     seen = np.zeros(count, dtype=bool)
     best: list[int] = []
-    for first in range(count):
-        if seen[first] or np.count_nonzero(links[first] >= 0) < 2:
-            continue
+    for first in _firsts(links):
         members = _spread_from(first, found.edges, links, place, seen)
         if len(members) > len(best):
             best = members
@@ -97,7 +97,7 @@ def linked_grid(found: SaddlePoints) -> Array | None:
 
 
 def grown(grey: Labels, grid: Array) -> Array:
-    """The grid with its holes filled and with the lines of corners that go on beyond it, as far as the image shows them."""
+    """The grid (rows, columns, 2) with its holes filled and the lines that go on beyond it, as far as an 8 bit image shows them."""
     light = grey.astype(np.float32)
     grid = _filled(light, grid)
     for _ in range(MOST_LINES):
@@ -138,6 +138,20 @@ def _mutual(found: SaddlePoints) -> Array:
         links[:, side] = np.where(np.isfinite(length.min(axis=1)), other[np.arange(count), nearest], -1)
     back = np.any(links[links] == np.arange(count)[:, None, None], axis=-1)
     return np.asarray(np.where((links >= 0) & back, links, -1))
+
+
+def _firsts(links: Array) -> list[int]:
+    """A saddle of each of the largest connected components, the one with most links."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    at, side = np.nonzero(links >= 0)
+    graph = coo_array((np.ones(len(at), dtype=bool), (at, links[at, side])), shape=(len(links), len(links)))
+    label = connected_components(graph, directed=False)[1]
+    size = np.bincount(label)
+    largest = [one for one in np.argsort(-size)[:COMPONENTS] if size[one] >= FEWEST]
+    degree = np.count_nonzero(links >= 0, axis=1)
+    return [int(np.where(label == one, degree, -1).argmax()) for one in largest]
 
 
 def _spread_from(first: int, edges: Array, links: Array, place: Array, seen: Array) -> list[int]:
@@ -190,7 +204,9 @@ def _steps(grid: Array) -> Array:
         step = np.linalg.norm(np.diff(grid, axis=axis), axis=-1)
         first, last = np.take(step, [0], axis=axis), np.take(step, [-1], axis=axis)
         padded = np.concatenate([first, step, last], axis=axis)
-        lengths.append(np.take(padded, range(padded.shape[axis] - 1), axis=axis) / 2 + np.take(padded, range(1, padded.shape[axis]), axis=axis) / 2)
+        lengths.append(
+            np.take(padded, range(padded.shape[axis] - 1), axis=axis) / 2 + np.take(padded, range(1, padded.shape[axis]), axis=axis) / 2
+        )
     return np.asarray(np.minimum(*lengths))
 
 
@@ -231,7 +247,17 @@ def _corners_near(light: Array, places: Array, inner: Array) -> Array:
     return np.where(((like.max(axis=-1) > LIKE) & fits)[..., None], found, np.nan)
 
 
-def _crossing(light: Array, grid: Array) -> Array:
+def _crossed(light: Array, grid: Array) -> Array:
+    """The grid without what is no crossing of squares once it is looked at over a share of the spacing: joints of a thin frame, prints."""
+    whole = without_holes(grid)
+    contrast = np.where(np.isnan(grid[..., 0]), np.nan, _crossing(light, whole, RIM_SHARE))
+    usual = np.nanmedian(contrast)
+    good = np.sign(usual) * contrast > CONTRAST * abs(usual)
+    trimmed = _trimmed(np.where(good[..., None], grid, np.nan))
+    return trimmed if min(trimmed.shape[:2]) >= 3 and np.isfinite(trimmed[..., 0]).sum() >= FEWEST else grid
+
+
+def _crossing(light: Array, grid: Array, share: float = QUARTER_SHARE) -> Array:
     """Signed contrast (rows, columns) of the quarters about each place, of one sign all over a chessboard: the least that any quarter has."""
     import cv2
 
@@ -239,7 +265,7 @@ def _crossing(light: Array, grid: Array) -> Array:
     along, across = (wide[1:-1, 2:] - wide[1:-1, :-2]) / 2, (wide[2:, 1:-1] - wide[:-2, 1:-1]) / 2
     quarters = []
     for x, y in ((1, 1), (-1, -1), (1, -1), (-1, 1)):
-        at = np.nan_to_num(grid + QUARTER_SHARE * (x * along + y * across), nan=-9.0).astype(np.float32)
+        at = np.nan_to_num(grid + share * (x * along + y * across), nan=-9.0).astype(np.float32)
         quarters.append(cv2.remap(light, at[..., 0], at[..., 1], cv2.INTER_LINEAR))
     parity = np.where(np.indices(grid.shape[:2]).sum(axis=0) % 2, -1.0, 1.0)
     first, second = np.stack(quarters[:2]), np.stack(quarters[2:])
