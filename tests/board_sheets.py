@@ -40,6 +40,6 @@ def seen(paper: np.ndarray, seed: int, *, size: tuple[int, int] = (960, 720), no
     scale = fill * np.min(np.array(size) / np.ptp(placed, axis=0))
     middle = (placed.min(axis=0) + placed.max(axis=0)) / 2
     target = (placed - middle) * scale + np.array(size) / 2
-    H = cv2.getPerspectiveTransform((board + [w / 2, h / 2]).astype(np.float32), target.astype(np.float32))
+    H = cv2.getPerspectiveTransform((board + np.array([w, h]) / 2).astype(np.float32), target.astype(np.float32))
     fine = cv2.warpPerspective(paper, H, size, flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE)
     return np.clip(cv2.GaussianBlur(fine, (0, 0), 0.9) + noise * rng.standard_normal(fine.shape), 0, 255).astype(np.uint8)

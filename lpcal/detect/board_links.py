@@ -61,7 +61,7 @@ def seen_grid(grey: Labels, corners: tuple[int, int] | None = None) -> Array | N
         grid = linked_grid(saddle_points(small))
         if grid is None:
             continue
-        grid = grown(small, _crossed(small.astype(np.float32), grid))
+        grid = grown(small, _crossed(np.asarray(small, dtype=float), grid))
         grid = (grid + 0.5) / size - 0.5
         if best is None or np.isfinite(grid).sum() > np.isfinite(best).sum():
             best = grid
@@ -98,7 +98,7 @@ def linked_grid(found: SaddlePoints) -> Array | None:
 
 def grown(grey: Labels, grid: Array) -> Array:
     """The grid (rows, columns, 2) with its holes filled and the lines that go on beyond it, as far as an 8 bit image shows them."""
-    light = grey.astype(np.float32)
+    light = np.asarray(grey, dtype=float)
     grid = _filled(light, grid)
     for _ in range(MOST_LINES):
         wider = extended(without_holes(grid), 1)
@@ -248,7 +248,7 @@ def _corners_near(light: Array, places: Array, inner: Array) -> Array:
 
 
 def _crossed(light: Array, grid: Array) -> Array:
-    """The grid without what is no crossing of squares once it is looked at over a share of the spacing: joints of a thin frame, prints."""
+    """The grid without what is no crossing of squares over a share of the spacing: joints of a thin frame, prints."""
     whole = without_holes(grid)
     contrast = np.where(np.isnan(grid[..., 0]), np.nan, _crossing(light, whole, RIM_SHARE))
     usual = np.nanmedian(contrast)
@@ -258,7 +258,7 @@ def _crossed(light: Array, grid: Array) -> Array:
 
 
 def _crossing(light: Array, grid: Array, share: float = QUARTER_SHARE) -> Array:
-    """Signed contrast (rows, columns) of the quarters about each place, of one sign all over a chessboard: the least that any quarter has."""
+    """Signed contrast (rows, columns) about each place, the least of its quarters': of one sign over a board."""
     import cv2
 
     wide = extended(grid, 1)
