@@ -126,3 +126,23 @@ def test_the_lens_of_the_studio_is_a_usual_one() -> None:
     solution = solve_camera(views(list(poses(16, 17)), Studio()), BOARD, model="opencv5")
     np.testing.assert_allclose(solution.camera.K[0, 0], K[0, 0], atol=2)
     np.testing.assert_allclose(solution.camera.distortion[:2], LENS[:2], atol=0.03)
+
+
+@pytest.mark.parametrize("bow_m", [0.0, 1e-4, 2.5e-4, 5e-4])
+def test_five_cameras_agree_on_one_board(bow_m: float) -> None:
+    """Focal length and bow agree with the truth within three of their sigmas, whatever each camera's views; a flat board is flat within them."""
+    pattern = Pattern(bow_m=(bow_m, 0.6 * bow_m))
+    for seed in range(5):
+        rng = np.random.default_rng(100 + seed)
+        found = [
+            BoardView(f"{k}.png", Studio().project(H_CB, pattern.points()) + 0.05 * rng.standard_normal((54, 2)))
+            for k, H_CB in enumerate(poses(7 if seed == 4 else 14, 40 + seed))
+        ]
+        solution = solve_camera(BoardViews(Studio().size, tuple(found)), BOARD)
+        assert solution.camera.covariance is not None
+        sigma = np.sqrt(np.diag(solution.camera.covariance))
+        assert abs(solution.camera.K[0, 0] - K[0, 0]) < 3 * sigma[0]
+        shape = solution.evidence["board_shape"]
+        assert isinstance(shape, dict)
+        for term, truth in zip(("bow_x_m", "bow_y_m"), pattern.bow_m, strict=True):
+            assert abs(shape[term]["value"] - truth) < 3 * shape[term]["std"] < 1e-4

@@ -233,7 +233,7 @@ def _filled(light: Array, grid: Array) -> Array:
 
 
 def _corners_near(light: Array, places: Array, inner: Array) -> Array:
-    """The likeliest corner (rows, columns, 2) near each place, NaN where none is likely; `inner` (rows, columns) are places known before."""
+    """The likeliest corner (rows, columns, 2) near each place, NaN where none is likely; `inner`: known before."""
     steps = _steps(places)
     offsets = np.stack(np.meshgrid(*2 * [np.linspace(-STRAY, STRAY, 5)]), axis=-1).reshape(-1, 2)
     tried = places[..., None, :] + steps[..., None, None] * offsets

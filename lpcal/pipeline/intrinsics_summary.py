@@ -14,6 +14,8 @@ from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
 NAMED_VIEWS = 6
+FLAT_SIGMAS = 2.0
+"""A board none of whose terms is over so many sigmas is said to be flat."""
 MOST_DECIMALS = 6
 """Of a sigma in px; what is smaller is written with an exponent."""
 
@@ -68,7 +70,9 @@ def _board(evidence: Mapping[str, Any]) -> str:
     shape = {name: entry["value"] for name, entry in evidence.get("board_shape", {}).items()}
     if not shape:
         return "taken as flat"
-    words = f"bowed by {_mm(evidence, 'bow_x_m')} along x, {_mm(evidence, 'bow_y_m')} along y"
+    within = all(abs(entry["value"]) < FLAT_SIGMAS * entry["std"] for entry in evidence["board_shape"].values())
+    words = "flat within its sigma: " if within else ""
+    words += f"bowed by {_mm(evidence, 'bow_x_m')} along x, {_mm(evidence, 'bow_y_m')} along y"
     if "twist_m" in shape:
         cubic = max(abs(value) for name, value in shape.items() if name.startswith("cubic"))
         words += f", twisted by {1e3 * shape['twist_m']:.3f} mm, bent otherwise by up to {1e3 * cubic:.3f} mm"
@@ -83,7 +87,7 @@ def _mm(evidence: Mapping[str, Any], term: str) -> str:
     """A term of the board's shape in mm, with its sigma where that is known."""
     entry = evidence["board_shape"][term]
     sigma = "" if not np.isfinite(entry["std"]) else f" +- {fine(1e3 * entry['std'])}"
-    return f"{1e3 * entry['value']:.2f}{sigma} mm"
+    return f"{1e3 * entry['value']:.3f}{sigma} mm"
 
 
 def _sureness(evidence: Mapping[str, Any]) -> list[str]:

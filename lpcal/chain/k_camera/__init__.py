@@ -96,10 +96,9 @@ def _chosen_and_solved(
     problem: CornerProblem, solve: Solver, model: str, *, may_spline: bool
 ) -> tuple[Candidate, list[Candidate], CameraFit, dict[int, str]]:
     """The candidate chosen, all that were tried, its fit, and the rows of views left out of it."""
-    judged, start, may_warp = solve, None, problem.board.warp
-    if model != "splined":
-        start = solve(problem, "opencv4", BOARDS[may_warp])
-        problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
+    may_warp = problem.board.warp
+    start = solve(problem, "opencv4", BOARDS[may_warp])
+    problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit if model != "splined" else solve
     chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], may_warp)
     fit, left_out = settle(problem, solve, chosen, start)
     left = patterns.on_image(fit)
