@@ -130,7 +130,7 @@ def test_the_lens_of_the_studio_is_a_usual_one() -> None:
 
 @pytest.mark.parametrize("bow_m", [0.0, 1e-4, 2.5e-4, 5e-4])
 def test_five_cameras_agree_on_one_board(bow_m: float) -> None:
-    """Focal length and bow agree with the truth within three of their sigmas, whatever each camera's views; a flat board is flat within them."""
+    """Focal length and bow agree with the truth within three sigmas, whatever the views; a flat board is flat within them."""
     pattern = Pattern(bow_m=(bow_m, 0.6 * bow_m))
     for seed in range(5):
         rng = np.random.default_rng(100 + seed)

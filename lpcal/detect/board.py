@@ -69,6 +69,8 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     rough, ended = _as_asked(seen, board.corners), False
     if rough is None and seen is not None and _nearly(seen, board.corners):
         rough, ended = _search(grey, board.corners, began + SEARCH_S)
+        if rough is not None and (whole := grown(grey, rough)).shape != rough.shape:
+            rough, seen = None, whole if whole.shape[1] >= whole.shape[0] else np.swapaxes(whole, 0, 1)
     if rough is None:
         cap = f" (the search was ended after {SEARCH_S:.0f} s)" if ended else ""
         return BoardView(name, None, what_is_there(grey, _saturated(image), board.corners, seen) + cap)
@@ -142,7 +144,7 @@ def _sector_based(grey: Labels, corners: tuple[int, int]) -> Array | None:
 
 
 def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, name: str) -> BoardView:
-    """The refined corners in order, unless the grid goes on beyond them or is too fine."""
+    """The refined corners in order, unless the grid is too fine."""
     spacing = spacing_px(rough)
     if not spacing >= SMALL_SPACING_PX:
         return BoardView(
@@ -160,10 +162,6 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
     glare = _glare(image, refined)
     if board.kind == "charuco":
         return BoardView(name, refined.reshape(-1, 2), blur_px=blur_px, glare=glare)
-    whole = grown(grey, refined)
-    if whole.shape != refined.shape:
-        long, short = sorted(whole.shape[:2])[::-1]
-        return BoardView(name, None, f"another board: a grid of {long}x{short} inner corners is in the image")
     return BoardView(name, in_board_order(grey, refined).reshape(-1, 2), blur_px=blur_px, glare=glare)
 
 

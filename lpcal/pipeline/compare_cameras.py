@@ -113,6 +113,6 @@ def _lines(document: dict[str, Any], other: Path) -> list[str]:
         where = document.get("where_corners_are") or document["imager"]
         ratio = where["rms_px"] / max(document["expected_px"], 1e-12)
         lines.append(
-            f"expected    {document['expected_px']:.4f} px rms where corners are, by its own sigma: the difference there is {ratio:.1f} times that"
+            f"expected    {document['expected_px']:.4f} px rms where corners are, by its own sigma: it is there {ratio:.1f} times it"
         )
     return lines

@@ -75,7 +75,7 @@ def _board(evidence: Mapping[str, Any]) -> str:
     words += f"bowed by {_mm(evidence, 'bow_x_m')} along x, {_mm(evidence, 'bow_y_m')} along y"
     if "twist_m" in shape:
         cubic = max(abs(value) for name, value in shape.items() if name.startswith("cubic"))
-        words += f", twisted by {1e3 * shape['twist_m']:.3f} mm, bent otherwise by up to {1e3 * cubic:.3f} mm"
+        words += f", twisted by {_mm(evidence, 'twist_m')}, bent otherwise by up to {fine(1e3 * cubic)} mm"
     if "stretch" in shape:
         words += (
             f"; its squares are {1e2 * shape['stretch']:.3f} % longer along x than along y, and {np.degrees(shape['shear']):.3f} deg askew"
@@ -87,7 +87,7 @@ def _mm(evidence: Mapping[str, Any], term: str) -> str:
     """A term of the board's shape in mm, with its sigma where that is known."""
     entry = evidence["board_shape"][term]
     sigma = "" if not np.isfinite(entry["std"]) else f" +- {fine(1e3 * entry['std'])}"
-    return f"{1e3 * entry['value']:.3f}{sigma} mm"
+    return f"{fine(1e3 * entry['value'])}{sigma} mm"
 
 
 def _sureness(evidence: Mapping[str, Any]) -> list[str]:
