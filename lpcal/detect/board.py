@@ -17,11 +17,11 @@ import time
 
 import numpy as np
 
-from lpcal.detect.board_absent import cut_sides, hardly_any_contrast, what_is_there
+from lpcal.detect.board_absent import cut_sides, edge_blur, hardly_any_contrast, what_is_there
 from lpcal.detect.board_charuco import find_charuco, marker_free
 from lpcal.detect.board_grid import in_board_order, spacing_px
 from lpcal.detect.board_links import grown, seen_grid
-from lpcal.detect.saddle import fit_saddles
+from lpcal.detect.saddle import BLUR_PX, fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.observations import Board, BoardView
 
@@ -37,6 +37,8 @@ SEEN_SHARE = 0.9
 """Share of a grid's corners that must be seen for the grid to be the board: a finger or a speck may hide some."""
 WORTH_SEARCHING = 0.5
 """Share of the board's corners that the saddles must show before OpenCV's detectors are tried, which cost seconds on fine texture."""
+MOST_BLUR, BLUR_SQUARES = 0.9, 0.25
+"""A board whose edges are as blurred as the fit goes (this share of it), and by so many squares, has no corners worth their name."""
 SEARCH_S = 3.0
 """Processor time, in s an image, after which no further search is begun: on 12 megapixels one of OpenCV's takes about one second."""
 LARGE_PX = 2000
@@ -156,6 +158,8 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
     start = refine(light, rough, spacing, share)
     blur_px = fit_saddles(light, start, wide, every=max(1, rough[..., 0].size // SAMPLED)).blur_px
     narrow = round(float(np.clip(NARROW_PX + NARROW_BLURS * blur_px, LEAST_NARROW_PX, wide))) if blur_px > 0 else wide
+    if blur_px > MOST_BLUR * BLUR_PX[1] and (edge_px := edge_blur(grey)) > BLUR_SQUARES * spacing:
+        return BoardView(name, None, f"no board found: the image is blurred, its sharpest edge by {edge_px:.0f} px")
     refined = start
     if board.corner_fit == "edges":
         refined = fit_saddles(light, refine(light, rough, spacing, narrow / spacing) if narrow < wide else start, narrow).corners_px

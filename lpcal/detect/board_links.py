@@ -234,17 +234,19 @@ def _filled(light: Array, grid: Array) -> Array:
 
 def _corners_near(light: Array, places: Array, inner: Array) -> Array:
     """The likeliest corner (rows, columns, 2) near each place, NaN where none is likely; `inner`: known before."""
-    steps = _steps(places)
+    steps = _steps(places)[~inner]
     offsets = np.stack(np.meshgrid(*2 * [np.linspace(-STRAY, STRAY, 5)]), axis=-1).reshape(-1, 2)
-    tried = places[..., None, :] + steps[..., None, None] * offsets
-    radius = np.repeat(np.maximum(RING_SHARE * steps, 1.5)[..., None], len(offsets), axis=-1)
+    tried = places[~inner][:, None] + steps[:, None, None] * offsets
+    radius = np.repeat(np.maximum(RING_SHARE * steps, 1.5)[:, None], len(offsets), axis=-1)
     like = likeness(light, tried.reshape(-1, 2), radius.ravel())[0].reshape(radius.shape)
     best = like.argmax(axis=-1)
-    found = np.take_along_axis(tried, best[..., None, None], axis=-2)[..., 0, :]
-    contrast = _crossing(light, np.where(inner[..., None], places, found))
+    found = places.copy()
+    found[~inner] = tried[np.arange(len(best)), best]
+    contrast = _crossing(light, found)
     usual = np.median(contrast[inner])
     fits = contrast > CONTRAST * usual if usual > 0 else contrast < CONTRAST * usual
-    return np.where(((like.max(axis=-1) > LIKE) & fits)[..., None], found, np.nan)
+    fits[~inner] &= like.max(axis=-1) > LIKE
+    return np.where(fits[..., None], found, np.nan)
 
 
 def _crossed(light: Array, grid: Array) -> Array:

@@ -103,7 +103,7 @@ def _chosen_and_solved(
     fit, left_out = settle(problem, solve, chosen, start)
     left = patterns.on_image(fit)
     if model == "auto" and may_spline and left.seen(fit.sigma_px) and left.size_px > SPLINE_SHARE * fit.sigma_px:
-        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", chosen.board))
+        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", BOARDS[may_warp]))
         tried = [*(one for one in tried if one != chosen), *ranked]
         if ranked[0].model == "splined":
             chosen = ranked[0]

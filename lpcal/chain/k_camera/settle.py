@@ -23,8 +23,6 @@ from lpcal.geometry import se3
 WORST_SHARE = 0.5
 """A view of which more corners than this are rejected is not used."""
 FEWEST_VIEWS = 3
-RICHEST = "opencv8"
-"""The lens under which the board's shape is found for a splined one."""
 
 
 def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: CameraFit | None = None) -> tuple[CameraFit, dict[int, str]]:
@@ -45,16 +43,14 @@ def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: Cam
 
 
 def settled(problem: CornerProblem, model: str, board: str, solver: Solver) -> CameraFit:
-    """The solver's fit, with the board's shape as `refit` finds it."""
-    if board == BOARDS[0]:
+    """The solver's fit, the board's shape by `refit` unless the lens is splined: what a polynomial lacks would go into the shape."""
+    if board == BOARDS[0] or model not in DISTORTIONS:
         return solver(problem, model, board)
-    lens = model if model in DISTORTIONS else RICHEST
-    shaped = refit(problem, lens, board)
+    shaped = refit(problem, model, board)
     if solver is refit:
         return shaped
     flat_B = problem.board.points_B()
     taken_out = shaped.camera.project(se3.apply(shaped.H_CB, shaped.points_B)) - shaped.camera.project(se3.apply(shaped.H_CB, flat_B))
     fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), model, BOARDS[0])
-    if model == lens:
-        fit = replace(fit, camera=replace(fit.camera, covariance=shaped.camera.covariance), sigma_px=shaped.sigma_px)
+    fit = replace(fit, camera=replace(fit.camera, covariance=shaped.camera.covariance), sigma_px=shaped.sigma_px)
     return replace(fit, points_B=shaped.points_B, board=shaped.board, shape=shaped.shape)
