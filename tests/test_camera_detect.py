@@ -8,7 +8,8 @@ import pytest
 
 from board_pictures import Pattern, Studio, exposed, poses
 from lpcal.detect.board import count_corners, find_board
-from lpcal.detect.board_grid import beyond, extended, first_square_is_black
+from lpcal.detect.board_grid import extended, first_square_is_black
+from lpcal.detect.board_links import grown
 from lpcal.records.observations import Board
 
 STUDIO = Studio()
@@ -107,11 +108,11 @@ def test_where_the_grid_ends(rays: np.ndarray) -> None:
     pattern, H_CB = Pattern(), turned(10, Pattern())
     image = exposed(STUDIO.picture(H_CB, pattern, rays=rays), 0)
     grid = STUDIO.project(H_CB, pattern.points()).reshape(6, 9, 2)
-    assert beyond(image, grid) == (False, False, False, False)
-    assert beyond(image, grid[:, 1:]) == (True, False, False, False)
-    assert beyond(image, grid[:, :-1]) == (False, True, False, False)
-    assert beyond(image, grid[1:]) == (False, False, True, False)
-    assert beyond(image, grid[:-1]) == (False, False, False, True)
+    for part in (grid, grid[:, 1:], grid[:, :-2], grid[1:], grid[:-1], grid[1:-1, 2:-1]):
+        np.testing.assert_allclose(grown(image, part), grid, atol=2.5)
+    holes = grid.copy()
+    holes[2, 3:6] = np.nan
+    np.testing.assert_allclose(grown(image, holes), grid, atol=2.5)
 
 
 def test_a_grid_continues_by_its_own_curvature() -> None:

@@ -17,7 +17,6 @@ from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
 from lpcal.chain.k_camera.refit import refit
 from lpcal.chain.k_camera.shape import BOARDS, shape_terms
 from lpcal.detect.board import find_board, refine
-from lpcal.detect.board_absent import what_is_there
 from lpcal.detect.saddle import fit_saddles
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
@@ -236,9 +235,6 @@ def test_what_is_there_instead_of_the_board() -> None:
     cut = find_board(np.ascontiguousarray(image[:, edge:]), BOARD)
     assert cut.corners_px is None
     assert "cut off at the left edge" in (cut.why or "")
-    bare = np.tile(np.linspace(20, 235, 640), (480, 1)).astype(np.uint8)
-    bare[:, 300:] //= 3
-    assert "negative" in what_is_there(bare, (9, 6), lambda grey, _: None if grey is bare else corners.reshape(6, 9, 2))
     assert "blurred" in (find_board(cv2.GaussianBlur(image, (0, 0), 14), BOARD).why or "")
     assert "contrast" in (find_board(np.full_like(image, 90), BOARD).why or "")
     other = find_board(image, Board((11, 8), (0.025, 0.025)))

@@ -69,7 +69,7 @@ def test_the_files_and_the_summary(lpcal: Run, rig: Path) -> None:
     document = yaml.safe_load((rig / "calib" / "camera.yaml").read_text())
     assert {"image", "used", "why", "corners", "rms_px"} <= document["views"][0].keys()
     assert len(document["views"]) == OWN
-    assert len(document["evidence"]["cross_validation"]) == 6
+    assert len(document["evidence"]["cross_validation"]) == 5
     boards = read_h_cb(rig / "calib" / "H_CB.yaml")
     assert boards.images == (*(f"boards/view_{k}.png" for k in range(OWN)), "sweep/view_10.png", "sweep/view_11.png")
     assert boards.points_B is not None

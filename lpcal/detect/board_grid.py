@@ -1,4 +1,4 @@
-"""What a grid of corners says of its squares: which are black, where it ends, which end is the first.
+"""What a grid of corners says of its squares: which are black, which end is the first.
 
 Symbols: grid g (ny, nx, 2) of corners in pixels; cell (i, j) lies between corners i, i + 1 and j, j + 1; cells one beyond the grid are
 the board's outer squares, cells two beyond are its margin. Places beyond the grid continue its last three corners by a parabola.
@@ -9,9 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels
-
-GOES_ON = 0.5
-"""A margin whose light alternates by more than this share of the board's own contrast is no margin."""
 
 
 def spacing_px(grid: Array) -> float:
@@ -42,16 +39,6 @@ def first_square_is_black(grey: Labels, grid: Array) -> bool:
     return bool(np.nanmean(light[even]) < np.nanmean(light[~even]))
 
 
-def beyond(grey: Labels, grid: Array) -> tuple[bool, bool, bool, bool]:
-    """Whether squares go on where the margin should be: before the first column, after the last, before the first row, after the last."""
-    light = _lightness(grey, cell_centres(extended(grid, 2)))
-    pattern = light * _parity(light.shape)
-    inner = pattern[2:-2, 2:-2]
-    half_contrast = np.nanmean(inner)
-    sides = (light[2:-2, 0], light[2:-2, -1], light[0, 2:-2], light[-1, 2:-2])
-    return tuple(_alternation(side) > GOES_ON * abs(half_contrast) for side in sides)  # type: ignore[return-value]
-
-
 def cell_centres(grid: Array) -> Array:
     """Middles (ny - 1, nx - 1, 2) of the cells of a grid (ny, nx, 2)."""
     return np.asarray((grid[:-1, :-1] + grid[1:, :-1] + grid[:-1, 1:] + grid[1:, 1:]) / 4)
@@ -69,14 +56,6 @@ def extended(grid: Array, lines: int) -> Array:
 
 def _continued(last: Array, second: Array, third: Array | None) -> Array:
     return np.asarray(2 * last - second if third is None else 3 * last - 3 * second + third)
-
-
-def _alternation(side: Array) -> float:
-    """Half the mean step from square to square along a line of cells; 0 where less than half of it is in the image."""
-    if np.isfinite(side).sum() < max(2, side.size / 2):
-        return 0.0
-    steps = np.diff(side) * (-1.0) ** np.arange(side.size - 1)
-    return float(abs(np.nanmean(steps)) / 2)
 
 
 def _parity(shape: tuple[int, ...]) -> Array:

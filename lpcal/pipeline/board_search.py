@@ -103,8 +103,9 @@ def refuse_another_board(images: Sequence[Path], views: BoardViews, board: Board
     refuse_another_count(images, picks, views.views[picks[0]], board)
     if found == 0:
         asked = f"{board.corners[0]}x{board.corners[1]}"
-        reasons = Counter(view.why for view in views.views)
-        why, count = reasons.most_common(1)[0]
+        kinds = [(view.why or "").partition(" (")[0] for view in views.views]
+        kind, count = Counter(kinds).most_common(1)[0]
+        why = views.views[kinds.index(kind)].why
         raise DegenerateError(
             f"no board of {asked} inner corners in any of {len(images)} images; {count} of them: {why}",
             where=views.views[0].image,
@@ -123,7 +124,7 @@ def refuse_another_count(images: Sequence[Path], picks: Sequence[int], first: Bo
     if board.kind != "chessboard":
         return
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        others = pool.map(lambda row: count_corners(_grey(images[row]), board.corners), picks)
+        others = pool.map(lambda row: count_corners(_grey(images[row])), picks)
         counts = Counter(other for other in others if other is not None)
     counts.pop((max(board.corners), min(board.corners)), None)
     if not counts or counts.most_common(1)[0][1] <= len(picks) / 2:

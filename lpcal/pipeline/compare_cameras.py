@@ -22,7 +22,8 @@ from lpcal.records.calibration import Camera
 from lpcal.records.outcome import Outcome
 
 INVERTED_PX = 1e-3
-"""A pixel whose ray does not project back to it this closely lies where the lens cannot be inverted, and is left out."""
+"""A pixel whose ray does not project back to it this closely lies where the lens cannot be inverted, and is left out; so is one
+that the other camera puts outside all bounds."""
 
 
 def compare(workspace: Workspace, other: Path) -> Outcome:
@@ -57,6 +58,14 @@ def _measures(own: Camera, foreign: Camera, pixels: Array) -> dict[str, Any]:
     """Rms and worst (px), the turn taken out (deg), and both without that turn, over pixels (N, 2)."""
     rays_C = own.unproject(pixels)
     good = np.linalg.norm(own.project(rays_C) - pixels, axis=1) < INVERTED_PX
+    good &= np.linalg.norm(foreign.project(rays_C) - pixels, axis=1) < float(np.hypot(*own.image_size))
+    if not good.any():
+        raise DisagreementError(
+            "no ray of this rig's camera lands in the other's image",
+            where="--compare",
+            needed="two calibrations of one camera",
+            todo="compare with the calibration of the same images",
+        )
     pixels, rays_C = pixels[good], rays_C[good]
     straight = np.linalg.norm(foreign.project(rays_C) - pixels, axis=1)
     difference, turn = projection_difference(pixels, rays_C, foreign.project)
@@ -84,7 +93,7 @@ def _covered(path: Path, pixels: Array) -> Mask:
 
 
 def _expected(path: Path) -> float | None:
-    """What this camera's own sigma makes of it, rms over the imager."""
+    """What this camera's own sigma makes of it, rms where corners are."""
     sure = read_document(path, KIND).get("evidence", {}).get("projection_uncertainty")
     return float(sure["rms_px"]) if sure else None
 
@@ -101,8 +110,9 @@ def _lines(document: dict[str, Any], other: Path) -> list[str]:
                 f"{found['worst_without_turn_px']:.3f} px worst"
             )
     if document["expected_px"] is not None:
-        ratio = document["imager"]["rms_px"] / max(document["expected_px"], 1e-12)
+        where = document.get("where_corners_are") or document["imager"]
+        ratio = where["rms_px"] / max(document["expected_px"], 1e-12)
         lines.append(
-            f"expected    {document['expected_px']:.4f} px rms of this camera's own uncertainty: the difference is {ratio:.1f} times that"
+            f"expected    {document['expected_px']:.4f} px rms where corners are, by its own sigma: it is there {ratio:.1f} times it"
         )
     return lines

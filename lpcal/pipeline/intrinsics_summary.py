@@ -14,6 +14,10 @@ from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
 NAMED_VIEWS = 6
+FLAT_SIGMAS = 2.0
+"""A board none of whose terms is over so many sigmas is said to be flat."""
+MOST_DECIMALS = 6
+"""Of a sigma in px; what is smaller is written with an exponent."""
 
 
 def summarise(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, str], rig: Rig) -> Outcome:
@@ -49,8 +53,16 @@ def _figures(solution: CameraSolution) -> list[str]:
     for label, first, second in (("f", 0, 1), ("c", 2, 3)) if camera.spline is None else ():
         values = (camera.K[0, 0], camera.K[1, 1]) if label == "f" else (camera.K[0, 2], camera.K[1, 2])
         sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
-        lines.append(f"{label}           {values[0]:.2f} +- {sigma[0]:.2f}, {values[1]:.2f} +- {sigma[1]:.2f} px")
+        lines.append(f"{label}           {values[0]:.2f} +- {fine(sigma[0])}, {values[1]:.2f} +- {fine(sigma[1])} px")
     return [*lines, f"board       {_board(evidence)}", f"model       {camera.model}: {chosen.get('why', 'as asked')}", *_sureness(evidence)]
+
+
+def fine(size: float) -> str:
+    """A sigma or a difference with two significant digits at least, two decimals at least: never 0.00 for what is not nought."""
+    if not np.isfinite(size) or size == 0:
+        return f"{size:.2f}"
+    decimals = int(np.clip(1 - np.floor(np.log10(abs(size))), 2, MOST_DECIMALS))
+    return f"{size:.{decimals}f}" if abs(size) >= 10.0**-MOST_DECIMALS else f"{size:.1e}"
 
 
 def _board(evidence: Mapping[str, Any]) -> str:
@@ -58,10 +70,12 @@ def _board(evidence: Mapping[str, Any]) -> str:
     shape = {name: entry["value"] for name, entry in evidence.get("board_shape", {}).items()}
     if not shape:
         return "taken as flat"
-    words = f"bowed by {1e3 * shape['bow_x_m']:.2f} mm along x, {1e3 * shape['bow_y_m']:.2f} mm along y"
+    within = all(abs(entry["value"]) < FLAT_SIGMAS * entry["std"] for entry in evidence["board_shape"].values())
+    words = "flat within its sigma: " if within else ""
+    words += f"bowed by {_mm(evidence, 'bow_x_m')} along x, {_mm(evidence, 'bow_y_m')} along y"
     if "twist_m" in shape:
         cubic = max(abs(value) for name, value in shape.items() if name.startswith("cubic"))
-        words += f", twisted by {1e3 * shape['twist_m']:.3f} mm, bent otherwise by up to {1e3 * cubic:.3f} mm"
+        words += f", twisted by {_mm(evidence, 'twist_m')}, bent otherwise by up to {fine(1e3 * cubic)} mm"
     if "stretch" in shape:
         words += (
             f"; its squares are {1e2 * shape['stretch']:.3f} % longer along x than along y, and {np.degrees(shape['shear']):.3f} deg askew"
@@ -69,20 +83,27 @@ def _board(evidence: Mapping[str, Any]) -> str:
     return words
 
 
+def _mm(evidence: Mapping[str, Any], term: str) -> str:
+    """A term of the board's shape in mm, with its sigma where that is known."""
+    entry = evidence["board_shape"][term]
+    sigma = "" if not np.isfinite(entry["std"]) else f" +- {fine(1e3 * entry['std'])}"
+    return f"{fine(1e3 * entry['value'])}{sigma} mm"
+
+
 def _sureness(evidence: Mapping[str, Any]) -> list[str]:
     """How sure, where, by which views, and what to do next."""
     sure, lines = evidence.get("projection_uncertainty"), []
     if sure:
         lines += [
-            f"sure to     {sure['rms_px']:.3f} px rms over the imager, {sure['most_px']:.3f} px at most "
-            f"({sure['most_where_corners_are_px']:.3f} px where corners are)",
-            f"            to be trusted over {100 * sure['trusted_share']:.0f} % of the imager",
+            f"sure to     {fine(sure['rms_px'])} px rms where corners are, {fine(sure['most_px'])} px at most",
+            f"            to be trusted over {100 * sure['trusted_share']:.0f} % of the imager, of which corners cover "
+            f"{100 * sure['covered_share']:.0f} %; not known beyond them",
         ]
     for check in ("independent_check", "free_board_check"):
         other = evidence.get(check) or {}
         if "difference_rms_px" in other:
             by, rms_px, most_px = other["by"], other["difference_rms_px"], other["difference_worst_px"]
-            lines.append(f"check       {by}: {rms_px:.4f} px rms, {most_px:.4f} px at most apart")
+            lines.append(f"check       {by}: {fine(rms_px)} px rms, {fine(most_px)} px at most apart")
     if "coverage" in evidence:
         lines.append(f"coverage    {evidence['coverage']['in_words']}")
     if evidence.get("views_that_matter"):
@@ -90,7 +111,7 @@ def _sureness(evidence: Mapping[str, Any]) -> list[str]:
         lines.append("views       that matter most: " + ", ".join(f"{v['image']} ({100 * (v['without_it'] - 1):.0f} %)" for v in first))
     if evidence.get("next_view"):
         view = evidence["next_view"]
-        lines.append(f"next view   {view['hold_the_board']}: {view['std_now_px']:.4f} px would become {view['std_then_px']:.4f} px")
+        lines.append(f"next view   {view['hold_the_board']}: {fine(view['std_now_px'])} px would become {fine(view['std_then_px'])} px")
     return lines
 
 

@@ -22,13 +22,16 @@ from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, 
 from lpcal.chain.k_camera.refit import find_shape, refit
 from lpcal.chain.k_camera.settle import FEWEST_VIEWS, settle, settled
 from lpcal.chain.k_camera.shape import BOARDS
-from lpcal.errors import DegenerateError, InputError
+from lpcal.chain.k_camera.variety import TODO, monotony
+from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 from lpcal.records.observations import Board, BoardViews
 
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
 """Of a focal length, or of the image's width for the principal point: a sigma above is refused, warned of."""
+UNEQUAL_SHARE, UNEQUAL_SIGMAS = 0.03, 3.0
+"""fx and fy that differ by this share, and by so many sigmas, are said: sensors' pixels are square within a tenth of a per cent."""
 SPLINE_SHARE = 0.5
 """A splined lens is tried where the residuals keep a pattern in the image of more than this share of a corner's sigma."""
 
@@ -65,11 +68,17 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         raise InputError(f"a splined lens needs mrcal; {missing}", where="camera.model", todo="install mrcal, or use opencv8")
     corners_px = np.stack([np.asarray(views.views[index].corners_px) for index in found])
     problem = CornerProblem(board, views.image_size, corners_px)
-    chosen, tried, fit, left_out = _chosen_and_solved(problem, solve, model, may_spline=name == "mrcal")
+    try:
+        chosen, tried, fit, left_out = _chosen_and_solved(problem, solve, model, may_spline=name == "mrcal")
+    except (ConvergenceError, np.linalg.LinAlgError) as error:
+        if (alike := monotony(problem, None)) is None:
+            raise
+        raise DegenerateError(alike, where="camera.images", needed="views that differ, to tell a camera", todo=TODO) from error
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
-    doubts = refuse_degenerate(fit)
+    alike = monotony(problem, fit.camera if fit.camera.spline is None else None)
+    doubts = refuse_degenerate(fit, alike)
     kept = problem.part(np.array([row not in left_out for row in range(len(corners_px))]))
-    figures, unmodelled = findings(kept, fit, [views.views[index].image for index in found])
+    figures, unmodelled = findings(kept, fit, [views.views[index].image for index in found], blame_board=alike is None)
     return CameraSolution(
         camera=fit.camera,
         points_B=fit.points_B,
@@ -87,15 +96,14 @@ def _chosen_and_solved(
     problem: CornerProblem, solve: Solver, model: str, *, may_spline: bool
 ) -> tuple[Candidate, list[Candidate], CameraFit, dict[int, str]]:
     """The candidate chosen, all that were tried, its fit, and the rows of views left out of it."""
-    judged, start, may_warp = solve, None, problem.board.warp
-    if model != "splined":
-        start = solve(problem, "opencv4", BOARDS[may_warp])
-        problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit
+    may_warp = problem.board.warp
+    start = solve(problem, "opencv4", BOARDS[may_warp])
+    problem, judged = replace(problem, camera=start.camera, H_CB=start.H_CB), refit if model != "splined" else solve
     chosen, tried = choose(problem, judged, list(DISTORTIONS) if model == "auto" else [model], may_warp)
     fit, left_out = settle(problem, solve, chosen, start)
     left = patterns.on_image(fit)
     if model == "auto" and may_spline and left.seen(fit.sigma_px) and left.size_px > SPLINE_SHARE * fit.sigma_px:
-        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", chosen.board))
+        ranked = better_of(problem, (judged, chosen.model, chosen.board), (partial(settled, solver=solve), "splined", BOARDS[may_warp]))
         tried = [*(one for one in tried if one != chosen), *ranked]
         if ranked[0].model == "splined":
             chosen = ranked[0]
@@ -120,8 +128,8 @@ def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
     return "opencv", opencv_solver.solve, missing
 
 
-def refuse_degenerate(fit: CameraFit) -> list[str]:
-    """Warnings about what the views hardly determine.
+def refuse_degenerate(fit: CameraFit, alike: str | None = None) -> list[str]:
+    """Warnings about what the views hardly determine; `alike` says what they have too much in common, where that is known.
 
     Raises
     ------
@@ -130,21 +138,38 @@ def refuse_degenerate(fit: CameraFit) -> list[str]:
     """
     camera = fit.camera
     if camera.covariance is None:
-        return []
+        return [f"{alike}; {TODO}"] if alike else []
     sigma = np.sqrt(np.diag(camera.covariance))[:4]
     shares = sigma / [camera.K[0, 0], camera.K[1, 1], camera.image_size[0], camera.image_size[0]]
     worst = {"focal length": float(shares[:2].max()), "principal point": float(shares[2:].max())}
     said = {name: f"{name} to {100 * share:.1g} %" for name, share in worst.items() if not share < WEAK_SHARE}
     lost = [name for name, share in worst.items() if not share < DEGENERATE_SHARE]
-    todo = "add views with the board tilted by 20 to 45 degrees, about both of its axes, over the whole image"
+    why = alike or "the board seems to face the camera, or to fill little of the image"
     if lost:
         raise DegenerateError(
-            f"these {len(fit.H_CB)} views cannot tell the {' and the '.join(lost)}: {', '.join(said.values())}",
+            f"these {len(fit.H_CB)} views cannot tell the {' and the '.join(lost)}: {', '.join(said.values())}; {why}",
             where="camera.images",
-            needed=f"one sigma under {100 * DEGENERATE_SHARE:.0f} %; the board seems to face the camera, or to fill little of the image",
-            todo=todo,
+            needed=f"one sigma under {100 * DEGENERATE_SHARE:.0f} %",
+            todo=TODO,
         )
-    return [f"the views tell the {', the '.join(said.values())} only: {todo}"] if said else []
+    doubts = [f"the views tell the {', the '.join(said.values())} only{f': {alike}' if alike else ''}; {TODO}"] if said else []
+    if alike and not said:
+        doubts.append(f"{alike}; the sigmas are those of corners that scatter, and hold only if the lens is as modelled")
+    return doubts + _unequal_focal(fit, sigma)
+
+
+def _unequal_focal(fit: CameraFit, sigma: Array) -> list[str]:
+    """A word on focal lengths along x and y that differ by more than sensors do."""
+    fx, fy = fit.camera.K[0, 0], fit.camera.K[1, 1]
+    off = fx / fy - 1
+    if abs(off) < max(UNEQUAL_SHARE, UNEQUAL_SIGMAS * float(np.hypot(sigma[0] / fx, sigma[1] / fy))):
+        return []
+    longer = "x" if off > 0 else "y"
+    return [
+        f"fx {fx:.1f} and fy {fy:.1f} px differ by {100 * (max(fx, fy) / min(fx, fy) - 1):.1f} %: pixels that are not square are rare. "
+        f"Were the images stretched along {longer} (resized, anamorphic, half the lines), or are the board's squares not square "
+        "(board.square: [x, y] as measured)?"
+    ]
 
 
 def board_shape(views: BoardViews, board: Board, camera: Camera, H_CB: dict[str, Array]) -> Array:

@@ -5,8 +5,9 @@ the covariance; J(p) the derivative of the projection at pixel p by the lens, R(
 
     C = sigma^2 [(sum S_k + prior)^-1]_lens        J'(p) = J(p) - R(p) R^+ J        U(p) = J'(p) C J'(p)'
 
-R^+ over the whole imager. The worst direction's sigma is the root of U's greater eigenvalue. Without view k: sum less S_k; with another
-view: plus S of a board put there. Source: projection uncertainty as in mrcal's documentation, here at infinity; Pukelsheim 1993 (design).
+R^+ over what corners cover: a polynomial lens means nothing beyond their hull, and nothing there is trusted. The worst direction's sigma
+is the root of U's greater eigenvalue. Without view k: sum less S_k; with another view: plus S of a board put there.
+Source: projection uncertainty as in mrcal's documentation, here at infinity; Pukelsheim 1993 (design).
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ COLUMNS, ROWS = 12, 8
 """Of the grid over the imager."""
 TRUSTED = 3.0
 """A place is trusted where the worst direction's sigma is under so many times the median of what corners cover."""
+INVERTED_PX = 1e-3
+"""A pixel whose ray does not project back to it this closely lies where the lens cannot be inverted."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class Sureness:
     covered: Mask
     """Inside the hull of all corners."""
     trusted: Mask
+    """Covered, and about as sure as is usual there."""
     gain: Array
     """(N,) how much worse the mean over the covered part becomes without each view, as a ratio."""
 
@@ -74,11 +78,11 @@ def information(problem: CornerProblem, fit: CameraFit) -> Information:
 def assess(known: Information, fit: CameraFit) -> Sureness:
     """Sureness over the imager, and what each view is worth."""
     pixels = pixel_grid(fit.camera.image_size, COLUMNS, ROWS)
-    slope = ray_slope(known, pixels, fit)
-    total = known.views.sum(axis=0)
-    worst = worst_direction(slope, known.covariance(total))
-    covered = inside_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
+    covered = judged_pixels(pixels, fit)
     judged = covered if covered.any() else np.ones(len(pixels), dtype=bool)
+    slope = ray_slope(known, pixels, fit, judged)
+    total = known.views.sum(axis=0)
+    worst = np.minimum(np.nan_to_num(worst_direction(slope, known.covariance(total)), nan=np.inf), fit.camera.image_size[0])
     usual = float(np.median(worst[judged]))
     mean = mean_sigma(slope[judged], known.covariance(total))
     without = [mean_sigma(slope[judged], known.covariance(total - one)) for one in known.views]
@@ -87,7 +91,7 @@ def assess(known: Information, fit: CameraFit) -> Sureness:
         pixels=pixels.reshape(*shape, 2),
         worst_px=worst.reshape(shape),
         covered=covered.reshape(shape),
-        trusted=(worst < TRUSTED * usual).reshape(shape),
+        trusted=(covered & (worst < TRUSTED * usual)).reshape(shape),
         gain=np.array(without) / mean,
     )
 
@@ -97,19 +101,26 @@ def assess_spline(fit: CameraFit) -> Sureness:
     assert fit.uncertainty is not None
     pixels = pixel_grid(fit.camera.image_size, COLUMNS, ROWS)
     worst = fit.uncertainty(pixels)
-    covered = inside_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
-    trusted = worst < TRUSTED * float(np.median(worst[covered] if covered.any() else worst))
+    covered = judged_pixels(pixels, fit)
+    trusted = covered & (worst < TRUSTED * float(np.median(worst[covered] if covered.any() else worst)))
     shape = (ROWS, COLUMNS)
     return Sureness(pixels.reshape(*shape, 2), worst.reshape(shape), covered.reshape(shape), trusted.reshape(shape), np.zeros(0))
 
 
-def ray_slope(known: Information, pixels: Array, fit: CameraFit) -> Array:
-    """J' (N, 2, P): how pixels of fixed rays move with the lens, a turn of the camera taken out."""
+def judged_pixels(pixels: Array, fit: CameraFit) -> Mask:
+    """Those of the pixels (N, 2) inside the hull of the corners used, where the lens can be inverted."""
+    covered = inside_hull(pixels, (fit.camera.project(se3.apply(fit.H_CB, fit.points_B)))[fit.inlier])
+    return np.asarray(covered & (np.linalg.norm(fit.camera.project(fit.camera.unproject(pixels)) - pixels, axis=1) < INVERTED_PX))
+
+
+def ray_slope(known: Information, pixels: Array, fit: CameraFit, judged: Mask | None = None) -> Array:
+    """J' (N, 2, P): how pixels of fixed rays move with the lens, a turn of the camera taken out over those judged (all)."""
     rays_C = fit.camera.unproject(pixels)
     J = lens_jacobian(rays_C, known.state.K, known.state.distortion)
     turn = -fit.camera.projection_jacobian(rays_C) @ se3.hat(rays_C)
-    flat_turn, flat_J = turn.reshape(-1, 3), J.reshape(-1, J.shape[-1])
-    return np.asarray((flat_J - flat_turn @ np.linalg.lstsq(flat_turn, flat_J, rcond=None)[0]).reshape(J.shape))
+    rows = slice(None) if judged is None else judged
+    taken_out = np.linalg.lstsq(turn[rows].reshape(-1, 3), J[rows].reshape(-1, J.shape[-1]), rcond=None)[0]
+    return np.asarray(J - turn @ taken_out)
 
 
 def worst_direction(slope: Array, covariance: Array) -> Array:

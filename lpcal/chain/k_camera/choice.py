@@ -59,14 +59,15 @@ class Candidate:
 def choose(problem: CornerProblem, solver: Solver, models: Sequence[str], may_warp: bool) -> tuple[Candidate, list[Candidate]]:
     """The candidate to take, and all that were tried with their scores.
 
-    The lens is chosen first, on a board as free as it may be but for its sides; then the board, with that lens.
+    The lens is chosen first, on a board as free as it may be but for its sides; then the board, with that lens. A board that may be bent
+    is never held flat: its bow has a prior about 0, and where halves of few views would switch it off by chance, its sigma says so.
     """
-    simplest = Candidate(models[0], BOARDS[0], float("nan"))
+    simplest = Candidate(models[0], BOARDS[may_warp], float("nan"))
     if len(problem.corners_px) < FEWEST_VIEWS or (len(models) == 1 and not may_warp):
         return simplest, [simplest]
     pixels = covered_pixels(problem)
-    boards = (BOARDS if set(models) <= set(DISTORTIONS) else BOARDS[:2]) if may_warp else BOARDS[:1]
-    usual = boards[min(2, len(boards) - 1)]
+    boards = (BOARDS[1:] if set(models) <= set(DISTORTIONS) else BOARDS[1:2]) if may_warp else BOARDS[:1]
+    usual = boards[min(1, len(boards) - 1)]
     trials = {(model, usual): _Trial(problem, solver, model, usual, pixels) for model in models}
     lenses = _with_expectation(list(trials.values()), pixels)
     lens = _better(lenses, SIGNIFICANT)

@@ -32,14 +32,17 @@ FLAT_TILT_DEG = 15.0
 """Boards tilted less than this about an axis leave the focal length to chance."""
 
 
-def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tuple[dict[str, Any], list[str]]:
-    """Figures for camera.yaml, and warnings; `names` are those of the problem's views."""
+def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, blame_board: bool = True) -> tuple[dict[str, Any], list[str]]:
+    """Figures for camera.yaml, and warnings; `names` are those of the problem's views.
+
+    Nothing is said of the board where `blame_board` is false: views that are too much alike cannot tell its shape from the lens.
+    """
     left = {"board": patterns.on_board(fit), "image": patterns.on_image(fit)}
     figures: dict[str, Any] = {
         "coverage": _coverage(fit),
         "residual_pattern": {where: {"size_px": one.size_px, "z": one.z} for where, one in left.items()},
     }
-    warnings = [*_unmodelled(left, fit), *_odd_size(problem, fit)]
+    warnings = [*_unmodelled(left, fit, blame_board), *_odd_size(problem, fit)]
     if fit.uncertainty is not None:
         return figures | {"projection_uncertainty": _uncertainty(assess_spline(fit))}, warnings
     if fit.camera.covariance is None:
@@ -49,7 +52,7 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str]) -> tu
     figures["projection_uncertainty"] = _uncertainty(sure)
     figures["independent_check"] = check(problem, fit)
     figures["free_board_check"] = free = check_with_free_board(problem, fit)
-    warnings += _uneven(free or {}, sure, fit)
+    warnings += _uneven(free or {}, sure, fit) if blame_board else []
     order = np.argsort(-sure.gain)[:MOST_NAMED]
     figures["views_that_matter"] = [{"image": names[row], "without_it": float(sure.gain[row])} for row in order]
     advice = advise(known, fit)
@@ -88,13 +91,13 @@ def _odd_size(problem: CornerProblem, fit: CameraFit) -> list[str]:
 def _uncertainty(sure: Sureness) -> dict[str, Any]:
     inside = sure.worst_px[sure.covered] if sure.covered.any() else sure.worst_px
     return {
-        "of": "one standard deviation in its worst direction, at infinity, a turn of the camera taken out",
+        "of": "one standard deviation in its worst direction, at infinity, a turn of the camera taken out; rms and most where corners are",
         "columns_px": sure.pixels[0, :, 0],
         "rows_px": sure.pixels[:, 0, 1],
         "worst_direction_std_px": np.round(sure.worst_px, 5),
-        "rms_px": float(np.sqrt(np.mean(sure.worst_px**2))),
-        "most_px": float(sure.worst_px.max()),
-        "most_where_corners_are_px": float(inside.max()),
+        "rms_px": float(np.sqrt(np.mean(inside**2))),
+        "most_px": float(inside.max()),
+        "covered_share": float(sure.covered.mean()),
         "covered": sure.covered,
         "trusted": sure.trusted,
         "trusted_share": float(sure.trusted.mean()),
@@ -144,9 +147,9 @@ def _in_words(counts: Any, about_x: Any, about_y: Any) -> str:
     return "; ".join(parts)
 
 
-def _unmodelled(left: dict[str, patterns.Pattern], fit: CameraFit) -> list[str]:
+def _unmodelled(left: dict[str, patterns.Pattern], fit: CameraFit, blame_board: bool) -> list[str]:
     said = []
-    if left["board"].seen(fit.sigma_px):
+    if blame_board and left["board"].seen(fit.sigma_px):
         allowed = "its bow, twist and cubic terms" if fit.board not in {"flat", "bowed"} else f"a {fit.board} board"
         said.append(
             f"the residuals keep a pattern of {left['board'].size_px:.3f} px on the board that {allowed} cannot explain: "

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.chain.k_camera.assess import judged_pixels
 from lpcal.chain.k_camera.problem import DIGITS, CameraFit, CornerProblem
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.geometry.colmap import load_pycolmap
-from lpcal.geometry.hull import inside_hull
 from lpcal.geometry.rigid_fit import fit as rigid_fit
 from lpcal.records.calibration import Camera
 
@@ -41,7 +41,9 @@ def check_with_free_board(problem: CornerProblem, fit: CameraFit) -> dict[str, A
     except (RuntimeError, ValueError) as error:
         return by | {"failed": str(error).strip().splitlines()[0]}
     pixels = pixel_grid(problem.image_size)
-    pixels = pixels[inside_hull(pixels, problem.corners_px[fit.inlier])]
+    pixels = pixels[judged_pixels(pixels, fit)]
+    if not len(pixels):
+        return None
     apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), camera.project)[0], axis=1)
     scale = np.linalg.norm(fit.points_B[kept] - fit.points_B[kept].mean(axis=0)) / np.linalg.norm(points_B - points_B.mean(axis=0))
     off_m = rigid_fit(fit.points_B[kept], scale * points_B)[2]

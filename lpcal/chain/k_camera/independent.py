@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.chain.k_camera.assess import judged_pixels
 from lpcal.chain.k_camera.problem import DIGITS, DISTORTIONS, CameraFit, CornerProblem
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.records.calibration import Camera
@@ -18,7 +19,7 @@ STOP = (30, 1e-9)
 
 
 def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
-    """How far OpenCV's camera projects from the fit's, over the imager; None for lenses that it does not know."""
+    """How far OpenCV's camera projects from the fit's, where corners are; None for lenses that it does not know."""
     import cv2
 
     if fit.camera.model not in DISTORTIONS:
@@ -38,6 +39,9 @@ def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
         return {"by": "OpenCV calibrateCamera", "failed": str(error).strip().splitlines()[-1]}
     other = Camera(problem.image_size, fit.camera.model, np.asarray(K, dtype=float), np.ravel(distortion)[: fit.camera.distortion.size])
     pixels = pixel_grid(problem.image_size)
+    pixels = pixels[judged_pixels(pixels, fit)]
+    if not len(pixels):
+        return None
     apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), other.project)[0], axis=1)
     return {
         "by": "OpenCV calibrateCamera",

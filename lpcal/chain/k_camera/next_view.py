@@ -1,7 +1,7 @@
 """Where to hold the board next: boards are put all over the image, in thought, and the one that would tell the most is named.
 
-Symbols: S the views' information, S_v that of a board put at H_CB; the gain of v is the ratio of the mean sigmas over the imager that
-``S + S_v`` and ``S`` leave. Source: sequential D- and I-optimal design, Pukelsheim 1993.
+Symbols: S the views' information, S_v that of a board put at H_CB; the gain of v is the ratio of the mean sigmas, over the imager where the
+lens means something, that ``S + S_v`` and ``S`` leave. Source: sequential D- and I-optimal design, Pukelsheim 1993.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from itertools import product
 
 import numpy as np
 
-from lpcal.chain.k_camera.assess import Information, mean_sigma, ray_slope
+from lpcal.chain.k_camera.assess import Information, judged_pixels, mean_sigma, ray_slope, worst_direction
 from lpcal.chain.k_camera.bundle import view_information
 from lpcal.chain.k_camera.problem import CameraFit
 from lpcal.geometry import se3
@@ -21,6 +21,8 @@ from lpcal.geometry.camera_difference import pixel_grid
 PLACES = {"at the left": -0.6, "in the middle": 0.0, "at the right": 0.6}
 HEIGHTS = {"top": -0.6, "middle": 0.0, "bottom": 0.6}
 """Of the board's middle, in half image sides."""
+SENSIBLE = 30.0
+"""Beyond the corners' hull a place counts where its sigma is under so many times the median within: above, the lens means nothing there."""
 WORTH_SAYING = 0.98
 """A view that leaves more than this share of the sigma is not worth its trouble."""
 TILT_RAD = np.radians(35.0)
@@ -48,8 +50,14 @@ class Advice:
 
 def advise(known: Information, fit: CameraFit) -> Advice | None:
     """The best of the views thought of; None where none of them has the board in the image."""
-    slope = ray_slope(known, pixel_grid(fit.camera.image_size, 12, 8), fit)
+    pixels = pixel_grid(fit.camera.image_size, 12, 8)
+    judged = judged_pixels(pixels, fit)
+    if not judged.any():
+        return None
+    slope = ray_slope(known, pixels, fit, judged)
     total = known.views.sum(axis=0)
+    worst = worst_direction(slope, known.covariance(total))
+    slope = slope[judged | (worst < SENSIBLE * np.median(worst[judged]))]
     before = mean_sigma(slope, known.covariance(total))
     found: list[Advice] = []
     for (place, x), (height, y), (tilt, turn), size in product(PLACES.items(), HEIGHTS.items(), TILTS.items(), SIZES):

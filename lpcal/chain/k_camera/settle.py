@@ -1,7 +1,7 @@
 """The last solve, with what was chosen: views that do not fit left out, the board's whole shape, and mrcal's inputs kept.
 
-mrcal knows of the board its bow alone. Where the board has more shape, that is found by `refit` and taken out of the corners before mrcal
-solves them, so that both hold the same camera; symbols: q a corner, x_B the board's point with its whole shape, b_B with its bow alone::
+mrcal knows of the board its bow alone, and no prior of it. The shape is found by `refit` and taken out of the corners before mrcal solves
+them, so that both hold the same camera; symbols: q a corner, x_B the board's point with its shape, b_B on the flat board::
 
     q' = q - project(H_CB x_B) + project(H_CB b_B)
 
@@ -23,8 +23,6 @@ from lpcal.geometry import se3
 WORST_SHARE = 0.5
 """A view of which more corners than this are rejected is not used."""
 FEWEST_VIEWS = 3
-RICHEST = "opencv8"
-"""The lens under which the board's shape is found for a splined one."""
 
 
 def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: CameraFit | None = None) -> tuple[CameraFit, dict[int, str]]:
@@ -32,7 +30,7 @@ def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: Cam
 
     `start` is the solver's fit from which the choice was made: where it is what was chosen, it is not solved again.
     """
-    known = start is not None and (start.camera.model, start.board) == (chosen.model, chosen.board)
+    known = start is not None and (start.camera.model, start.board) == (chosen.model, chosen.board) == (chosen.model, BOARDS[0])
     fit = start if start is not None and known else settled(problem, chosen.model, chosen.board, solver)
     seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
     rejected = seen - fit.inlier.sum(axis=1)
@@ -45,18 +43,14 @@ def settle(problem: CornerProblem, solver: Solver, chosen: Candidate, start: Cam
 
 
 def settled(problem: CornerProblem, model: str, board: str, solver: Solver) -> CameraFit:
-    """The solver's fit, with what it does not know of the board's shape found by `refit`."""
-    if board in BOARDS[:2]:
+    """The solver's fit, the board's shape by `refit` unless the lens is splined: what a polynomial lacks would go into the shape."""
+    if board == BOARDS[0] or model not in DISTORTIONS:
         return solver(problem, model, board)
-    lens = model if model in DISTORTIONS else RICHEST
-    shaped = refit(problem, lens, board)
+    shaped = refit(problem, model, board)
     if solver is refit:
         return shaped
-    bowed = refit(problem, lens, BOARDS[1])
-    taken_out = shaped.camera.project(se3.apply(shaped.H_CB, shaped.points_B)) - shaped.camera.project(
-        se3.apply(shaped.H_CB, bowed.points_B)
-    )
-    fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), model, BOARDS[1])
-    if model == lens:
-        fit = replace(fit, camera=replace(fit.camera, covariance=shaped.camera.covariance), sigma_px=shaped.sigma_px)
+    flat_B = problem.board.points_B()
+    taken_out = shaped.camera.project(se3.apply(shaped.H_CB, shaped.points_B)) - shaped.camera.project(se3.apply(shaped.H_CB, flat_B))
+    fit = solver(replace(problem, corners_px=problem.corners_px - taken_out), model, BOARDS[0])
+    fit = replace(fit, camera=replace(fit.camera, covariance=shaped.camera.covariance), sigma_px=shaped.sigma_px)
     return replace(fit, points_B=shaped.points_B, board=shaped.board, shape=shaped.shape)

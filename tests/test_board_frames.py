@@ -1,0 +1,166 @@
+"""Frames without the board, and boards at whose rim something is unusual: what is found, what is said, and what it costs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from board_sheets import DARK, LIGHT, seen, sheet
+from lpcal.detect.board import count_corners, find_board
+from lpcal.detect.board_absent import hardly_any_contrast
+from lpcal.records.observations import Board
+
+BOARD = Board((9, 6), (0.025, 0.025))
+MOST_S = 1.0
+"""Processor time, in s, that a frame without a board may cost on a machine like those of 2024."""
+
+
+def cap(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return np.clip(rng.normal(4, 3, (h, w)), 0, 255)
+
+
+def bright_noise(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return np.clip(rng.normal(128, 45, (h, w)), 0, 255)
+
+
+def cloth(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    white = rng.normal(0, 1, (h, w)).astype(np.float32)
+    return np.clip(128 + sum(40 * s * cv2.GaussianBlur(white, (0, 0), s) for s in (1, 2, 4, 8, 16)), 0, 255)
+
+
+def leaves(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    image = np.full((h, w), 60, np.uint8)
+    for _ in range(h * w // 300):
+        at, axes = rng.integers(0, (w, h)), rng.integers((4, 2), (25, 12))
+        cv2.ellipse(
+            image,
+            (int(at[0]), int(at[1])),
+            (int(axes[0]), int(axes[1])),
+            float(rng.uniform(0, 360)),
+            0,
+            360,
+            int(rng.integers(20, 230)),
+            -1,
+        )
+    return image
+
+
+def carpet(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    y, x = np.mgrid[:h, :w]
+    return np.clip(128 + 50 * np.sin(x / 5.1) * np.sin(y / 4.7 + 0.8 * np.sin(x / 40)) + rng.normal(0, 8, (h, w)), 0, 255)
+
+
+def defocused(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return cv2.GaussianBlur(leaves(rng, h, w), (0, 0), 30) + rng.normal(0, 2, (h, w))
+
+
+@pytest.mark.parametrize("draw", [cap, bright_noise, cloth, leaves, carpet, defocused])
+@pytest.mark.parametrize("corners", [(9, 6), (26, 16)])
+def test_a_frame_without_a_board_costs_little(draw: Callable[..., np.ndarray], corners: tuple[int, int]) -> None:
+    image = np.clip(np.rint(draw(np.random.default_rng(7), 1080, 1920)), 0, 255).astype(np.uint8)
+    find_board(image[:200, :200], BOARD)  # imports what it needs
+    began = time.process_time()
+    view = find_board(image, Board(corners, (0.025, 0.025)))
+    spent_s = time.process_time() - began
+    assert view.corners_px is None
+    assert spent_s < MOST_S
+    assert count_corners(image) is None or draw is carpet
+
+
+def test_a_dark_frame_is_said_to_have_no_contrast() -> None:
+    dark = np.rint(cap(np.random.default_rng(3), 480, 640)).astype(np.uint8)
+    assert "hardly any contrast (0 to 11 of 255)" in (find_board(dark, BOARD).why or "")
+    assert "hardly any contrast" in (find_board(np.full((480, 640), 90, np.uint8), BOARD).why or "")
+    assert "hardly any contrast" in (find_board((dark.astype(np.uint16) * 16), BOARD).why or "")
+    assert "hardly any contrast (0 to 11 of 255)" in (find_board(dark.astype(np.float32) / 255, BOARD).why or "")
+    loud = np.rint(bright_noise(np.random.default_rng(3), 480, 640)).astype(np.uint8)
+    assert "nothing but noise" in (find_board(loud, BOARD).why or "")
+
+
+@pytest.mark.parametrize("share", [0.06, 0.12, 0.5])
+def test_a_faint_board_has_contrast_enough(share: float) -> None:
+    image = seen(sheet((9, 6)), 3, noise=0).astype(float) * share
+    faint = np.rint(np.clip(image + np.random.default_rng(0).normal(0, 0.6, image.shape), 0, 255)).astype(np.uint8)
+    assert hardly_any_contrast(faint) is None
+    assert find_board(faint, BOARD).corners_px is not None
+
+
+@pytest.mark.parametrize("outer", [1.0, 0.5, 0.3, 0.1])
+@pytest.mark.parametrize(
+    ("frame", "surround"),
+    [((0.0, LIGHT), LIGHT), ((0.0, LIGHT), DARK), ((0.4, DARK), LIGHT), ((0.5, LIGHT), 90), ((0.2, 5), 120), ((0.06, DARK), LIGHT)],
+)
+def test_the_rim_of_a_board_does_not_matter(outer: float, frame: tuple[float, int], surround: int) -> None:
+    paper = sheet((9, 6), outer=outer, frame=frame, surround=surround)
+    for seed in (1, 2, 3, 4):
+        view = find_board(seen(paper, seed), BOARD)
+        assert view.corners_px is not None, (seed, view.why)
+        assert np.isfinite(view.corners_px).mean() > (0.9 if outer < 0.2 else 0.99)
+
+
+@pytest.mark.parametrize(
+    ("there", "asked"), [((10, 7), (9, 6)), ((10, 6), (9, 6)), ((9, 7), (9, 6)), ((14, 9), (9, 6)), ((28, 17), (24, 17))]
+)
+@pytest.mark.parametrize("outer", [1.0, 0.4])
+def test_a_larger_board_is_named(there: tuple[int, int], asked: tuple[int, int], outer: float) -> None:
+    for seed in (1, 2, 3):
+        image = seen(sheet(there, outer=outer), seed)
+        view = find_board(image, Board(asked, (0.025, 0.025)))
+        assert view.corners_px is None
+        assert f"another board: a grid of {there[0]}x{there[1]} inner corners" in (view.why or "")
+        assert count_corners(image) == there
+
+
+@pytest.mark.parametrize("corners", [(17, 28), (28, 17), (60, 40), (3, 3), (5, 4)])
+def test_boards_of_any_count_are_found(corners: tuple[int, int]) -> None:
+    size = (2400, 1800) if max(corners) > 30 else (1280, 960)
+    view = find_board(seen(sheet(corners), 2, size=size), Board(corners, (0.025, 0.025)))
+    assert view.corners_px is not None, view.why
+    assert view.corners_px.shape == (corners[0] * corners[1], 2)
+
+
+def test_a_spot_of_glare_is_named() -> None:
+    for seed in (1, 2, 3):
+        image = seen(sheet((9, 6)), seed)
+        corners = np.asarray(find_board(image, BOARD).corners_px).reshape(6, 9, 2)
+        x, y = corners[2:4, 3:6].mean(axis=(0, 1))
+        step = np.linalg.norm(corners[2, 4] - corners[2, 3])
+        cv2.circle(image, (int(x), int(y)), int(1.4 * step), 255, -1)
+        assert "saturated spot (glare)" in (find_board(image, BOARD).why or "")
+
+
+@pytest.mark.parametrize(("there", "stated"), [((28, 17), (24, 17)), ((10, 7), (9, 6)), ((8, 6), (9, 6)), ((17, 28), (17, 24))])
+def test_another_count_is_refused_within_seconds(
+    there: tuple[int, int], stated: tuple[int, int], tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]
+) -> None:
+    (tmp_path / "boards").mkdir()
+    for seed in range(2 if there[0] == 28 else 5):
+        cv2.imwrite(str(tmp_path / f"boards/{seed}.png"), seen(sheet(there), seed, size=(1280, 960)))
+    board = f"{{kind: chessboard, corners: [{stated[0]}, {stated[1]}], square: 25 mm}}"
+    (tmp_path / "panel.yaml").write_text(f"lpcal: 1\ncamera: {{images: boards/*.png}}\nboard: {board}\n")
+    began = time.process_time()
+    code, _, err = lpcal("intrinsics", cwd=tmp_path)
+    assert time.process_time() - began < 15
+    assert code == 6
+    assert f"found a board of {max(there)}x{min(there)} inner corners" in err
+    assert f"you asked for {stated[0]}x{stated[1]}" in err
+
+
+def test_a_board_that_is_often_cut_off_is_no_other_count(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
+    (tmp_path / "boards").mkdir()
+    for seed in range(6):
+        image = seen(sheet((9, 6)), seed)
+        corners = np.asarray(find_board(image, BOARD).corners_px)
+        cut = int(np.sort(corners[:, 0])[5 + 3 * seed])
+        cv2.imwrite(str(tmp_path / f"boards/{seed}.png"), np.pad(image[:, cut:], ((0, 0), (0, cut)), mode="edge"))
+    (tmp_path / "panel.yaml").write_text(
+        "lpcal: 1\ncamera: {images: boards/*.png}\nboard: {kind: chessboard, corners: [9, 6], square: 25 mm}\n"
+    )
+    code, _, err = lpcal("intrinsics", cwd=tmp_path)
+    assert code == 4
+    assert "cut off at the left edge" in err
