@@ -1,12 +1,13 @@
 """Lights that other systems calibrated, as a Calibration: which format a file or folder is, and its reader.
 
-Each reader is one module of this package with ``is_one(path) -> bool`` and ``read(path) -> Calibration``.
+Each reader is one module of this package with ``is_one(path) -> bool`` and ``read(path) -> Calibration``; those of vectors alone take what
+the user states them to be, and return also what is to be said.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lpcal.errors import DisagreementError, InputError
@@ -15,12 +16,14 @@ from lpcal.formats.images import ENDINGS
 from lpcal.records.calibration import Calibration
 
 FORMATS = {
-    "RTI light file (.lp)": import_directions.LP,
     "DiLiGenT folder": import_diligent.FORMAT,
     "LUCES led_params": import_luces.FORMAT,
     "near_ps light.mat": import_near_ps.FORMAT,
-    "light directions in a text": import_directions.TABLE,
 }
+VECTORS = {"RTI light file (.lp)": import_directions.LP, "light directions in a text": import_directions.TABLE}
+"""Files of vectors alone, which may be directions or positions."""
+RESERVED = {"mask", "ambient", "short", "dark", "gt"}
+"""Words of a name, apart by _ - or blanks, that say that an image is no light's: `photometric_sample_mask_raw`, `Normal_gt`."""
 
 
 def read_lights(path: Path) -> tuple[str, Calibration]:
@@ -31,12 +34,39 @@ def read_lights(path: Path) -> tuple[str, Calibration]:
     InputError
         Not there, of no known format, or not what a file of its format holds.
     """
+    found = import_lights(path)
+    return found.format, found.calibration
+
+
+@dataclass(frozen=True)
+class Imported:
+    """Lights from a file: its format, what it holds, and what is to be said of it."""
+
+    format: str
+    calibration: Calibration
+    notes: tuple[str, ...] = ()
+
+
+def import_lights(path: Path, vectors: str | None = None) -> Imported:
+    """What a file or folder holds; `vectors` of a light file may be stated to be directions or positions.
+
+    Raises
+    ------
+    InputError
+        Not there, of no known format, or not what a file of its format holds.
+    DisagreementError
+        Parts of it contradict each other.
+    """
     if not path.exists():
-        raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
+        raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
     for name, (is_one, read) in FORMATS.items():
         if is_one(path):
-            return name, read(path)
-    raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
+            return Imported(name, read(path))
+    for name, (is_vectors, read_vectors) in VECTORS.items():
+        if is_vectors(path):
+            calibration, notes = read_vectors(path, vectors)
+            return Imported(name, calibration, tuple(notes))
+    raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
 
 
 def named_after(calibration: Calibration, folder: Path) -> Calibration:
@@ -51,8 +81,8 @@ def named_after(calibration: Calibration, folder: Path) -> Calibration:
     """
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light")
-    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS]
-    stems = [stem for stem in stems if stem != "mask" and not stem.startswith(("ambient", "short_"))]
+    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS and not path.name.startswith(".")]
+    stems = [stem for stem in stems if not RESERVED & set(re.split(r"[^a-z]+", stem.lower()))]
     stems.sort(key=lambda stem: [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)])
     if len(stems) != len(calibration.lights):
         raise DisagreementError(f"{len(stems)} images", where=str(folder), needed=f"{len(calibration.lights)}, one a light")

@@ -27,6 +27,7 @@ from lpcal.surface import (
     rounds,
     shadow_anchor,
     sight,
+    start,
     surroundings,
     uncertainty,
     without_ambient,
@@ -74,7 +75,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     central = calibration.camera is not None
     near = options.near and central and any(light.source_C is not None for light in lights)
-    begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else DISTANCE_M)
+    begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else None)
+    if begin is None:
+        begin = start.distance_m(maps, rays_C, lights, _given(radiance, options)) if near else DISTANCE_M
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not gains.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
@@ -131,11 +134,16 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
     """Whether the mask is to be found."""
-    return options.mask is None and radiance.mask is None and options.automatic_mask
+    return _given(radiance, options) is None and options.automatic_mask
+
+
+def _given(radiance: Radiance, options: Options) -> Mask | None:
+    """The mask that the user or the capture gives."""
+    return options.mask if options.mask is not None else radiance.mask
 
 
 def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
-    given = options.mask if options.mask is not None else radiance.mask
+    given = _given(radiance, options)
     if given is None:
         given = background.mask if background is not None else np.ones(radiance.signal.shape[1:3], bool)
     if given.sum() < FEWEST_PIXELS:
