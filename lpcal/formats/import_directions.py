@@ -10,7 +10,6 @@ to be one or the other. Source of .lp: RTIBuilder's and RelightLab's documentati
 from __future__ import annotations
 
 import re
-import unicodedata
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
@@ -77,7 +76,7 @@ def _light(line: str, where: str) -> tuple[str, Array]:
         if len(words) < 4 or any(word.endswith(",") for word in words[-3:-1]):  # commas between the values
             words = [word for word in re.split(r"[\s;,]+", line) if word]
         name, words = " ".join(words[:-3]).rstrip(","), words[-3:]
-    stem = unicodedata.normalize("NFC", PureWindowsPath(name).stem.strip())
+    stem = PureWindowsPath(name).stem.strip()
     if len(words) != 3 or not stem:
         raise InputError(f"{line[:80]!r}", where=where, needed="file name and x y z")
     return stem, numbers(words, where)

@@ -13,6 +13,7 @@ from pathlib import Path
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
 from lpcal.formats.images import ENDINGS
+from lpcal.formats.light_tables import sane_lights
 from lpcal.records.calibration import Calibration
 
 FORMATS = {
@@ -61,11 +62,11 @@ def import_lights(path: Path, vectors: str | None = None) -> Imported:
         raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
     for name, (is_one, read) in FORMATS.items():
         if is_one(path):
-            return Imported(name, read(path))
+            return Imported(name, sane_lights(read(path), str(path)))
     for name, (is_vectors, read_vectors) in VECTORS.items():
         if is_vectors(path):
             calibration, notes = read_vectors(path, vectors)
-            return Imported(name, calibration, tuple(notes))
+            return Imported(name, sane_lights(calibration, str(path)), tuple(notes))
     raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
 
 

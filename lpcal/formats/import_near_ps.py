@@ -15,7 +15,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.images import ENDINGS, read_image
-from lpcal.formats.light_tables import of_light, plausible_camera, positive, scaled, unit_rows
+from lpcal.formats.light_tables import LARGEST, of_light, plausible_camera, positive, scaled, unit_rows
 from lpcal.formats.mat_file import read_matrices
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera, Light, Lobe
@@ -125,6 +125,8 @@ def _matrix(stored: dict[str, Array], key: str, file: Path, columns: int | None)
         raise InputError(
             f"{key} is {value.shape[0]}x{value.shape[1]} or not finite", where=str(file), needed=f"N x {columns or 1} finite numbers"
         )
+    if np.abs(value).max() > LARGEST:
+        raise InputError(f"{key} holds {np.abs(value).max():.3g}", where=str(file), needed="numbers of lights", todo="is the file damaged?")
     return value
 
 

@@ -5,7 +5,6 @@ Axes: many systems write x right, y up, z to the camera; C is x right, y down, z
 
 from __future__ import annotations
 
-import codecs
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera, Light
 
@@ -23,35 +23,28 @@ LARGEST = 1e12
 """Numbers beyond this, in any unit, are damage: no light stands or shines so, and their squares would overflow."""
 LARGEST_IMAGE = 100_000
 """Pixels along a side beyond which an image size is damage."""
-UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+"""A number with a comma for its point."""
+FARTHEST_M = 100.0
+"""Metres beyond which no near light is believed."""
+SHARPEST = 5000.0
+"""The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
+KINDS = ("isotropic", "cosine", "table", "leds")
+"""The lobes of calibration.yaml."""
 
 
 def text_of(path: Path) -> str:
-    """A text file's text: UTF-8, UTF-16 with its mark, else Windows' cp1252.
+    """A text file's text, in any encoding, NFC.
 
     Raises
     ------
     InputError
         Not there, too large, or not text.
     """
-    try:
-        size = path.stat().st_size
-        stored = path.read_bytes() if size <= MOST_BYTES else b""
-    except OSError as error:
-        raise InputError("cannot be read as text", where=str(path), needed="a text file of lights") from error
-    if size > MOST_BYTES:
-        raise InputError(f"holds {size / 1e6:.0f} MB", where=str(path), needed="a text file of lights", todo="is it the right file?")
-    found = None
-    for encoding in ("utf-16",) if stored.startswith(UTF16) else ("utf-8-sig", "cp1252"):
-        try:
-            found = stored.decode(encoding)
-            break
-        except UnicodeDecodeError:
-            continue
-    if found is None or "\0" in found:
-        raise InputError("cannot be read as text", where=str(path), needed="a text file of lights, in UTF-8 best", todo="save it as UTF-8")
-    return found
+    if path.is_file() and path.stat().st_size > MOST_BYTES:
+        megabytes = path.stat().st_size / 1e6
+        raise InputError(f"holds {megabytes:.0f} MB", where=str(path), needed="a text file of lights", todo="is it the right file?")
+    return read_text(path, "a text file of lights")
 
 
 def lines_of(path: Path) -> list[tuple[int, str]]:
@@ -181,6 +174,48 @@ def plausible_camera(camera: Camera, where: str) -> Camera:
     if not (np.isfinite(K).all() and K[0, 0] > 0 and K[1, 1] > 0 and np.allclose(K[2], [0, 0, 1]) and K[1, 0] == 0):
         raise InputError(f"K with focal lengths {K[0, 0]:g} and {K[1, 1]:g}", where=where, needed="K = [f 0 x; 0 f y; 0 0 1], f above 0")
     return camera
+
+
+def sane_lights(calibration: Calibration, where: str) -> Calibration:
+    """The calibration, whose lights can be lights.
+
+    Raises
+    ------
+    InputError
+        No light; a name twice, or none that a file could bear; a direction, an intensity, a place or a lobe that cannot be.
+    """
+    if not calibration.lights:
+        raise InputError("holds no lights", where=where, needed="lights")
+    names = [light.name for light in calibration.lights]
+    for light in calibration.lights:
+        found = _wrong(light) or ("two lights of one name" if names.count(light.name) > 1 else "")
+        if found:
+            raise InputError(found, where=f"{where}, light {light.name}", needed="a light as there can be", todo="correct it")
+    return calibration
+
+
+def _wrong(light: Light) -> str:
+    """What is wrong with a light, in words; empty where nothing is."""
+    if not light.name.strip() or set(light.name) & set("/\\\0") or light.name in {".", ".."}:
+        return f"the name {light.name!r}, which no image can have"
+    if not np.isfinite(light.direction_C).all() or not np.any(light.direction_C):
+        return "a direction that is none"
+    if not np.isfinite(light.intensity).all() or np.any(light.intensity < 0) or not np.any(light.intensity > 0):
+        return f"an intensity of {', '.join(f'{value:g}' for value in light.intensity)}"
+    if light.source_C is not None and not (np.abs(light.source_C) <= FARTHEST_M).all():
+        return f"a source at {', '.join(f'{value:g}' for value in light.source_C)} m"
+    if light.axis_C is not None and (not np.isfinite(light.axis_C).all() or not np.any(light.axis_C)):
+        return "an emission axis that is none"
+    lobe = light.lobe
+    if lobe.kind not in KINDS or not 0 <= lobe.exponent <= SHARPEST:
+        return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}"
+    if (
+        len(lobe.value) != len(lobe.angle_rad)
+        or np.any(np.diff(lobe.angle_rad) <= 0)
+        or (lobe.kind in {"table", "leds"} and len(lobe.value) < 2)
+    ):
+        return "a lobe whose angles do not grow, or with unlike numbers of angles and values"
+    return ""
 
 
 def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Array | None = None) -> Calibration:

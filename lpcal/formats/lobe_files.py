@@ -37,7 +37,9 @@ def read_lobe(path: Path) -> Lobe:
     if reader is None:
         raise InputError(f"a lobe in {path.suffix or 'no'} format", where=str(path), needed="an .ies or .ldt file", todo="export it as one")
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?")
+        raise InputError(
+            "cannot be read: no such file", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?"
+        )
     text = text_of(path)
     gamma_deg, plane_deg, intensity = reader(text, str(path))
     if np.any(intensity < 0) or np.any(np.diff(plane_deg) <= 0):

@@ -29,6 +29,10 @@ NUMERIC = range(6, 16)
 """The format's classes of full matrices of numbers: double, single, and whole numbers of 8 to 64 bit."""
 COMPLEX = 0x0800
 """The flag of a variable with an imaginary part."""
+KNOWN_FLAGS = 0x0FFF
+"""The class, and the bits that the format uses: complex, global, logical, and one that some writers leave set."""
+HEAD = (6, 5, 1)
+"""The types of what a variable begins with: its flags, its shape, its name."""
 
 type Element = tuple[int, bytes]
 
@@ -92,12 +96,15 @@ def _inflated(packed: bytes) -> bytes:
 def _keep(found: dict[str, Array], variable: bytes, order: str) -> None:
     """Add a variable if it is a full real matrix of numbers."""
     parts = _elements(variable, order)
-    flags = np.frombuffer(next(parts)[1], f"{order}u4")
-    shape = np.frombuffer(next(parts)[1], f"{order}i4")
-    name = next(parts)[1].decode("latin-1")
-    if flags.size < 1:
-        raise ValueError("a variable without its kind")
-    if int(flags[0]) & 0xFF not in NUMERIC or int(flags[0]) & COMPLEX or shape.size != 2:
+    (flag_kind, flags), (shape_kind, shape_bytes), (name_kind, name_bytes) = next(parts), next(parts), next(parts)
+    if (flag_kind, shape_kind, name_kind) != HEAD or len(flags) != 8 or len(shape_bytes) % 4:
+        raise ValueError("a variable without its kind, size and name")
+    flag = int(np.frombuffer(flags, f"{order}u4")[0])
+    shape = np.frombuffer(shape_bytes, f"{order}i4")
+    if flag & ~KNOWN_FLAGS:
+        raise ValueError("flags that the format does not have")
+    name = name_bytes.decode("latin-1")
+    if flag & 0xFF not in NUMERIC or flag & COMPLEX or shape.size != 2:
         return
     rows, columns = (int(side) for side in shape)
     kind, data = next(parts)

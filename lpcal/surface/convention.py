@@ -110,7 +110,7 @@ def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
         p, q = n[..., 0] / size, n[..., 1] / size
     found = _asked(p, q, good)
     for side in BLOCKS[1:]:
-        if abs(found.likeness) > CLEAR and abs(found.sure) > SURE or found.twist_sure > SURE:
+        if (abs(found.likeness) > CLEAR and abs(found.sure) > SURE) or found.twist_sure > SURE:
             break
         coarse = _asked(*_blocks(p, q, good, side))
         found = replace(coarse, median=found.median)
