@@ -8,7 +8,7 @@ import pytest
 from scipy.io import savemat
 
 from lit_scene import EXPONENT, K, Scene, calibration, draw, truth
-from lpcal.errors import DisagreementError, InputError
+from lpcal.errors import DisagreementError, InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
 from lpcal.formats.surface_files import read_surface
@@ -167,13 +167,11 @@ def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
-        ("a.lp", "3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
         ("a.lp", "one.jpg 0 0 1\n", "does not begin with the number of lights"),
         ("a.lp", "1\none.jpg 0 x 1\n", "no number"),
-        ("a.lp", "2\na.jpg 120 0 300\nb.jpg 0 90 410\n", "positions, not directions"),
+        ("a.lp", "1\none.jpg 0 nan 1\n", "not finite"),
+        ("a.lp", "1\none.jpg 1e200 0 1\n", "damaged"),
         ("a.lp", "1\none.jpg 0 0 0\n", "no direction"),
-        ("a.lp", "2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
-        ("a.txt", "100 20 300\n0 10 400\n3 3 3\n9 9 9\n", "positions, not directions"),
         ("a.txt", "1 2\n3 4\n", "no table of directions"),
         ("led_params.txt", "3 2048 1536 2300 1020 770 300\n1 2 3\n", "not the rows of led_params"),
         ("light.mat", "not matlab", "MATLAB"),
@@ -192,3 +190,132 @@ def test_what_is_wrong_is_said(tmp_path, lpcal, name, text, words):
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match="no such file"):
         read_lights(tmp_path / "none.lp")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
+        ("2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
+        ("2\none.jpg 100 20 300\ntwo.jpg 0 10 400\n", "positions, not directions"),
+        ("2\none.jpg 0 0 -1\ntwo.jpg 0 0.6 -0.8\n", "every light stands behind the object"),
+    ],
+)
+def test_parts_of_an_lp_that_contradict_each_other_are_said(tmp_path, lpcal, text, words):
+    (tmp_path / "a.lp").write_text(text)
+    code, _, told = lpcal("import", tmp_path / "a.lp", "-o", tmp_path / "out.yaml")
+    assert code == 6, told
+    assert words in told
+    assert not (tmp_path / "out.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("rows", "encoding"),
+    [
+        (("M\u00fcnze 1.png 0.6 0 0.8", "M\u00fcnze 2.png 0 0.6 0.8"), "cp1252"),
+        (("Mu\u0308nze 1.png\t0.6\t0\t0.8", "Mu\u0308nze 2.png\t0\t0.6\t0.8"), "utf-8"),
+        (("M\u00fcnze 1.png;0,6;0;0,8", "M\u00fcnze 2.png;0;0,6;0,8"), "utf-16"),
+        (('"C:\\x\\M\u00fcnze 1.png", 0.6, 0, 0.8', '"C:\\x\\M\u00fcnze 2.png", 0, 0.6, 0.8'), "utf-8-sig"),
+        (("M\u00fcnze 1.png,0.6,0,0.8", "M\u00fcnze 2.png,0,0.6,0.8"), "utf-8"),
+    ],
+)
+def test_an_lp_of_any_encoding_and_delimiter(tmp_path, rows, encoding):
+    (tmp_path / "dome.lp").write_bytes("\r\n".join(["2", *rows, ""]).encode(encoding))
+    _, found = read_lights(tmp_path / "dome.lp")
+    assert [light.name for light in found.lights] == ["M\u00fcnze 1", "M\u00fcnze 2"]
+    assert np.allclose([light.direction_C for light in found.lights], [[0.6, 0, -0.8], [0, -0.6, -0.8]])
+
+
+def test_vectors_that_are_positions_are_said(tmp_path, lpcal):
+    path = tmp_path / "dome.lp"
+    path.write_text("2\none.jpg 240 0 320\ntwo.jpg 0 240 320\n")
+    code, _, told = lpcal("import", path, "-o", tmp_path / "c.yaml")
+    assert code == 0
+    assert "length 400 are taken as positions" in told
+    path.write_text("2\none.jpg 120 0 160\ntwo.jpg 0 240 320\n")
+    assert lpcal("import", path, "-o", tmp_path / "c.yaml")[0] == 6
+    for stated in ("positions", "directions"):
+        code, _, told = lpcal("import", path, "--vectors", stated, "-o", tmp_path / "c.yaml")
+        assert code == 0
+        assert f"taken as {stated}" in told
+        assert np.allclose(read_calibration(tmp_path / "c.yaml").lights[0].direction_C, [0.6, 0, -0.8])
+
+
+RING = np.array([[60.0 * np.cos(t), 60.0 * np.sin(t), 0.0] for t in np.linspace(0, 2 * np.pi, 8, endpoint=False)])
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"Dir": np.tile([0.0, 0.0, 1.0], (8, 1)), "mu": np.ones((8, 1))},
+        {"Dir": RING / 60 + [0, 0, 2.0], "mu": np.ones((8, 1))},
+        {"mu": np.zeros((8, 1))},
+        {"Dir": np.tile([0.0, 0.0, 1.0], (8, 1)) + 0.01 * np.random.default_rng(0).standard_normal((8, 3)), "mu": np.ones((8, 1))},
+    ],
+    ids=["parallel", "apart", "no axes", "parallel but for workmanship"],
+)
+def test_axes_that_do_not_meet_give_no_working_point(tmp_path, more):
+    savemat(tmp_path / "light.mat", {"S": RING, "Phi": np.ones((8, 1)), **more})
+    _, found = read_lights(tmp_path / "light.mat")
+    assert found.d_object_m is None
+    assert found.focus_C is None
+
+
+def test_aimed_axes_with_some_error_meet(tmp_path):
+    Dir = np.array([0, 0, 200.0]) - RING + np.random.default_rng(0).standard_normal((8, 3)) * 3
+    savemat(tmp_path / "light.mat", {"S": RING, "Dir": Dir, "mu": np.ones((8, 1))}, do_compression=True)
+    _, found = read_lights(tmp_path / "light.mat")
+    assert found.d_object_m == pytest.approx(0.2, rel=0.05)
+
+
+def test_axes_are_needed_where_a_lobe_has_one(tmp_path):
+    savemat(tmp_path / "light.mat", {"S": RING, "mu": np.ones((8, 1))})
+    with pytest.raises(InputError, match="holds no Dir"):
+        read_lights(tmp_path / "light.mat")
+
+
+def test_a_guessed_image_size_gives_way_to_the_captures(tmp_path):
+    savemat(tmp_path / "light.mat", {"S": RING})
+    savemat(tmp_path / "camera.mat", {"K": np.array([[300.0, 0, 121.7], [0, 300, 87.2], [0, 0, 1]])})
+    _, found = read_lights(tmp_path / "light.mat")
+    assert found.camera.size_guessed
+    assert found.camera.of_images((240, 180)).image_size == (240, 180)
+    assert found.camera.of_images((480, 360)).image_size == found.camera.image_size  # another resolution: K is not its own
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"Phi": -np.ones((8, 1))}, "intensity -1"),
+        ({"Phi": np.full((8, 1), np.nan)}, "not finite"),
+        ({"S": np.zeros((8, 3))}, "one place"),
+        ({"S": RING[:, :2]}, "S is 8x2"),
+        ({"Dir": np.zeros((8, 3))}, "no direction"),
+        ({"mu": np.ones((5, 1))}, "8, 8, 8 and 5 rows"),
+    ],
+)
+def test_nonsense_in_a_mat_is_refused(tmp_path, change, words):
+    savemat(tmp_path / "light.mat", {"S": RING, "Dir": np.tile([0.0, 0, 1], (8, 1)), "mu": np.ones((8, 1)), **change})
+    with pytest.raises(LpcalError, match=words):
+        read_lights(tmp_path / "light.mat")
+
+
+def test_a_damaged_mat_is_an_error_of_the_contract(tmp_path):
+    """Each byte in turn set to other values: an error of the contract, or lights."""
+    savemat(tmp_path / "whole.mat", {"S": RING[:3], "Dir": np.tile([0.0, 0, 1], (3, 1)), "mu": np.ones((3, 1))})
+    whole, path = (tmp_path / "whole.mat").read_bytes(), tmp_path / "light.mat"
+    refused = 0
+    for at in range(124, len(whole)):
+        for value in (0x00, 0x7F, 0xFF):
+            path.write_bytes(whole[:at] + bytes([value]) + whole[at + 1 :])
+            try:
+                read_lights(path)
+            except LpcalError:
+                refused += 1
+    assert refused > 100
+
+
+def test_a_mat_of_version_7_3_is_named(tmp_path):
+    (tmp_path / "light.mat").write_bytes(b"MATLAB 7.3 MAT-file".ljust(512) + b"\x89HDF\r\n\x1a\n")
+    with pytest.raises(InputError, match="save it with -v7"):
+        read_lights(tmp_path / "light.mat")

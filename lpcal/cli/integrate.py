@@ -11,7 +11,13 @@ from lpcal.records.outcome import Outcome, Progress
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument("normals", type=Path, metavar="NORMALS", help=".npz, .npy, .png or .tif; z towards the camera, or as in C")
-    parser.add_argument("-c", "--calibration", type=Path, help="calibration.yaml, for its camera (default: parallel rays, depth in pixels)")
+    parser.add_argument("-c", "--calibration", type=Path, help="calibration or any camera file (default: parallel rays, depth in pixels)")
+    parser.add_argument(
+        "--green",
+        choices=("auto", "as-is", "flipped"),
+        default="auto",
+        help="whether green is turned over: DirectX maps have it down (default: found by the curl)",
+    )
     parser.add_argument("--mask", type=Path, metavar="FILE", help="which pixels count (default: those that hold a normal)")
     parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object, such as 352mm (default: the calibration's)")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to (default: surfaces/<name of the file>)")
@@ -23,4 +29,4 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     from lpcal.pipeline.integrate import integrate_file
 
     target = options.output or Path("surfaces") / options.normals.stem
-    return integrate_file(options.normals, options.calibration, options.mask, target, length(options.distance))
+    return integrate_file(options.normals, options.calibration, options.mask, target, length(options.distance), options.green)

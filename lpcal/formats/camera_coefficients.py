@@ -65,13 +65,19 @@ def sane_camera(camera: Camera, where: str) -> Camera:
     Raises
     ------
     InputError
-        A focal length or a size that is not positive, or a number that is not finite.
+        A focal length or a size that is not positive, a number that is not finite, or a K that is none.
     """
     width, height = camera.image_size
     fx, fy = camera.K[0, 0], camera.K[1, 1]
     whole = bool(np.isfinite(camera.K).all() and np.isfinite(camera.distortion).all())
+    whole = whole and camera.K[1, 0] == 0 and np.allclose(camera.K[2], [0, 0, 1])
     splined = camera.spline is None or np.isfinite(camera.spline).all()
     if not (whole and splined and min(fx, fy) > 0 and min(width, height) > 0 and max(width, height) <= MOST_SIDE_PX):
         found = f"fx {fx:g}, fy {fy:g}, cx {camera.K[0, 2]:g}, cy {camera.K[1, 2]:g}, image {width}x{height}"
-        raise InputError(found, where=where, needed="finite numbers, focal lengths and sizes above zero", todo="is it the right file?")
+        raise InputError(
+            found,
+            where=where,
+            needed="K = [fx 0 cx; 0 fy cy; 0 0 1], finite, focal lengths and sizes above zero",
+            todo="is it the right file?",
+        )
     return camera

@@ -58,6 +58,8 @@ def camera_document(camera: Camera) -> dict[str, Any]:
         "white_level": camera.white_level,
         "gamma": camera.gamma,
     }
+    if camera.size_guessed:
+        document["image_size_guessed"] = True
     if camera.flat_field is not None:
         document["flat_field"] = camera.flat_field.coefficients
     if camera.spline is not None:
@@ -94,6 +96,7 @@ def camera_from_document(document: dict[str, Any]) -> Camera:
         covariance=None if covariance is None else np.array(covariance, dtype=float),
         lensmodel=document.get("lensmodel", ""),
         spline=None if spline is None else np.array(spline, dtype=float),
+        size_guessed=document.get("image_size_guessed") is True,
     )
 
 

@@ -7,12 +7,12 @@ Source: Shi et al. 2016, A benchmark dataset and evaluation for non-Lambertian p
 
 from __future__ import annotations
 
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
 from lpcal.errors import DisagreementError
-from lpcal.formats.light_tables import C_FROM_UP, distant, table, text_of, unit_rows
+from lpcal.formats.light_tables import C_FROM_UP, distant, lines_of, positive, table, unit_rows
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 
@@ -30,12 +30,12 @@ def read(path: Path) -> Calibration:
     Raises
     ------
     InputError
-        A file cannot be read or holds no numbers.
+        A file cannot be read or holds no numbers, a direction is 0 0 0, or an intensity is not positive.
     DisagreementError
-        The three files speak of unlike numbers of lights.
+        The three files speak of unlike numbers of lights, or two lights have one name.
     """
     directions = table(path / DIRECTIONS, 3)
-    names = [Path(line.strip()).stem for line in text_of(path / NAMES).splitlines() if line.strip()]
+    names = [PureWindowsPath(line.strip("\"' ")).stem for _, line in lines_of(path / NAMES)]
     intensities: Array = table(path / INTENSITIES, 3) if (path / INTENSITIES).is_file() else np.ones((len(directions), 3))
     if not len(names) == len(directions) == len(intensities):
         raise DisagreementError(
@@ -43,7 +43,11 @@ def read(path: Path) -> Calibration:
             where=str(path),
             needed=f"{NAMES}, {DIRECTIONS} and {INTENSITIES} of the same length",
         )
-    return distant(path.name, names, unit_rows(directions, str(path / DIRECTIONS)) * C_FROM_UP, intensities)
+    double = next((name for name in names if names.count(name) > 1), None)
+    if double is not None:
+        raise DisagreementError(f"two lights are called {double}", where=str(path / NAMES), needed="each image once")
+    intensities = positive(intensities, str(path / INTENSITIES))
+    return distant(path.resolve().name, names, unit_rows(directions, str(path / DIRECTIONS)) * C_FROM_UP, intensities)
 
 
 FORMAT = (is_one, read)

@@ -1,65 +1,85 @@
 """Distant lights as directions: RTI's ``.lp`` and plain tables. x right, y up, z to the camera, from the object to the light.
 
-``.lp``: the count, then ``file name x y z`` a line; the name may hold spaces. A light is named after its image's file, without its ending.
-A table has a row x y z a light, or three rows of N; a first row with the count alone is left out; lights are named L0, L1, ...
-Source of .lp: RTIBuilder's and RelightLab's documentation.
+``.lp``: the count, then ``file name x y z`` a line; the name may hold spaces, with or without quotes. A light is named after its image's
+file, without its ending. A table has a row x y z a light, or three rows of N; a first row with the count alone is left out; lights are
+named L0, L1, ... Vectors are apart by blanks, tabs, semicolons or commas. Vectors of one length that is not 1 are places on a dome about
+the object: their directions are taken and that is said. Of unlike lengths they are positions, or damaged: refused, unless they are stated
+to be one or the other. Source of .lp: RTIBuilder's and RelightLab's documentation.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
-from lpcal.errors import InputError
-from lpcal.formats.light_tables import C_FROM_UP, distant, numbers, text_of, unit_rows
-from lpcal.formats.text import decimal_points
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.light_tables import C_FROM_UP, distant, lines_of, numbers, unit_rows, whole_number, words_of
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 
 UNLIKE_LENGTHS = 0.02
-"""How far from each other, and from 1, the lengths of directions may be: files keep two digits and more."""
+"""Share of their mean by which lengths of rounded unit vectors, two decimals each, may differ."""
+STATED = ("directions", "positions")
+"""What a user may state the vectors to be."""
+SPLIT = re.compile(r"[\s;]+")
 
 
 def is_lp(path: Path) -> bool:
     """Whether a path is an .lp file."""
-    return path.suffix.lower() == ".lp"
+    return path.is_file() and path.suffix.lower() == ".lp"
 
 
-def read_lp(path: Path) -> Calibration:
-    """Read an .lp file.
+def read_lp(path: Path, stated: str | None = None) -> tuple[Calibration, list[str]]:
+    """Read an .lp file, its vectors `stated` to be directions or positions, or neither; and what is to be said of it.
 
     Raises
     ------
     InputError
-        Another count of lines than the first line says, a line without three numbers, a direction 0 0 0, or two lights of one name.
+        No count, a line without three numbers, or a direction 0 0 0.
+    DisagreementError
+        Another count of lines than the first line says, two lights of one name, or vectors of unlike lengths.
     """
-    text = decimal_points(text_of(path)).replace(";", " ").replace(",", " ")
-    lines = [(count, line.split()) for count, line in enumerate(text.split("\n"), 1) if line.strip() and not line.startswith("#")]
-    if not lines or len(lines[0][1]) != 1 or not lines[0][1][0].isdigit():
+    lines = lines_of(path)
+    if not lines or not re.fullmatch(r"\d{1,9}[,;]*", lines[0][1]):
         raise InputError("does not begin with the number of lights", where=f"{path}:1", needed="a whole number, then a line a light")
-    stated = int(lines[0][1][0])
-    if stated != len(lines) - 1:
-        found = f"{len(lines) - 1} lights, but the first line says {stated}"
-        raise InputError(found, where=f"{path}:1", needed="one line a light", todo="is the file cut off?")
-    names, rows = [], []
-    for count, words in lines[1:]:
-        if len(words) < 4:
-            raise InputError(f"{' '.join(words)!r}", where=f"{path}:{count}", needed="file name and x y z")
-        rows.append(numbers(words[-3:], f"{path}:{count}"))
-        names.append(PureWindowsPath(" ".join(words[:-3]).strip("\"'")).stem)
-    if len(set(names)) < len(names):
-        double = next(name for name in names if names.count(name) > 1)
-        raise InputError(f"two lights are called {double}", where=str(path), needed="each image once")
-    vectors = np.stack(rows) if rows else np.zeros((0, 3))
-    length = np.linalg.norm(vectors, axis=1)
-    if rows and (np.abs(length - 1) > UNLIKE_LENGTHS).any() and np.ptp(length) > UNLIKE_LENGTHS * length.max():
-        raise InputError(
-            f"vectors of lengths {length.min():.3g} to {length.max():.3g}: positions, not directions",
-            where=str(path),
-            needed="unit vectors from the object to the lights",
-            todo="divide each by its length if the lights are far away; else give them as LUCES' led_params or near_ps' light.mat",
+    count = int(lines[0][1].rstrip(",;"))
+    if count != len(lines) - 1 or not count:
+        raise DisagreementError(
+            f"{len(lines) - 1} lights, but the first line says {count}",
+            where=f"{path}:{lines[0][0]}",
+            needed="one line a light",
+            todo="correct the count or add the lines",
         )
-    return distant(path.stem, names, unit_rows(vectors, str(path)) * C_FROM_UP)
+    names: list[str] = []
+    rows: list[Array] = []
+    first: dict[str, int] = {}
+    for at, line in lines[1:]:
+        name, vector = _light(line, f"{path}:{at}")
+        if name in first:
+            raise DisagreementError(f"two lights are called {name}", where=f"{path}:{at} and {first[name]}", needed="each image once")
+        first[name] = at
+        names.append(name)
+        rows.append(vector)
+    vectors, notes = _directions(np.stack(rows), path, stated)
+    return distant(path.stem, names, vectors * C_FROM_UP), notes
+
+
+def _light(line: str, where: str) -> tuple[str, Array]:
+    """Name and vector of a line of an .lp."""
+    quoted = re.match(r"\s*([\"'])(.+?)\1[\s,;]*", line)
+    if quoted:
+        name, words = quoted[2], words_of(line[quoted.end() :])
+    else:
+        words = [word for word in SPLIT.split(line) if word]
+        if len(words) < 4 or any(word.endswith(",") for word in words[-3:-1]):  # commas between the values
+            words = [word for word in re.split(r"[\s;,]+", line) if word]
+        name, words = " ".join(words[:-3]).rstrip(","), words[-3:]
+    stem = PureWindowsPath(name).stem.strip()
+    if len(words) != 3 or not stem:
+        raise InputError(f"{line[:80]!r}", where=where, needed="file name and x y z")
+    return stem, numbers(words, where)
 
 
 def is_table(path: Path) -> bool:
@@ -67,33 +87,61 @@ def is_table(path: Path) -> bool:
     return path.is_file() and path.suffix.lower() in {".txt", ".csv", ".dat"}
 
 
-def read_table(path: Path) -> Calibration:
-    """Read a table of directions.
+def read_table(path: Path, stated: str | None = None) -> tuple[Calibration, list[str]]:
+    """Read a table of directions, and what is to be said of it.
 
     Raises
     ------
     InputError
-        Not N x 3 or 3 x N, not directions of length 1, or another count than the first row says.
+        Not N x 3 or 3 x N, or a direction 0 0 0.
+    DisagreementError
+        Another count than the first row says, or vectors of unlike lengths.
     """
-    rows = [
-        (count, numbers(line.replace(",", " ").replace(";", " ").split(), f"{path}:{count}"))
-        for count, line in enumerate(decimal_points(text_of(path)).split("\n"), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    stated = int(rows[0][1][0]) if rows and len(rows[0][1]) == 1 else None
-    body = [row for _, row in (rows if stated is None else rows[1:])]
+    rows = [numbers(words_of(line), f"{path}:{count}") for count, line in lines_of(path)]
+    count = whole_number(float(rows[0][0]), f"{path}:1", "the number of lights") if len(rows) > 1 and len(rows[0]) == 1 else None
+    body = rows if count is None else rows[1:]
     if not body or len({len(row) for row in body}) != 1 or 3 not in (len(body), len(body[0])):
         raise InputError("no table of directions", where=str(path), needed="x y z a row, or three rows of x, y and z")
     stored = np.stack(body)
     ways = [way for way in (stored, stored.T) if way.shape[1] == 3]
-    found = min(ways, key=lambda way: float(np.ptp(np.linalg.norm(way, axis=1))))
-    if stated not in {None, len(found)}:
-        raise InputError(f"{len(found)} lights, but the first row says {stated}", where=str(path), needed="one row a light")
-    if np.ptp(np.linalg.norm(found, axis=1)) > UNLIKE_LENGTHS:
-        raise InputError(
-            "vectors of unlike lengths: positions, not directions", where=str(path), needed="unit vectors from the object to the lights"
+    found = min(ways, key=lambda way: float(np.ptp(np.linalg.norm(way, axis=1)) / max(np.linalg.norm(way, axis=1).mean(), 1e-12)))
+    if count not in {None, len(found)}:
+        raise DisagreementError(f"{len(found)} lights, but the first row says {count}", where=str(path), needed="one row a light")
+    vectors, notes = _directions(found, path, stated)
+    return distant(path.stem, [f"L{k}" for k in range(len(found))], vectors * C_FROM_UP), notes
+
+
+def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, list[str]]:
+    """Unit vectors (N, 3) to the lights, x right, y up, z to the camera; what is to be said of how they came about."""
+    unit = unit_rows(vectors, str(path))
+    length = np.linalg.norm(vectors, axis=1)
+    mean, notes = float(length.mean()), []
+    alike = np.ptp(length) <= UNLIKE_LENGTHS * mean
+    if not alike and stated is None:
+        k = int(np.argmax(np.abs(length / np.median(length) - 1)))
+        raise DisagreementError(
+            f"vectors of unlike lengths, {length.min():.4g} to {length.max():.4g}: positions, not directions",
+            where=f"{path}, light {k + 1}",
+            needed="unit vectors from the object to the lights",
+            todo="state --vectors positions (from the object's middle; distant lights are made of them) or --vectors directions",
         )
-    return distant(path.stem, [f"L{k}" for k in range(len(found))], unit_rows(found, str(path)) * C_FROM_UP)
+    if stated == "positions" or (alike and stated is None and abs(mean - 1) > UNLIKE_LENGTHS):
+        which = f"{mean:.4g}" if alike else f"{length.min():.4g} to {length.max():.4g}"
+        notes.append(f"vectors of length {which} are taken as positions about the object's middle: distant lights in their directions")
+    elif not alike:
+        notes.append(f"vectors of length {length.min():.4g} to {length.max():.4g} are taken as directions, as stated")
+    below = [k + 1 for k in np.flatnonzero(unit[:, 2] <= 0)]
+    if below:
+        told = ", ".join(map(str, below[:8])) + (", ..." if len(below) > 8 else "")
+        notes.append(f"{len(below)} of {len(unit)} lights stand behind the object or at its horizon (z of 0 or less): light {told}")
+    if len(below) == len(unit):
+        raise DisagreementError(
+            "every light stands behind the object (z of 0 or less)",
+            where=str(path),
+            needed="x right, y up, z to the camera",
+            todo="turn the sign of z",
+        )
+    return unit, notes
 
 
 LP = (is_lp, read_lp)

@@ -1,31 +1,32 @@
 """Lights that other systems calibrated, as a Calibration: which format a file or folder is, and its reader.
 
-Each reader is one module of this package with ``is_one(path) -> bool`` and ``read(path) -> Calibration``.
+Each reader is one module of this package with ``is_one(path) -> bool`` and ``read(path) -> Calibration``; those of vectors alone take what
+the user states them to be, and return also what is to be said.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
 from lpcal.formats.images import ENDINGS
 from lpcal.formats.light_tables import sane_lights
-from lpcal.formats.named_files import exists, hidden
+from lpcal.formats.named_files import exists
 from lpcal.formats.reading import reading
 from lpcal.records.calibration import Calibration
 
-NO_LIGHT = re.compile(r"(^|[_-])(mask|ambient|background|normals?|depth)([_-]|\d*$)|^short_", re.IGNORECASE)
-"""What the names of images hold that show no light: ambient.png, ball_mask.png, short_L0.png."""
 FORMATS = {
-    "RTI light file (.lp)": import_directions.LP,
     "DiLiGenT folder": import_diligent.FORMAT,
     "LUCES led_params": import_luces.FORMAT,
     "near_ps light.mat": import_near_ps.FORMAT,
-    "light directions in a text": import_directions.TABLE,
 }
+VECTORS = {"RTI light file (.lp)": import_directions.LP, "light directions in a text": import_directions.TABLE}
+"""Files of vectors alone, which may be directions or positions."""
+RESERVED = {"mask", "ambient", "short", "dark", "gt"}
+"""Words of a name, apart by _ - or blanks, that say that an image is no light's: `photometric_sample_mask_raw`, `Normal_gt`."""
 
 
 def read_lights(path: Path) -> tuple[str, Calibration]:
@@ -36,13 +37,40 @@ def read_lights(path: Path) -> tuple[str, Calibration]:
     InputError
         Not there, of no known format, or not what a file of its format holds.
     """
+    found = import_lights(path)
+    return found.format, found.calibration
+
+
+@dataclass(frozen=True)
+class Imported:
+    """Lights from a file: its format, what it holds, and what is to be said of it."""
+
+    format: str
+    calibration: Calibration
+    notes: tuple[str, ...] = ()
+
+
+def import_lights(path: Path, vectors: str | None = None) -> Imported:
+    """What a file or folder holds; `vectors` of a light file may be stated to be directions or positions.
+
+    Raises
+    ------
+    InputError
+        Not there, of no known format, or not what a file of its format holds.
+    DisagreementError
+        Parts of it contradict each other.
+    """
     if not exists(path):
-        raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
-    for name, (is_one, read) in FORMATS.items():
-        if is_one(path):
-            with reading(path, name):
-                return name, sane_lights(read(path), str(path))
-    raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join(FORMATS)}")
+        raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
+    with reading(path, f"one of: {', '.join([*FORMATS, *VECTORS])}"):
+        for name, (is_one, read) in FORMATS.items():
+            if is_one(path):
+                return Imported(name, sane_lights(read(path), str(path)))
+        for name, (is_vectors, read_vectors) in VECTORS.items():
+            if is_vectors(path):
+                calibration, notes = read_vectors(path, vectors)
+                return Imported(name, sane_lights(calibration, str(path)), tuple(notes))
+    raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
 
 
 def named_after(calibration: Calibration, folder: Path) -> Calibration:
@@ -57,8 +85,8 @@ def named_after(calibration: Calibration, folder: Path) -> Calibration:
     """
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light")
-    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS and not hidden(path)]
-    stems = [stem for stem in stems if not NO_LIGHT.search(stem)]
+    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS and not path.name.startswith(".")]
+    stems = [stem for stem in stems if not RESERVED & set(re.split(r"[^a-z]+", stem.lower()))]
     stems.sort(key=lambda stem: [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)])
     if len(stems) != len(calibration.lights):
         raise DisagreementError(f"{len(stems)} images", where=str(folder), needed=f"{len(calibration.lights)}, one a light")

@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.camera_coefficients import MOST_SIDE_PX, sane_camera
-from lpcal.formats.light_tables import numbers, text_of, unit_rows
+from lpcal.formats.camera_coefficients import sane_camera
+from lpcal.formats.light_tables import lines_of, numbers, of_light, positive, scaled, unit_rows, whole_number, words_of
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera, Light, Lobe
 
 FILE = "led_params.txt"
@@ -33,44 +34,43 @@ def read(path: Path) -> Calibration:
     Raises
     ------
     InputError
-        A row of another length, or no numbers.
+        A row of another length, no numbers, or numbers that no light or camera has.
     DisagreementError
         Another number of lights than the heading says.
     """
     file = path / FILE if path.is_dir() else path
-    rows = []
-    for count, line in enumerate(text_of(file).splitlines(), 1):
-        words = line.split()
-        if words and words[0].replace(".", "", 1).replace("-", "", 1).replace("+", "", 1)[:1].isdigit():
+    rows: list[Array] = []
+    for count, line in lines_of(file):
+        words = words_of(line)
+        if words and (rows or words[0].lstrip("+-.")[:1].isdigit()):  # the heading of words comes first
             rows.append(numbers(words, f"{file}:{count}"))
     if not rows or len(rows[0]) < 7 or any(len(row) < 10 for row in rows[1:]):
         raise InputError("not the rows of led_params", where=str(file), needed="N nrows ncols f x0 y0 distance, then 11 numbers a light")
     heading, body = rows[0], np.stack([row[:10] for row in rows[1:]]) if rows[1:] else np.zeros((0, 10))
-    if not (
-        0 < heading[1] <= MOST_SIDE_PX and 0 < heading[2] <= MOST_SIDE_PX and heading[3] > 0 and heading[6] > 0 and 0 < heading[0] < 1e5
-    ):
-        found = f"the heading {' '.join(f'{number:g}' for number in heading[:7])}"
-        raise InputError(found, where=str(file), needed="N nrows ncols f x0 y0 distance, above zero", todo="is it whole?")
-    if np.any(body[:, 6:9] < 0) or not np.all(body[:, 6:9].sum(axis=1) > 0):
-        dark = int(np.argmin(body[:, 6:9].min(axis=1)))
-        raise InputError(f"light {dark + 1} has no power", where=str(file), needed="powers above zero", todo="correct its row")
-    if len(body) != int(heading[0]):
-        raise DisagreementError(f"{len(body)} lights", where=str(file), needed=f"{int(heading[0])}, as its heading says")
+    wanted = whole_number(float(heading[0]), str(file), "the number of lights")
+    if len(body) != wanted:
+        raise DisagreementError(f"{len(body)} lights", where=str(file), needed=f"{wanted}, as its heading says")
+    if np.any(body[:, 9] < 0):
+        k = int(np.argmax(body[:, 9] < 0))
+        raise InputError(f"light {k + 1} has the exponent {body[k, 9]:g}", where=str(file), needed="exponents of 0 or more")
     first, second, f, x0, y0, distance = heading[1:7]
+    if not distance > 0:
+        raise InputError(f"a mean distance of {distance:g}", where=str(file), needed="a distance in mm, above 0")
     width, height = (
         (first, second) if abs(x0 - first / 2) + abs(y0 - second / 2) <= abs(x0 - second / 2) + abs(y0 - first / 2) else (second, first)
     )
-    camera = Camera((int(width), int(height)), "opencv4", np.array([[f, 0, x0], [0, f, y0], [0, 0, 1.0]]), np.zeros(4))
+    size = whole_number(float(width), str(file), "the image's width"), whole_number(float(height), str(file), "the image's height")
+    K = np.array([[f, 0, x0], [0, f, y0], [0, 0, 1.0]])
+    camera = sane_camera(Camera(size, "opencv4", K, np.zeros(4)), str(file))
     focus_C = np.array([0.0, 0.0, distance * M_FROM_MM])
-    axes, power = unit_rows(body[:, 3:6], str(file)), body[:, 6:9] / body[:, 6:9].mean()
+    axes, power = unit_rows(body[:, 3:6], str(file)), scaled(positive(body[:, 6:9], str(file)))
     lights = []
     for k, row in enumerate(body):
         source = row[:3] * M_FROM_MM
-        towards = (source - focus_C) / np.linalg.norm(source - focus_C)
+        towards = of_light(source - focus_C, f"{file}, light {k + 1}")
         lobe = Lobe("cosine", exponent=float(row[9])) if row[9] > 0 else Lobe()
         lights.append(Light(f"{k + 1:02d}", towards, power[k], None, source, axes[k], lobe))
-    sane_camera(camera, str(file))
-    return Calibration(file.parent.name or file.stem, tuple(lights), camera, None, float(distance * M_FROM_MM), focus_C)
+    return Calibration(file.resolve().parent.name or file.stem, tuple(lights), camera, None, float(distance * M_FROM_MM), focus_C)
 
 
 FORMAT = (is_one, read)

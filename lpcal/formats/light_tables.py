@@ -1,10 +1,11 @@
-"""What the readers of other systems' lights share: tables of numbers, and directions in other axes.
+"""What the readers of other systems' lights share: text and tables of numbers, checks of lights, and directions in other axes.
 
 Axes: many systems write x right, y up, z to the camera; C is x right, y down, z forward, so ``v_C = (x, -y, -z)``.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,36 +17,78 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Light
 
 C_FROM_UP = np.array([1.0, -1.0, -1.0])
+MOST_BYTES = 32_000_000
+"""Bytes of a text of lights beyond which it is refused: ten thousand lights need a thirtieth of it."""
+LARGEST = 1e12
+"""Numbers beyond this, in any unit, are damage: no light stands or shines so, and their squares would overflow."""
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+"""A number with a comma for its point."""
+FARTHEST_M = 100.0
+"""Metres beyond which no near light is believed."""
+SHARPEST = 5000.0
+"""The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
+KINDS = ("isotropic", "cosine", "table", "leds")
+"""The lobes of calibration.yaml."""
 
 
 def text_of(path: Path) -> str:
-    """A text file's text.
+    """A text file's text, in any encoding, NFC.
 
     Raises
     ------
     InputError
-        Not there, or not text.
+        Not there, too large, or not text.
     """
+    if path.is_file() and path.stat().st_size > MOST_BYTES:
+        megabytes = path.stat().st_size / 1e6
+        raise InputError(f"holds {megabytes:.0f} MB", where=str(path), needed="a text file of lights", todo="is it the right file?")
     return read_text(path, "a text file of lights")
 
 
+def lines_of(path: Path) -> list[tuple[int, str]]:
+    """The lines of a text with their numbers from 1, without empty ones and comments (#, //, %)."""
+    lines = ((count, line.strip()) for count, line in enumerate(text_of(path).splitlines(), 1))
+    return [(count, line) for count, line in lines if line and not line.startswith(("#", "//", "%"))]
+
+
+def words_of(line: str) -> list[str]:
+    """The words of a line: apart by semicolons, tabs or blanks, commas too where they are not a decimal's."""
+    words = [word for word in re.split(r"[;\s]+", line.strip()) if word]
+    if any("," in word and not DECIMAL_COMMA.fullmatch(word) for word in words) or (len(words) == 1 and "," in line):
+        words = [word for word in re.split(r"[,;\s]+", line.strip()) if word]
+    return words
+
+
 def numbers(words: Sequence[str], where: str) -> Array:
-    """Words as finite numbers.
+    """Words as finite numbers, with decimal point or comma.
 
     Raises
     ------
     InputError
-        One is no finite number.
+        One is no finite number, or too large to be one of a light.
     """
     try:
-        found = np.array([float(word) for word in words])
+        found = np.array([float(word.replace(",", ".", 1) if DECIMAL_COMMA.fullmatch(word) else word) for word in words])
     except ValueError as error:
-        raise InputError(
-            f"{' '.join(words)[:60]!r} holds something that is no number", where=where, needed="numbers, decimal point"
-        ) from error
+        raise InputError(f"{' '.join(words)[:60]!r} holds something that is no number", where=where, needed="numbers") from error
     if not np.isfinite(found).all():
         raise InputError("a number that is not finite", where=where, needed="finite numbers")
+    if found.size and np.abs(found).max() > LARGEST:
+        raise InputError(f"a number of {np.abs(found).max():.3g}", where=where, needed="numbers of lights", todo="is the file damaged?")
     return found
+
+
+def whole_number(value: float, where: str, what: str) -> int:
+    """A count as a whole number of 1 or more.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
+    if not (1 <= value <= LARGEST and value == int(value)):
+        raise InputError(f"{what} is {value:g}", where=where, needed="a whole number of 1 or more")
+    return int(value)
 
 
 def table(path: Path, columns: int | None = None) -> Array:
@@ -57,11 +100,8 @@ def table(path: Path, columns: int | None = None) -> Array:
         No numbers, rows of unlike lengths, or another count of columns.
     """
     rows: list[Array] = []
-    for count, line in enumerate(text_of(path).splitlines(), 1):
-        words = line.replace(",", " ").replace(";", " ").split()
-        if not words or words[0].startswith(("#", "//", "%")):
-            continue
-        row = numbers(words, f"{path}:{count}")
+    for count, line in lines_of(path):
+        row = numbers(words_of(line), f"{path}:{count}")
         wanted = columns or (len(rows[0]) if rows else len(row))
         if len(row) != wanted:
             raise InputError(f"{len(row)} numbers in a row", where=f"{path}:{count}", needed=f"{wanted}")
@@ -79,23 +119,42 @@ def unit_rows(vectors: Array, where: str) -> Array:
     InputError
         One is zero.
     """
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    if np.any(length < 1e-9):
-        raise InputError(f"light {int(np.argmin(length))} has no direction: 0 0 0", where=where, needed="a direction")
-    return np.asarray(vectors / length)
+    return np.stack([of_light(row, f"{where}, light {k + 1}") for k, row in enumerate(vectors)]) if len(vectors) else vectors
 
 
-def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Array | None = None) -> Calibration:
-    """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to the contract's mean of 1."""
-    intensity = np.ones((len(names), 1)) if intensity is None else intensity / intensity.mean()
-    return Calibration(name, tuple(Light(one, d, value) for one, d, value in zip(names, directions_C, intensity, strict=True)))
+def of_light(vector: Array, where: str) -> Array:
+    """A light's direction (3,) at length 1.
+
+    Raises
+    ------
+    InputError
+        It is zero.
+    """
+    length = float(np.linalg.norm(vector))
+    if not length > 1e-9:
+        raise InputError("no direction: 0 0 0", where=where, needed="a direction from the object to the light")
+    return np.asarray(vector / length)
 
 
-FARTHEST_M = 100.0
-"""Metres beyond which no near light is believed."""
-SHARPEST = 5000.0
-"""The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
-KINDS = ("isotropic", "cosine", "table", "leds")
+def positive(powers: Array, where: str) -> Array:
+    """Powers (N, 1) or (N, 3) as they are.
+
+    Raises
+    ------
+    InputError
+        One is negative, or all of a light are zero.
+    """
+    bad = np.any(powers < 0, axis=1) | ~np.any(powers > 0, axis=1) | ~np.isfinite(powers).all(axis=1)
+    if bad.any():
+        k = int(np.argmax(bad))
+        told = " ".join(f"{value:g}" for value in powers[k])
+        raise InputError(f"light {k + 1} has the intensity {told}", where=where, needed="intensities above 0", todo="leave that light out")
+    return powers
+
+
+def scaled(powers: Array) -> Array:
+    """Powers at the contract's mean of 1."""
+    return np.asarray(powers / powers.mean())
 
 
 def sane_lights(calibration: Calibration, where: str) -> Calibration:
@@ -138,3 +197,9 @@ def _wrong(light: Light) -> str:
     ):
         return "a lobe whose angles do not grow, or with unlike numbers of angles and values"
     return ""
+
+
+def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Array | None = None) -> Calibration:
+    """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to the contract's mean of 1."""
+    intensity = np.ones((len(names), 1)) if intensity is None else scaled(intensity)
+    return Calibration(name, tuple(Light(one, d, value) for one, d, value in zip(names, directions_C, intensity, strict=True)))

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.light_tables import numbers
+from lpcal.formats.light_tables import numbers, text_of, whole_number
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Lobe
@@ -21,8 +21,8 @@ PHOTOMETRY_C = 1
 LDT_SETS, LDT_RATIOS = 25, 10
 """Line (from 0) of an .ldt file with the count of lamp sets, six lines each; direct ratios after them."""
 TURN_DEG = 360.0
-MOST_ANGLES = 10_000
-"""Angles, planes or lamp sets of the largest file that is believed."""
+LARGEST_COUNT = 1e6
+"""Angles beyond which a count is damage: a file of a hundredth of a degree would hold 36,000."""
 
 
 @reader("a photometric file")
@@ -38,11 +38,15 @@ def read_lobe(path: Path) -> Lobe:
     form = forms.get(path.suffix.lower())
     if form is None:
         raise InputError(f"a lobe in {path.suffix or 'no'} format", where=str(path), needed="an .ies or .ldt file", todo="export it as one")
-    try:
-        text = path.read_text(encoding="utf-8-sig", errors="replace")  # makers' names come in any code; the numbers are plain
-    except OSError as error:
-        raise InputError("cannot be read", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?") from error
+    if not path.is_file():
+        raise InputError(
+            "cannot be read: no such file", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?"
+        )
+    text = text_of(path)
     gamma_deg, plane_deg, intensity = form(text, str(path))
+    if np.any(intensity < 0) or np.any(np.diff(plane_deg) <= 0):
+        what = "a negative intensity" if np.any(intensity < 0) else "half planes whose angles do not grow"
+        raise InputError(what, where=str(path), needed="intensities of 0 or more, angles that grow", todo="export it again")
     mean = _mean_over_planes(plane_deg, intensity)
     front = gamma_deg <= 180
     if gamma_deg.size < 2 or gamma_deg[0] != 0 or np.any(np.diff(gamma_deg) <= 0) or mean[0] <= 0 or np.any(mean < 0):
@@ -77,12 +81,18 @@ def _ies(text: str, where: str) -> tuple[Array, Array, Array]:
         raise InputError("no line TILT=", where=where, needed="an LM-63 file", todo="is it whole?")
     values = numbers(" ".join(lines[tilt + 1 :]).replace(",", " ").split(), where)
     if lines[tilt].split("=", 1)[1].strip().upper() == "INCLUDE":  # lamp's place, count of pairs, angles, factors
-        values = values[2 + 2 * _count(values, 1, where) :]
+        pairs = _count(values, 1, where)
+        _whole(values.size, 2 + 2 * pairs, where)
+        values = values[2 + 2 * pairs :]
+    elif lines[tilt].split("=", 1)[1].strip().upper() != "NONE":
+        raise InputError(
+            f"{lines[tilt].strip()[:60]}: its tilt stands in another file", where=f"{where}:{tilt + 1}", needed="TILT=NONE or TILT=INCLUDE"
+        )
     vertical, horizontal = _count(values, 3, where), _count(values, 4, where)
+    _whole(values.size, 13 + vertical + horizontal + vertical * horizontal, where)
     if values[5] != PHOTOMETRY_C:
         raise InputError(f"photometry of type {values[5]:g}", where=where, needed="type 1 (C): angles from the axis", todo="convert it")
     table = values[13:]
-    _whole(table.size, vertical + horizontal + vertical * horizontal, where)
     gamma_deg, plane_deg = table[:vertical], table[vertical : vertical + horizontal]
     intensity = table[vertical + horizontal :][: vertical * horizontal].reshape(horizontal, vertical)
     return gamma_deg, plane_deg, intensity
@@ -92,11 +102,12 @@ def _ldt(text: str, where: str) -> tuple[Array, Array, Array]:
     """The same of an EULUMDAT file, one value a line."""
     lines = [line.strip().replace(",", ".") for line in text.splitlines()]
     _whole(len(lines), LDT_SETS + 1, where)
-    symmetry, planes, angles, sets = (int(numbers(lines[k : k + 1], where)[0]) for k in (2, 3, 5, LDT_SETS))
+    symmetry = int(numbers(lines[2:3], f"{where}:3")[0])
+    planes, angles, sets = (
+        whole_number(float(numbers(lines[k : k + 1], f"{where}:{k + 1}")[0]), f"{where}:{k + 1}", what)
+        for k, what in ((3, "the number of C planes"), (5, "the number of angles in a plane"), (LDT_SETS, "the number of lamp sets"))
+    )
     start = LDT_SETS + 1 + 6 * sets + LDT_RATIOS
-    if not (0 < planes <= MOST_ANGLES and 0 < angles <= MOST_ANGLES and 0 <= sets <= MOST_ANGLES):
-        found = f"{planes} planes, {angles} angles, {sets} sets of lamps"
-        raise InputError(found, where=f"{where}:4", needed="counts above zero", todo="is it an EULUMDAT file?")
     given = {0: (0, planes), 1: (0, 1), 2: (0, planes // 2 + 1), 3: (planes // 4, 3 * planes // 4 + 1), 4: (0, planes // 4 + 1)}
     if symmetry not in given:
         raise InputError(f"symmetry {symmetry}", where=f"{where}:3", needed="0 to 4", todo="is it an EULUMDAT file?")
@@ -111,7 +122,7 @@ def _ldt(text: str, where: str) -> tuple[Array, Array, Array]:
 
 
 def _count(values: Array, place: int, where: str) -> int:
-    if values.size <= place or not 1 <= values[place] <= MOST_ANGLES or values[place] != int(values[place]):
+    if values.size <= place or values[place] < 1 or values[place] > LARGEST_COUNT or values[place] % 1:
         raise InputError("its head is cut off or garbled", where=where, needed="counts of angles", todo="export it again")
     return int(values[place])
 

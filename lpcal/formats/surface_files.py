@@ -19,7 +19,7 @@ from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
 from lpcal.geometry.arrays import Image
 from lpcal.records.surface import Component, Surface
-from lpcal.surface.mesh import Mesh
+from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
 GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
@@ -40,6 +40,8 @@ def _is_ours(folder: Path) -> bool:
 
 SURFACE = Kind("the folder of a surface", _is_ours)
 """A surface's folder, as an output: one may replace another."""
+LINEAR = "_COLOR_0"
+"""What trimesh calls an attribute of glTF that it does not know: so colours travel as floats, not in 8 bit, too few for linear ones."""
 
 
 def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[str, Any], page: str | None = None) -> None:
@@ -56,7 +58,7 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
             draft / "surface.npz", **{name: getattr(surface, name) for name in MAPS}, rays=surface.rays_C, breaks=surface.breaks
         )
         _write_images(draft, surface)
-        _write_meshes(draft, mesh)
+        _write_meshes(draft, mesh, str(summary.get("units", "metres")))
         (draft / SUMMARY).write_text(json.dumps(plain(summary), indent=1) + "\n", encoding="utf-8")
         if page is not None:
             (draft / PAGE).write_text(page, encoding="utf-8")
@@ -117,13 +119,27 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def _write_meshes(draft: Path, mesh: Mesh) -> None:
+def _write_meshes(draft: Path, mesh: Mesh, unit: str) -> None:
+    """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks."""
     import trimesh
 
-    opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
-    for name, turn in (("mesh.ply", np.ones(3, np.float32)), ("mesh.glb", GLTF_FROM_C)):
-        solid = trimesh.Trimesh(
-            vertices=mesh.vertices_C * turn, faces=mesh.faces, vertex_normals=mesh.normals_C * turn, vertex_colors=opaque, process=False
+    def solid(turn: npt.NDArray[np.float32], **colours: Any) -> trimesh.Trimesh:
+        return trimesh.Trimesh(
+            vertices=mesh.vertices_C * turn, faces=mesh.faces, vertex_normals=mesh.normals_C * turn, process=False, **colours
         )
-        options: dict[str, Any] = {"vertex_normal": True} if name.endswith("ply") else {"include_normals": True}
-        (draft / name).write_bytes(solid.export(file_type=name.rpartition(".")[2], **options))
+
+    def finished(tree: dict[str, Any]) -> None:
+        tree["asset"]["extras"] = {"frame": f"glTF's axes of C: x right, y up, z to the camera, {unit}", "origin": "the camera"}
+        tree["materials"] = [{"name": "matte", "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}]
+        for part in tree["meshes"]:
+            for primitive in part["primitives"]:
+                primitive["material"] = 0
+                primitive["attributes"]["COLOR_0"] = primitive["attributes"].pop(LINEAR)
+
+    opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
+    ply: bytes = solid(np.ones(3, np.float32), vertex_colors=opaque).export(file_type="ply", vertex_normal=True)
+    said = f"comment frame C: x right, y down, z forward, {unit}\nelement vertex".encode()
+    (draft / "mesh.ply").write_bytes(ply.replace(b"element vertex", said, 1))
+    linear = ((mesh.colours / 255) ** DISPLAY_GAMMA).astype(np.float32)
+    glb = solid(GLTF_FROM_C, vertex_attributes={LINEAR: linear})
+    (draft / "mesh.glb").write_bytes(glb.export(file_type="glb", include_normals=True, tree_postprocessor=finished))

@@ -2,27 +2,35 @@
 
 from __future__ import annotations
 
+import re
 import time
 from dataclasses import asdict
 from pathlib import Path
 
 from lpcal import __version__
+from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SURFACE, write_surface
 from lpcal.pipeline.reconstruct import from_here
+from lpcal.records.calibration import Camera
 from lpcal.records.outcome import Outcome
-from lpcal.surface import mesh
-from lpcal.surface.of_normals import surface_of_normals
+from lpcal.surface import convention, mesh
+from lpcal.surface.of_normals import check, surface_of_normals
 
+HEAD = 1000
+"""Bytes of a file among which lpcal's own says its kind, as its second line."""
 DISTANCE_M = 0.35
 """Where neither a calibration nor the user says how far away the object is."""
 
 
-def integrate_file(normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None) -> Outcome:
+def integrate_file(
+    normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None, green: str = "auto"
+) -> Outcome:
     """Integrate a normal map and write its folder.
 
     Raises
@@ -34,10 +42,11 @@ def integrate_file(normals: Path, calibration: Path | None, mask: Path | None, t
     begun = time.perf_counter()
     values, good = read_normals(normals)
     inside = good if mask is None else good & read_mask(mask, good.shape)
-    lights = None if calibration is None else read_calibration(calibration)
-    camera = None if lights is None else lights.camera
-    told = distance_m or (lights.d_object_m if lights is not None else None)
-    surface = surface_of_normals(normals.stem, values, inside, camera, told or DISTANCE_M)
+    camera, working_m = (None, None) if calibration is None else _camera(calibration)
+    camera = None if camera is None else camera.of_images((good.shape[1], good.shape[0]))
+    check(normals.stem, inside, camera)
+    found = convention.settled(normals.stem, values, inside, camera, green)
+    surface = surface_of_normals(normals.stem, found.normals_C, inside, camera, distance_m or working_m or DISTANCE_M)
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
     note = "normals tell the shape; the distance, and that of pieces to each other, is not measured"
@@ -47,13 +56,27 @@ def integrate_file(normals: Path, calibration: Path | None, mask: Path | None, t
         "name": surface.name,
         "units": "pixels" if camera is None else "metres",
         "components": [asdict(component) for component in surface.components],
+        "convention": {"green_turned_over": found.flipped, "curl_as_is": asdict(found.as_is), "curl_turned_over": asdict(found.turned)},
         "counts_and_residuals": surface.figures,
         "times_s": {"solving": seconds},
         "versions": {"lpcal": __version__},
         "inputs": inputs,
-        "notes": [note],
+        "notes": [note] if found.note is None else [found.note, note],
     }
     write_surface(target, surface, mesh.build(surface), document)
     count = len(surface.components)
     line = f"{surface.name}: {inside.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
-    return Outcome([f"{line} -> {from_here(target)}"], {"surfaces": [document]})
+    told = [f"  {found.note}"] if found.note else []
+    return Outcome([f"{line} -> {from_here(target)}", *told], {"surfaces": [document]})
+
+
+def _camera(path: Path) -> tuple[Camera | None, float | None]:
+    """Camera and working distance of a calibration, or the camera of a file that holds one alone."""
+    if not path.is_file():
+        raise InputError("no such file", where=str(path), needed="calibration.yaml, or any camera file")
+    with path.open("rb") as stream:
+        begins = stream.read(HEAD)
+    if re.search(rb"^kind: calibration\s*$", begins, re.MULTILINE):
+        lights = read_calibration(path)
+        return lights.camera, lights.d_object_m
+    return read_camera_file(path), None

@@ -134,6 +134,9 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     begun = time.perf_counter()
     raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
     camera = calibration.camera
+    if camera is not None and camera.size_guessed:
+        camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
+        calibration = replace(calibration, camera=camera)
     sensor = Sensor(camera.black_level, camera.white_level, camera.gamma, camera.flat_field) if camera else Sensor()
     refuse_bright_ambient(raw, sensor)
     plain = to_radiance(raw, sensor)

@@ -5,13 +5,16 @@ A covariance of a transform is (6, 6), rotation (rad) first, then translation (m
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3, splined
 from lpcal.geometry.arrays import Array, Image, Mask
+
+SIZE_DOUBT = 0.25
+"""Share of a guessed image size by which images may differ from it: a principal point lies that close to the middle of a real image."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +69,13 @@ class Camera:
     """Splined: mrcal's name of the model with its configuration."""
     spline: Array | None = None
     """Splined: mrcal's vector, core and knots."""
+    size_guessed: bool = False
+    """The image size was made out from the principal point: images of about that size tell the true one."""
+
+    def of_images(self, size: tuple[int, int]) -> Camera:
+        """The camera with the images' (width, height) where its own is guessed and theirs is about that; else as it is."""
+        near = all(abs(told - own) <= SIZE_DOUBT * own for told, own in zip(size, self.image_size, strict=True))
+        return replace(self, image_size=size, size_guessed=False) if self.size_guessed and near else self
 
     def project(self, x_C: Array) -> Array:
         """Pixels (..., 2) of points x_C (..., 3)."""

@@ -14,6 +14,9 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.surface import Surface
 
+DISPLAY_GAMMA = 2.2
+"""Exponent between display numbers and light: sRGB's curve within two of 255 steps, but for the darkest."""
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -63,7 +66,7 @@ def colours(surface: Surface) -> npt.NDArray[np.uint8]:
     inside = albedo[surface.mask & np.isfinite(albedo).all(axis=-1)]
     top = float(np.percentile(inside, 99)) if inside.size else 1.0
     linear = np.clip(np.nan_to_num(albedo) / max(top, 1e-12) * 0.9, 0, 1)
-    return np.asarray(np.rint(255 * linear ** (1 / 2.2)), np.uint8)
+    return np.asarray(np.rint(255 * linear ** (1 / DISPLAY_GAMMA)), np.uint8)
 
 
 def _faces(number: npt.NDArray[np.int64], depth: Image, breaks: Mask) -> npt.NDArray[np.int64]:

@@ -28,7 +28,7 @@ def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera |
     DegenerateError
         Too few pixels, or most normals look away from the camera.
     """
-    _check(name, mask, camera)
+    check(name, mask, camera)
     rays_C = ray_map(mask.shape, camera)
     n = lambert.unit(normals_C[mask].astype(float))[0]
     away = float(np.mean(np.einsum("pi,pi->p", n, rays_C[mask]) >= 0))
@@ -69,8 +69,14 @@ def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera |
     )
 
 
-def _check(name: str, mask: Mask, camera: Camera | None) -> None:
-    """Refuse a map of another size than the camera's, or of too few pixels."""
+def check(name: str, mask: Mask, camera: Camera | None) -> None:
+    """Refuse a map of another size than the camera's, or of too few pixels.
+
+    Raises
+    ------
+    DisagreementError, DegenerateError
+        It is one of the two.
+    """
     height, width = mask.shape
     if camera is not None and (width, height) != tuple(camera.image_size):
         raise DisagreementError(

@@ -27,6 +27,7 @@ from lpcal.surface import (
     rounds,
     shadow_anchor,
     sight,
+    start,
     surroundings,
     uncertainty,
     without_ambient,
@@ -42,8 +43,6 @@ UNKNOWN_DISTANCE = 0.5
 """Relative standard deviation of a distance that nothing tells."""
 DISTANCE_M = 0.35
 """Where nothing else says how far away the object is."""
-SPREADS = 3.0
-"""Distance of the object from near lights whose axes do not meet, in their mean distance from their middle: 20 degrees off the axis."""
 
 
 @dataclass(frozen=True)
@@ -61,17 +60,6 @@ class Options:
     """Whether the ambient light has been taken away; else it is estimated."""
 
 
-def _distance_of(calibration: Calibration) -> float:
-    """Where the object may be, where nothing says it: at the focus, or as far as lights of such a spread are used at."""
-    if calibration.focus_C is not None:
-        return float(calibration.focus_C[2])
-    sources = [light.source_C for light in calibration.lights if light.source_C is not None]
-    if not sources:
-        return DISTANCE_M
-    middle = np.mean(sources, axis=0)
-    return float(middle[2] + SPREADS * np.linalg.norm(np.array(sources) - middle, axis=1).mean())
-
-
 def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
     """The surface of a capture.
 
@@ -87,7 +75,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     central = calibration.camera is not None
     near = options.near and central and any(light.source_C is not None for light in lights)
-    begin = options.distance_m or calibration.d_object_m or _distance_of(calibration)
+    begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else None)
+    if begin is None:
+        begin = start.distance_m(maps, rays_C, lights, _given(radiance, options)) if near else DISTANCE_M
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not gains.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
@@ -144,11 +134,16 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
     """Whether the mask is to be found."""
-    return options.mask is None and radiance.mask is None and options.automatic_mask
+    return _given(radiance, options) is None and options.automatic_mask
+
+
+def _given(radiance: Radiance, options: Options) -> Mask | None:
+    """The mask that the user or the capture gives."""
+    return options.mask if options.mask is not None else radiance.mask
 
 
 def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
-    given = options.mask if options.mask is not None else radiance.mask
+    given = _given(radiance, options)
     if given is None:
         given = background.mask if background is not None else np.ones(radiance.signal.shape[1:3], bool)
     if given.sum() < FEWEST_PIXELS:
