@@ -14,7 +14,7 @@ import numpy as np
 
 from lpcal.detect.board_grid import extended
 from lpcal.detect.saddle_points import SaddlePoints, likeness, saddle_points
-from lpcal.geometry.arrays import Array, Labels
+from lpcal.geometry.arrays import Array, Labels, Mask
 
 NEIGHBOURS = 14
 """Nearest saddles among which a neighbour is looked for: the eight about a corner, and some that are no corners."""
@@ -232,7 +232,7 @@ def _filled(light: Array, grid: Array) -> Array:
     return np.where(hole[..., None], _corners_near(light, whole, ~hole), grid)
 
 
-def _corners_near(light: Array, places: Array, inner: Array) -> Array:
+def _corners_near(light: Array, places: Array, inner: Mask) -> Array:
     """The likeliest corner (rows, columns, 2) near each place, NaN where none is likely; `inner`: known before."""
     steps = _steps(places)[~inner]
     offsets = np.stack(np.meshgrid(*2 * [np.linspace(-STRAY, STRAY, 5)]), axis=-1).reshape(-1, 2)
