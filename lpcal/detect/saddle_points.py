@@ -65,9 +65,11 @@ def saddle_points(grey: Labels) -> SaddlePoints:
     step = -np.linalg.solve(H, np.stack(slope, axis=-1)[..., None])[..., 0]
     places = np.stack([column, row], axis=-1) + np.clip(step, -1.5, 1.5)
     like, span = likeness(light, places, np.full(len(places), RING_PX))
-    curvature, axes = np.linalg.eigh(H)
+    likely = np.flatnonzero((like > LIKE) & (span > LEAST_STEP))
+    places = places[likely]
+    curvature, axes = np.linalg.eigh(H[likely])
     tangent = np.sqrt(np.maximum(curvature[:, 1], 0) / np.maximum(-curvature[:, 0], 1e-9))
-    kept = (like > LIKE) & (span > LEAST_STEP) & (tangent > SHARPEST_TAN) & (tangent < 1 / SHARPEST_TAN)
+    kept = (tangent > SHARPEST_TAN) & (tangent < 1 / SHARPEST_TAN)
     rows = np.flatnonzero(kept)[:MOST]
     bright, dark, tangent = axes[rows, :, 1], axes[rows, :, 0], tangent[rows, None]
     edges = np.stack([bright + tangent * dark, bright - tangent * dark], axis=1)
