@@ -128,7 +128,8 @@ def test_a_directx_map_gives_the_surface_of_the_opengl_one(tmp_path, lpcal, bits
          "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"),
         ("cameras.txt", "1 PINHOLE 160 120 300 300 80 60\n"),
         ("camera.yaml", "lpcal: 1\nkind: camera\nimage_size: [160, 120]\nmodel: opencv4\n"
-         "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\ndistortion: [0, 0, 0, 0]\n"),
+         "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\ndistortion: [0, 0, 0, 0]\n"
+         "provenance: {inputs: {}, options: {}, lpcal_version: x, time: x}\n"),
     ],
 )  # fmt: skip
 def test_a_camera_alone_makes_metres(tmp_path, lpcal, name, text):

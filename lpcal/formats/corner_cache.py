@@ -65,7 +65,7 @@ def write_corner_cache(path: Path, sightings: Mapping[str, Sighting]) -> None:
         }
         for key, s in sightings.items()
     }
-    write_text(path, json.dumps(entries), CACHE)
+    write_text(path, json.dumps(entries, sort_keys=True), CACHE)
 
 
 def _view(entry: dict[str, Any]) -> BoardView:
