@@ -126,7 +126,7 @@ CAMERAS = {
     "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n",
     "cameras.txt": "1 PINHOLE 160 120 300 300 80 60\n",
     "camera.yaml": "lpcal: 1\nkind: camera\nimage_size: [160, 120]\nmodel: opencv4\ndistortion: [0, 0, 0, 0]\n"
-    "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\nprovenance: {inputs: {}}\n",
+    "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\nprovenance: {inputs: {}, options: {}, lpcal_version: '1', time: now}\n",
 }
 
 
