@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.surface_files import read_surface
 from lpcal.records.calibration import Camera
@@ -121,26 +121,51 @@ def test_a_directx_map_gives_the_surface_of_the_opengl_one(tmp_path, lpcal, bits
     assert not json.loads((tmp_path / "as_is" / "summary.json").read_text())["convention"]["green_turned_over"]
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("ros.yaml", "image_width: 160\nimage_height: 120\ncamera_matrix: {rows: 3, cols: 3, data: [300, 0, 79.5, 0, 300, 59.5, 0, 0, 1]}\n"
-         "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"),
-        ("cameras.txt", "1 PINHOLE 160 120 300 300 80 60\n"),
-        ("camera.yaml", "lpcal: 1\nkind: camera\nimage_size: [160, 120]\nmodel: opencv4\n"
-         "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\ndistortion: [0, 0, 0, 0]\n"
-         "provenance: {inputs: {}, options: {}, lpcal_version: x, time: x}\n"),
-    ],
-)  # fmt: skip
-def test_a_camera_alone_makes_metres(tmp_path, lpcal, name, text):
+CAMERAS = {
+    "ros.yaml": "image_width: 160\nimage_height: 120\ncamera_matrix: {rows: 3, cols: 3, data: [300, 0, 79.5, 0, 300, 59.5, 0, 0, 1]}\n"
+    "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n",
+    "cameras.txt": "1 PINHOLE 160 120 300 300 80 60\n",
+    "camera.yaml": "lpcal: 1\nkind: camera\nimage_size: [160, 120]\nmodel: opencv4\ndistortion: [0, 0, 0, 0]\n"
+    "K: [[300.0, 0, 79.5], [0, 300.0, 59.5], [0, 0, 1]]\nprovenance: {inputs: {}, options: {}, lpcal_version: '1', time: now}\n",
+}
+
+
+@pytest.mark.parametrize("name", list(CAMERAS))
+def test_a_camera_alone_makes_metres(tmp_path, lpcal, name):
     np.save(tmp_path / "n.npy", normals_of(bump()))
-    (tmp_path / name).write_text(text)
-    code, told, wrong = lpcal(
-        "integrate", tmp_path / "n.npy", "-c", tmp_path / name, "--distance", "200mm", "-o", tmp_path / "out", cwd=tmp_path
-    )
+    (tmp_path / name).write_text(CAMERAS[name])
+    words = ("integrate", tmp_path / "n.npy", "-c", tmp_path / name, "--distance", "200mm", "-o", tmp_path / "out")
+    code, told, wrong = lpcal(*words, cwd=tmp_path)
     assert code == 0, wrong
     assert "metres" in told
     assert np.nanmedian(read_surface(tmp_path / "out").depth) == pytest.approx(0.2, rel=1e-3)
+
+
+def test_what_is_transparent_or_not_finite_holds_no_normal(tmp_path):
+    n = normals_of(bump())
+    n[:10] = np.nan
+    np.savez(tmp_path / "n.npz", normals=n)
+    assert not read_normals(tmp_path / "n.npz")[1][:10].any()
+    stored = np.rint((normals_of(bump()) * [1, -1, -1] + 1) / 2 * 255).astype(np.uint8)[..., ::-1]
+    alpha = np.where(ROW < 10, 0, 255).astype(np.uint8)
+    cv2.imwrite(str(tmp_path / "n.png"), np.dstack([stored, alpha]))
+    good = read_normals(tmp_path / "n.png")[1]
+    assert not good[:10].any()
+    assert good[10:].all()
+
+
+@pytest.mark.parametrize("shape", [(10**6, 10**6, 3), (4, 4, 3), (4, 4, 3000)])
+def test_an_array_that_says_more_than_it_holds_is_refused(tmp_path, shape):
+    head = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
+    (tmp_path / "n.npy").write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + b"\0" * 20)
+    with pytest.raises(InputError, match=r"cut off|an array"):
+        read_normals(tmp_path / "n.npy")
+
+
+def test_a_mask_of_another_size_is_said(tmp_path):
+    np.savez(tmp_path / "n.npz", normals=normals_of(bump()), mask=np.ones((5, 5)))
+    with pytest.raises(DisagreementError, match="a mask of 5x5"):
+        read_normals(tmp_path / "n.npz")
 
 
 def test_meshes_say_their_frame_and_glb_is_matte_with_linear_colours(tmp_path, lpcal):

@@ -6,20 +6,27 @@ in C (x right, y down, z forward) z < 0. Whole numbers 0..max, and floats none o
 
 from __future__ import annotations
 
+import math
+import tokenize
 import zipfile
+import zlib
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.errors import InputError
+from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import read_image
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image, Mask
 
 C_FROM_GL = np.array([1.0, -1.0, -1.0], np.float32)
 KEYS = ("normals", "normal_gt", "Normal_gt", "normal", "n")
+MOST_BYTES = 1 << 30
+"""Bytes of the largest array that is read: normals of 89 megapixels in 32 bit."""
+LONGEST = 10.0
+"""Components beyond this are damage, as if they were not finite."""
 LENGTHS = (0.5, 1.5)
 """A pixel whose vector is no longer or shorter holds a normal."""
 
@@ -32,6 +39,8 @@ def read_normals(path: Path) -> tuple[Image, Mask]:
     ------
     InputError
         Not there, not readable, or no map of vectors.
+    DisagreementError
+        The mask beside the normals has another size.
     """
     values: npt.NDArray[Any]
     mask: Mask | None = None
@@ -39,15 +48,20 @@ def read_normals(path: Path) -> tuple[Image, Mask]:
         values, mask = _read_arrays(path)
     else:
         values = read_image(path).pixels
+        mask = _alpha(path)
     if values.ndim != 3 or values.shape[2] != 3:
         raise InputError(f"holds an array of {'x'.join(map(str, values.shape))}", where=str(path), needed="normals, height x width x 3")
     full_scale = np.iinfo(values.dtype).max if values.dtype.kind in "ui" else 1
     values = values.astype(np.float32) / np.float32(full_scale)
     if not np.nanmin(values, initial=0.0) < 0:
         values = 2 * values - 1
+    values = np.where(np.abs(values) <= LONGEST, values, np.float32(np.nan))
     length = np.linalg.norm(values, axis=2)
     good = np.isfinite(length) & (length > LENGTHS[0]) & (length < LENGTHS[1])
-    if mask is not None and mask.shape == good.shape:
+    if mask is not None and mask.shape != good.shape:
+        found = f"a mask of {'x'.join(map(str, mask.shape))} for normals of {good.shape[0]}x{good.shape[1]}"
+        raise DisagreementError(found, where=str(path), needed="a mask of the map's height x width")
+    if mask is not None:
         good &= mask
     if not good.any():
         raise InputError("holds no normals", where=str(path), needed="vectors of length 1, or coded 0..max for -1..1")
@@ -58,13 +72,48 @@ def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:
     if not path.is_file():
         raise InputError("no such file", where=str(path), needed="a normal map: .npz, .npy, .png or .tif")
     try:
-        stored = np.load(path)
-        if isinstance(stored, np.ndarray):
-            return stored, None
-        with stored:
-            keys = [key for key in KEYS if key in stored.files] or [key for key in stored.files if stored[key].shape[2:] == (3,)]
-            if len(keys) == 0:
-                raise InputError(f"holds {', '.join(stored.files)}", where=str(path), needed="an array `normals`, height x width x 3")
-            return stored[keys[0]], stored["mask"] > 0 if "mask" in stored.files else None
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise InputError(f"cannot be read ({error})", where=str(path), needed="a whole .npz or .npy file", todo="write it anew") from error
+        if not zipfile.is_zipfile(path):
+            with path.open("rb") as stream:
+                return _array(stream, path), None
+        with zipfile.ZipFile(path) as archive:
+            arrays = {name.removesuffix(".npy"): name for name in archive.namelist() if name.endswith(".npy")}
+            key = next((key for key in KEYS if key in arrays), next(iter(arrays)) if len(arrays) == 1 else None)
+            if key is None:
+                raise InputError(f"holds {', '.join(arrays)[:100]}", where=str(path), needed="an array `normals`, height x width x 3")
+            with archive.open(arrays[key]) as stream:
+                values = _array(stream, path)
+            if "mask" not in arrays:
+                return values, None
+            with archive.open(arrays["mask"]) as stream:
+                return values, np.asarray(_array(stream, path) > 0)
+    except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
+        raise InputError(
+            f"cannot be read ({str(error)[:80]})", where=str(path), needed="a whole .npz or .npy file", todo="write it anew"
+        ) from error
+
+
+def _array(stream: IO[bytes], path: Path) -> npt.NDArray[Any]:
+    """An array of numbers of a .npy stream, its size checked before it is read."""
+    try:
+        read_header = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+        shape, by_column, kind = read_header[np.lib.format.read_magic(stream)](stream)
+        size = math.prod(shape) * kind.itemsize
+    except (KeyError, ValueError, TypeError, SyntaxError, tokenize.TokenError, RecursionError) as error:
+        raise InputError(
+            "its head is no .npy array's", where=str(path), needed="a whole .npz or .npy file", todo="write it anew"
+        ) from error
+    if kind.kind not in "fiub" or not 0 < size <= MOST_BYTES:
+        found = f"an array {'x'.join(map(str, shape))[:40]} of {kind.name[:20]}"
+        raise InputError(found, where=str(path), needed=f"numbers, up to {MOST_BYTES / 1e9:g} GB")
+    stored = stream.read(size)
+    if len(stored) < size:
+        raise InputError(f"cut off: {len(stored)} bytes of {size}", where=str(path), needed="a whole file", todo="write it anew")
+    return np.frombuffer(stored, kind).reshape(shape, order="F" if by_column else "C")
+
+
+def _alpha(path: Path) -> Mask | None:
+    """Where (H, W) an image that has been read is not transparent; None without such a channel."""
+    import cv2
+
+    stored = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), cv2.IMREAD_UNCHANGED)
+    return np.asarray(stored[..., 3] > 0) if stored is not None and stored.ndim == 3 and stored.shape[2] == 4 else None
