@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import ENDINGS, StoredImage, read_image
+from lpcal.formats.named_files import hidden, kind_of_other
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
@@ -137,7 +139,7 @@ def _by_name(folder: Path) -> dict[str, Path]:
     """The folder's images by their names without the ending."""
     files: dict[str, Path] = {}
     for path in sorted(folder.iterdir()):
-        if path.suffix.lower() not in ENDINGS:
+        if path.suffix.lower() not in ENDINGS or hidden(path):
             continue
         if path.stem in files:
             raise DisagreementError(
@@ -160,8 +162,12 @@ def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, file
             todo="correct --use, or lights: in capture.yaml",
         )
     chosen = [light for light in lights if use is None or light in use]
+    _spelled_otherwise(chosen, files)
     lacking = [light for light in chosen if light not in files]
     if lacking:
+        other = kind_of_other(path for path in folder.iterdir() if path.stem in lacking)
+        if other:
+            raise InputError(other, where=str(folder), needed=f"an image for each light, for example {lacking[0]}.png")
         others = sorted(stem for stem in files if stem not in lights and not stem.startswith(("ambient", SHORT)) and stem != "mask")
         raise DisagreementError(
             f"no image of {', '.join(lacking)}" + (f"; found are also {', '.join(others[:8])}" if others else ""),
@@ -170,6 +176,26 @@ def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, file
             todo="add it, rename it, or take a subset with --use or with lights: in capture.yaml",
         )
     return chosen
+
+
+def _composed(name: str) -> str:
+    return unicodedata.normalize("NFC", name)
+
+
+def _folded(name: str) -> str:
+    return _composed(name).casefold()
+
+
+def _spelled_otherwise(lights: Sequence[str], files: dict[str, Path]) -> None:
+    """Give images whose names are a light's but for accents' form or capitals that light's name, where only one is."""
+    for same in (_composed, _folded):
+        for light in lights:
+            twins = [stem for stem in files if same(stem) == same(light) and stem not in lights]
+            if light not in files and len(twins) == 1:
+                files[light] = files.pop(twins[0])
+                short = next((stem for stem in files if same(stem) == same(SHORT + light)), None)
+                if short is not None:
+                    files[SHORT + light] = files.pop(short)
 
 
 def _exposure(section: CaptureSection, stem: str, *, own: bool = False) -> float | None:

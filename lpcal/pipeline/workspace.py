@@ -15,6 +15,7 @@ from typing import Any
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.documents import Provenance, document_kind, plain, read_document, sha256
+from lpcal.formats.named_files import hidden, kind_of_other, resolve_named
 from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import RigFile
@@ -59,8 +60,8 @@ class Workspace:
         InputError
             It is not there.
         """
-        path = self.folder / name
-        if not path.exists():
+        path = resolve_named(self.folder, name)
+        if path is None:
             raise InputError(f"no such file: {name}", where=self.rig_file.where(key), needed="a file or folder", todo="correct the path")
         return path
 
@@ -74,14 +75,33 @@ class Workspace:
         """
         found: dict[Path, None] = {}
         for pattern in patterns:
-            base, rest = (Path(pattern).anchor or self.folder, Path(pattern).relative_to(Path(pattern).anchor))
-            matches = [path for path in Path(base).glob(str(rest)) if path.suffix.lower() in IMAGE_ENDINGS]
+            named = self._named_by(pattern, key)
+            matches = [path for path in named if path.suffix.lower() in IMAGE_ENDINGS and not hidden(path)]
             if not matches:
+                other = kind_of_other(named)
                 raise InputError(
-                    f"no image matches {pattern}", where=self.rig_file.where(key), needed="images", todo="correct the pattern or the folder"
+                    other or f"no image matches {pattern}",
+                    where=self.rig_file.where(key),
+                    needed="images",
+                    todo="" if other else "correct the pattern or the folder",
                 )
             found |= dict.fromkeys(sorted(matches, key=natural))
         return list(found)
+
+    def _named_by(self, pattern: str, key: str) -> list[Path]:
+        """What a name or a pattern means: the file of that name, the files in the folder of that name, else what the pattern matches."""
+        path = resolve_named(self.folder, pattern)
+        if path is not None:
+            return list(path.iterdir()) if path.is_dir() else [path]
+        folder, _, last = pattern.replace("\\", "/").rpartition("/")
+        inside = resolve_named(self.folder, folder) if folder else self.folder
+        try:
+            if inside is not None and inside.is_dir() and not any(sign in folder for sign in "*?"):  # brackets in a folder's name
+                return list(inside.glob(last))
+            anchor = Path(pattern).anchor
+            return list(Path(anchor or self.folder).glob(str(Path(pattern).relative_to(anchor))))
+        except (OSError, ValueError, NotImplementedError, IndexError) as error:
+            raise InputError(f"the pattern {pattern}: {error}", where=self.rig_file.where(key), needed="a pattern of names") from error
 
     def relative(self, path: Path) -> str:
         """A path as it is written into files: relative to the rig folder where it lies in it."""

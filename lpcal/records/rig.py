@@ -5,6 +5,8 @@ Every section of panel.yaml is optional; a stage that needs an absent one says w
 
 from __future__ import annotations
 
+import math
+import unicodedata
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal, Self
@@ -22,6 +24,62 @@ class Section(BaseModel):
     """A section of a file that people write: frozen, and an unknown key is an error."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+SAME_AZIMUTH_RAD = math.radians(0.5)
+"""Wings nearer to each other than this, in azimuth, are one wing written twice: a wing is some ten degrees wide."""
+MOST_NAME_BYTES = 200
+"""Bytes of a name: a file system takes 255, and an ending and what comes before it must fit too."""
+RESERVED = ("mask", "ambient", "capture")
+"""Names of files in a capture folder that are no light's."""
+
+
+def plain_name(name: str, what: str) -> str:
+    """The name of a light, sphere or object, which becomes that of a file or folder.
+
+    Raises
+    ------
+    ValueError
+        It is empty, too long, leads elsewhere, or holds what no file's name can; the message says what was found; what was needed.
+    """
+    wrong = (
+        "is empty"
+        if not name.strip()
+        else "begins or ends with a blank"
+        if name != name.strip()
+        else "leads elsewhere"
+        if set(name) & set("/\\") or name in {".", ".."} or ".." in name or name[1:2] == ":"
+        else "is hidden"
+        if name.startswith(".")
+        else "holds a control character"
+        if not name.isprintable()
+        else f"is {len(name.encode(errors='replace'))} bytes long"
+        if len(name.encode(errors="replace")) > MOST_NAME_BYTES
+        else ""
+    )
+    if wrong:
+        shown = name if len(name) < 40 else f"{name[:36]}..."
+        msg = f"the name {shown!r} of {what} {wrong}; a plain name of at most {MOST_NAME_BYTES} bytes, without / \\ and .."
+        raise ValueError(msg)
+    return name
+
+
+def plain_names[Value](named: dict[str, Value], what: str) -> dict[str, Value]:
+    """A section whose keys are names of files or folders, no two alike but for capitals or accents' form.
+
+    Raises
+    ------
+    ValueError
+        As `plain_name`; or two names that some systems take for one.
+    """
+    known: dict[str, str] = {}
+    for name in named:
+        key = unicodedata.normalize("NFC", plain_name(name, what)).casefold()
+        if key in known:
+            msg = f"the names {known[key]!r} and {name!r} of {what}s are one on some systems; names that differ by more than capitals"
+            raise ValueError(msg)
+        known[key] = name
+    return named
 
 
 def _version(value: object) -> object:
@@ -143,6 +201,14 @@ class LightSection(Section):
         """Whether the wing's kinematics are stated."""
         return self.azimuth is not None
 
+    @field_validator("joint_angle")
+    @classmethod
+    def _a_joints_angle(cls, value: float | None) -> float | None:
+        if value is not None and not -math.pi / 2 <= value <= math.pi / 2:
+            msg = f"a joint at {math.degrees(value):g} deg; -90 deg to 90 deg"
+            raise ValueError(msg)
+        return value
+
     @model_validator(mode="after")
     def _all_or_none(self) -> LightSection:
         setting = {key: getattr(self, key) for key in ("azimuth", "joint_angle", "disc_spacer", "blob_spacer")}
@@ -180,6 +246,33 @@ class Rig(Section):
     joint_solve: bool = False
     """Whether refine solves for the camera and H_PC too, with what the boards said of them as prior."""
 
+    @field_validator("lights")
+    @classmethod
+    def _lights_apart(cls, lights: dict[str, LightSection]) -> dict[str, LightSection]:
+        for name in plain_names(lights, "light"):
+            if name.lower() in RESERVED or name.lower().startswith(("short_", "ambient_")):
+                msg = f"a light called {name!r}; another name: {name}.png in a capture folder is no light's image"
+                raise ValueError(msg)
+        wings = [(name, light.azimuth) for name, light in lights.items() if light.azimuth is not None]
+        for k, (name, azimuth) in enumerate(wings):
+            for other, beside in wings[:k]:
+                if abs(math.remainder(azimuth - beside, math.tau)) < SAME_AZIMUTH_RAD:
+                    msg = (
+                        f"the wings {other} and {name} both at an azimuth of {math.degrees(azimuth):g} deg; wings at azimuths of their own"
+                    )
+                    raise ValueError(msg)
+        return lights
+
+    @field_validator("spheres")
+    @classmethod
+    def _spheres_named(cls, spheres: dict[str, SphereSection]) -> dict[str, SphereSection]:
+        return plain_names(spheres, "sphere")
+
+    @field_validator("objects")
+    @classmethod
+    def _objects_named(cls, objects: dict[str, str]) -> dict[str, str]:
+        return plain_names(objects, "object")
+
 
 @dataclass(frozen=True)
 class RigFile:
@@ -204,8 +297,14 @@ class RigFile:
 
 
 class CaptureSection(Section):
-    """capture.yaml of a capture folder: exposures and gains, and the lights to use."""
+    """capture.yaml of a capture folder: exposures and gains, the lights to use, and the sensor where no calibration holds it."""
 
+    distance: Size | None = None
+    """The panel's distance from the object, where a sensor says it."""
+    gamma: float | None = Field(default=None, gt=0.1, lt=10)
+    black_level: Share | None = None
+    white_level: Share | None = None
+    flat_field: str | None = None
     exposure: Duration | None = None
     gain: Factor = 1.0
     exposures: dict[str, Duration] = {}
