@@ -14,7 +14,7 @@ from typing import Protocol, cast
 from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
 from lpcal.cli.stops import say_stopped
-from lpcal.errors import InputError, LpcalError
+from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
@@ -72,7 +72,9 @@ def main(words: list[str] | None = None) -> int:
         return say_stopped(stop)
     except (OSError, MemoryError) as error:  # what the system refuses is the user's to mend
         return _refused(error)
-    except Exception:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+    except Exception as error:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+        if type(error).__name__ == "LinAlgError":  # numpy's, which is not imported here
+            return _refused_singular(error)
         traceback.print_exc()
         complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {shlex.join(words)}")
         return BUG
@@ -89,6 +91,17 @@ def _said(outcome: Outcome, *, as_json: bool) -> int:
             complain(f"lpcal: the work is done, but its summary cannot be written to stdout: {error.strerror}")
             return outcome.exit_code or InputError.exit_code
     return outcome.exit_code
+
+
+def _refused_singular(error: Exception) -> int:
+    """Say that the data leave an unknown open which no stage has looked for; the exit code of data that determine too little."""
+    said = DegenerateError(
+        f"the data leave something undetermined: {error}",
+        needed="views, lights or motions that differ more",
+        todo="run lpcal check, or look at the inputs: are there doubles among them?",
+    )
+    complain(f"lpcal: {said}")
+    return said.exit_code
 
 
 def _refused(error: OSError | MemoryError) -> int:
