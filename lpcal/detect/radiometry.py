@@ -11,14 +11,14 @@ image's own noise is propagated. Source: EMVA 1288, linear camera model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import FlatField
-from lpcal.records.observations import Radiance, RawCapture
+from lpcal.records.observations import Radiance, RawCapture, StatedSensor
 
 FLAT_DEGREE = 6
 FLAT_BLOCK_PX = 8
@@ -49,6 +49,23 @@ class Sensor:
         """What lens and sensor make of even light, (H, W) or (H, W, 1), for images of a shape (L, H, W) or (L, H, W, 3)."""
         response = np.ones(shape[1:3], np.float32) if self.flat_field is None else self.flat_field.response(shape[1:3])
         return response[..., None] if len(shape) == 4 else response
+
+
+def sensor_with(sensor: Sensor, stated: StatedSensor, where: str) -> Sensor:
+    """The sensor, with what is stated in its place.
+
+    Raises
+    ------
+    DisagreementError
+        Black is not below white.
+    """
+    said = {key: value for key in ("gamma", "black_level", "white_level") if (value := getattr(stated, key)) is not None}
+    found = replace(sensor, **said)
+    if found.black_level >= found.white_level:
+        raise DisagreementError(
+            f"black level {100 * found.black_level:g} %, white level {100 * found.white_level:g} %", where=where, needed="black below white"
+        )
+    return found
 
 
 def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:

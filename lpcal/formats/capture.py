@@ -13,7 +13,7 @@ from lpcal.formats.images import ENDINGS, StoredImage, read_image
 from lpcal.formats.named_files import hidden, kind_of_other
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.records.observations import RawCapture
+from lpcal.records.observations import RawCapture, StatedSensor
 from lpcal.records.rig import CaptureSection
 
 SHORT = "short_"
@@ -57,6 +57,8 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         mask=_read_mask(files["mask"], images.shape[1:3]) if "mask" in files else None,
         left_out=tuple(path.name for stem, path in files.items() if stem not in known),
         step=reader.step,
+        sensor=StatedSensor(section.gamma, section.black_level, section.white_level),
+        distance_m=section.distance,
     )
 
 

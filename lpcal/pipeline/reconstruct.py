@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -13,15 +13,18 @@ from typing import Any
 from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
-from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.detect.radiometry import sensor_with, to_radiance
 from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
+from lpcal.pipeline.curve import judge_curve
+from lpcal.pipeline.sensor import sensor_of_camera
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
+from lpcal.records.observations import StatedSensor
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
@@ -54,6 +57,8 @@ class Wishes:
     mask: str = "auto"
     """auto | none | a file."""
     use: tuple[str, ...] | None = None
+    sensor: StatedSensor = field(default_factory=StatedSensor)
+    """What the command's words say of the sensor."""
 
 
 def rig_tasks(workspace: Workspace, folder: Path | None = None) -> list[Task]:
@@ -137,12 +142,15 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if camera is not None and camera.size_guessed:
         camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
         calibration = replace(calibration, camera=camera)
-    sensor = Sensor(camera.black_level, camera.white_level, camera.gamma, camera.flat_field) if camera else Sensor()
+    stated = wishes.sensor.over(raw.sensor)
+    sensor = sensor_with(sensor_of_camera(camera), stated, f"{task.name}, --gamma or capture.yaml")
+    curved = judge_curve(raw, sensor, calibration, stated)
     refuse_bright_ambient(raw, sensor)
     plain = to_radiance(raw, sensor)
     radiance = with_short_exposures(plain, raw, sensor)
-    radiance = replace(radiance, notes=(*radiance.notes, *ambient_notes(plain, raw, sensor)))
+    radiance = replace(radiance, notes=(*radiance.notes, *curved, *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
+    wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", ambient_known=raw.ambient is not None)
     if wishes.mask == "none":
         radiance = replace(radiance, mask=None)
@@ -151,7 +159,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if wishes.near and wishes.distance_m is None:
         refuse_outside(surface, calibration)
     solved = time.perf_counter()
-    notes = _with_ambient_said(radiance.notes, surface)
+    notes = (*_with_ambient_said(radiance.notes, surface), *_intensities_said(surface))
     document = document_of(surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
         distant = reconstruct(radiance, calibration, replace(options, near=False, mask=surface.mask), progress)
@@ -192,6 +200,15 @@ def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, .
     percent, doubt = 100 * found["share_of_signal"], 100 * found["relative_std"]
     said = f"no ambient image: the room's light was estimated, {percent:.0f} % of the images within {doubt:.0f} % of that, and taken away"
     return (*others, said)
+
+
+def _intensities_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said of intensities that nobody has measured and that were taken from the object."""
+    found: Any = surface.figures.get("intensities_found")
+    if not found:
+        return ()
+    least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
+    return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
 
 
 def document_of(

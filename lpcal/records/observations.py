@@ -132,6 +132,20 @@ class MarkerStream:
 
 
 @dataclass(frozen=True)
+class StatedSensor:
+    """What is said of a sensor beside its calibration; None where nothing is."""
+
+    gamma: float | None = None
+    black_level: float | None = None
+    white_level: float | None = None
+
+    def over(self, other: StatedSensor) -> StatedSensor:
+        """What is said here, and what the other says where nothing is."""
+        pairs = ((getattr(self, key), getattr(other, key)) for key in ("gamma", "black_level", "white_level"))
+        return StatedSensor(*(mine if mine is not None else theirs for mine, theirs in pairs))
+
+
+@dataclass(frozen=True)
 class RawCapture:
     """A capture folder as stored: numbers as fractions of full scale, not yet linear."""
 
@@ -155,6 +169,10 @@ class RawCapture:
     """Images of the folder that are no light's."""
     step: float = 1 / 255
     """One step of the stored numbers, as a fraction of full scale."""
+    sensor: StatedSensor = field(default_factory=StatedSensor)
+    """What capture.yaml says of the sensor."""
+    distance_m: float | None = None
+    """The panel's distance from the object, as capture.yaml says it."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.errors import DisagreementError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack
@@ -139,6 +139,10 @@ def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:
 
 
 def _pairs(t_camera_s: Array) -> npt.NDArray[np.intp]:
+    if len(t_camera_s) < 2:
+        raise DegenerateError(
+            f"{len(t_camera_s)} view with a board", needed="two and more, at different times", todo="record more views of the board"
+        )
     order = np.argsort(t_camera_s)
     pairs = [(order[k], order[k + stride]) for stride in PAIR_STRIDES for k in range(len(order) - stride)]
     keep = np.random.default_rng(0).permutation(len(pairs))[:MOST_PAIRS]
