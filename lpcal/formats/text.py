@@ -30,6 +30,8 @@ CODE_PAGE = "cp1252"
 """The encoding that is taken for a text that is not UTF-8: Western Windows."""
 NOT_TEXT = re.compile(r"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 """Control characters that no text holds."""
+MORE_CELLS = 1.3
+"""Cells of a row of whole numbers, in those of the names above it, from which they are halves of numbers with decimal commas."""
 SAMPLE_LINES = 40
 """Lines that are looked at to tell what stands between the cells."""
 DECIMAL_COMMA = re.compile(r"(?<![\d,.])([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)(?![\d,.])")
@@ -127,7 +129,7 @@ def _refuse_decimal_commas(text: str, path: Path) -> None:
     for number, line in enumerate(text[: 1 << 18].split("\n")[:SAMPLE_LINES], start=1):
         cells = line.rstrip(", ").split(",")
         whole = len(cells) > 3 and all(re.fullmatch(r"\s*[-+]?\d*\s*", cell) for cell in cells)
-        if whole and before and len(cells) >= 1.6 * before - 1:
+        if whole and before and len(cells) >= MORE_CELLS * before:
             raise InputError(
                 f"{len(cells)} cells under {before} names: decimal commas between commas",
                 where=f"{path}:{number}",

@@ -164,3 +164,14 @@ def _series(angle2: Array) -> tuple[Array, Array, Array]:
         np.where(small, 0.5 - angle2 / 24, (1 - np.cos(a)) / a2),
         np.where(small, 1 / 6 - angle2 / 120, (a - np.sin(a)) / (a2 * a)),
     )
+
+
+def point_jacobian(x_A: Array) -> Array:
+    """Derivatives (..., 3, 6) of points x_A (..., 3) by the left perturbation xi of ``H_AB = exp(xi) H_AB``: ``[-hat(x), I]``."""
+    return np.concatenate([-hat(x_A), np.broadcast_to(np.eye(3), (*x_A.shape[:-1], 3, 3))], axis=-1)
+
+
+def origin_sigmas(H_AB: Array, covariance: Array) -> Array:
+    """Standard deviations (3,) of B's origin in A, of the covariance (6, 6) of the left perturbation of H_AB (4, 4)."""
+    J = point_jacobian(H_AB[:3, 3])
+    return np.asarray(np.sqrt(np.diag(J @ covariance @ J.T)))

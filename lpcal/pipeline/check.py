@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,8 @@ import numpy as np
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock, congruence, observability
 from lpcal.chain.h_pc_handeye.advice import advise
+from lpcal.chain.h_pc_handeye.ends import settled_ends
+from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.errors import DegenerateError, DisagreementError, LpcalError
 from lpcal.geometry import park
 from lpcal.geometry.arrays import Array, Mask
@@ -21,6 +23,8 @@ from lpcal.records.observations import PoseStream
 from lpcal.records.outcome import Outcome, Progress
 
 NAMED = 6
+STEP_SHARE = 0.2
+"""Share of the misplacement that two parts leave, up to which a step is what is wrong where the whole is no rigid motion."""
 WIDE_S = 0.2
 """A clock offset that shows no better than this is said to be vague."""
 
@@ -53,7 +57,7 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     _boards(given, findings)
     pairs = _panel(workspace, given, findings)
     if pairs is not None:
-        _motion(given, *pairs, findings)
+        _motion(given, *pairs, findings, inverted=section_of(workspace).direction == "H_PO")
     for error in findings.wrong:
         findings.lines += [f"WRONG       {line}" if k == 0 else f"          {line}" for k, line in enumerate(error.message().splitlines())]
     if not findings.wrong:
@@ -85,7 +89,11 @@ def _panel(workspace: Workspace, given: HandEyeInputs, findings: _Findings) -> t
         return given.H_OP, np.ones(len(given.H_OP), dtype=bool)
     track = track_of(given.stream)
     _stream(given.stream, track, findings)
-    t_camera_s = np.asarray(given.boards.t_camera_s)
+    t_camera_s, rate = clock.without_rate(track, np.asarray(given.boards.t_camera_s), given.boards.H_CB)
+    if rate:
+        findings.warnings.append(
+            f"the clocks' rates differ by about {1e6 * rate:+.0f} ppm{_ntsc(rate)}: hand-eye finds the rate and uses it"
+        )
     try:
         offset = _clock(workspace, track, t_camera_s, given.boards.H_CB, findings)
     except LpcalError as error:
@@ -94,6 +102,10 @@ def _panel(workspace: Workspace, given: HandEyeInputs, findings: _Findings) -> t
     panel = poses_at(track, t_camera_s - offset)
     _lost_views(given, panel, findings)
     return panel.H, panel.trusted
+
+
+def _ntsc(rate: float) -> str:
+    return " (29.97 frames a second counted as 30?)" if abs(abs(rate) - 1e-3) < 2e-4 else ""
 
 
 def _stream(stream: PoseStream, track: PoseTrack, findings: _Findings) -> None:
@@ -117,19 +129,26 @@ def _stream(stream: PoseStream, track: PoseTrack, findings: _Findings) -> None:
 
 def _clock(workspace: Workspace, track: PoseTrack, t_camera_s: Array, H_CB: Array, findings: _Findings) -> float:
     stated = section_of(workspace).clock_offset
-    candidates = clock.offset_candidates(track, t_camera_s, H_CB)
+    known_s = 0.0 if stated == "estimate" else float(stated)
+    candidates = [replace(each, offset_s=each.offset_s + known_s) for each in clock.offset_candidates(track, t_camera_s - known_s, H_CB)]
+    apart = clock.epochs(track, t_camera_s - known_s)
+    if apart:
+        findings.say("", apart)
     if not candidates:
         raise DegenerateError(
             "no clock offset at which a third of the views fall into the recording", needed="recordings of the same minutes"
         )
     best = candidates[0]
-    vague = best.width_s > WIDE_S
-    precision = f", no better than +- {0.5 * best.width_s:.2f} s: the panel stood still" if vague else ""
+    panel = poses_at(track, t_camera_s - best.offset_s)
+    precision = f", no better than +- {0.5 * best.width_s:.2f} s: the panel stood still" if best.width_s > WIDE_S else ""
+    if panel.trusted.any() and panel.steady[panel.trusted].all():
+        precision = ", anywhere within the rests: the panel stood still in every view, and the data do not show the offset"
     findings.say("clock", f"t_camera = t_mocap {1e3 * best.offset_s:+.0f} ms by relative angles{precision}")
     findings.figures |= {"clock_offset_s": best.offset_s, "clock_offset_width_s": best.width_s}
     if stated == "estimate":
         return best.offset_s
-    if abs(best.offset_s - float(stated)) > max(WIDE_S, best.width_s):
+    alike = clock.fits_as_well(track, t_camera_s, H_CB, known_s, best)
+    if not alike and abs(best.offset_s - known_s) > max(WIDE_S, best.width_s):
         findings.wrong.append(
             DisagreementError(
                 f"the stated clock offset is {1e3 * float(stated):.0f} ms, the angles say {1e3 * best.offset_s:.0f} ms",
@@ -149,23 +168,41 @@ def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) ->
         findings.say("", f"{len(images)} views without a pose, {why}: {', '.join(images[:NAMED])}{more}")
 
 
-def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings) -> None:
-    H_OP, H_CB = H_OP[trusted], given.boards.H_CB[trusted]
+def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings, *, inverted: bool) -> None:
+    boards, turned = settled_ends(given.boards, H_OP, trusted)
+    if turned.any():
+        images = [image for image, other in zip(boards.images, turned, strict=True) if other]
+        more_images = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""
+        findings.say(
+            "ends", f"{len(images)} boards were found by their other end, and are turned: {', '.join(images[:NAMED])}{more_images}"
+        )
+    H_OP, H_CB = H_OP[trusted], boards.H_CB[trusted]
     names = [image for image, ok in zip(given.boards.images, trusted, strict=True) if ok]
+    agreed = None
     try:
         spread, more = observability.refuse_what_cannot_show_it(H_OP)
+        agreed = park.consensus(H_OP, H_CB)
+        spread, more = observability.refuse_what_cannot_show_it(H_OP[agreed.inliers])
     except DegenerateError as error:
+        off = [] if agreed is None else [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
+        if off:
+            findings.say("", f"{len(off)} views off, their poses lost or flipped: {', '.join(off[:NAMED])}")
         findings.wrong.append(error)
         return
     findings.say("motion", f"the panel's turns spread by {spread.words()} about its principal axes")
     findings.figures["rotation_spread_deg"] = np.degrees(spread.sigma_rad)
     findings.warnings += more
-    agreed = park.consensus(H_OP, H_CB)
+    step = find_step(H_OP, H_CB, names)
     try:
         congruence.refuse(H_OP, H_CB, agreed, from_images=given.boards.corners_px is not None)
     except DisagreementError as error:
-        findings.wrong.append(error)
+        findings.wrong.append(step.refusal() if step is not None and step.parted_m < STEP_SHARE * step.misplaced_m else error)
         return
+    if step is not None:
+        findings.wrong.append(step.refusal())
+    fixed = congruence.fixed_camera(agreed.H_PC, agreed.H_OB, inverted=inverted)
+    if fixed is not None:
+        findings.wrong.append(fixed)
     off = [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
     findings.say("rigid", f"body and camera move as one; the board is misplaced by {1e3 * agreed.scatter_m:.1f} mm (median, closed form)")
     if off:

@@ -52,7 +52,8 @@ def settings(workspace: Workspace) -> dict[str, Any]:
 
 def _solved(workspace: Workspace, given: HandEyeInputs, track: PoseTrack | None) -> HandEyeFinding:
     offset = section_of(workspace).clock_offset
-    options = Options(None if offset == "estimate" else float(offset), given.camera_share)
+    inverted = section_of(workspace).direction == "H_PO"
+    options = Options(None if offset == "estimate" else float(offset), given.camera_share, inverted=inverted)
     if track is not None:
         return solve_moving(given.boards, track, given.camera, options)
     assert given.H_OP is not None

@@ -25,7 +25,7 @@ def body_name(given: HandEyeInputs) -> str:
 def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     """The outcome of the stage."""
     used = [view for view in handeye.views if view.used]
-    sigma = np.sqrt(np.diag(handeye.H_PC_covariance))
+    sigma = np.concatenate([np.sqrt(np.diag(handeye.H_PC_covariance))[:3], se3.origin_sigmas(handeye.H_PC, handeye.H_PC_covariance)])
     body = body_name(given)
     H_PC = handeye.H_PC
     q = se3.quaternion(H_PC[:3, :3])

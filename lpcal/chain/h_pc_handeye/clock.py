@@ -13,17 +13,18 @@ Source: the correlation of angular speeds of Furrer et al., Evaluation of combin
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack
 
 REACH_S = 60.0
-"""Clocks further apart than this, beyond what their ranges overlap, are not compared."""
+"""Offsets of clocks that meet as they stand are looked for within this of zero; clocks of unlike epoch, wherever their ranges overlap."""
 STEP_S = 0.02
 PAIR_STRIDES = (1, 2, 3, 5, 8, 13, 21, 34)
 ERROR_RAD = 0.01
@@ -35,6 +36,12 @@ MOST_PAIRS, SOME_PAIRS = 600, 150
 LEAST_INSIDE = 0.3
 """Share of the pairs that must fall into the recording."""
 PLATEAU = 1.3
+AS_WELL = 0.5
+"""Difference of costs, in logarithms of squares, up to which two offsets explain the angles alike."""
+MOST_RATE, RATE_STEP_S = 2e-3, 0.1
+"""Largest difference of two clocks' rates that is looked for (29.97 frames counted as 30 is half of it), and the step of the search."""
+RATE_GAIN = 1.0
+"""How much the cost must fall, in logarithms of squares, for a rate to be believed."""
 
 
 @dataclass(frozen=True)
@@ -58,17 +65,9 @@ def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[
 
     Raises
     ------
-    DisagreementError
-        The clocks are further apart than the search reaches.
+    DegenerateError
+        Fewer than two views.
     """
-    low, high = t_camera_s.min() - track.t_s[-1], t_camera_s.max() - track.t_s[0]
-    if low > REACH_S or high < -REACH_S:
-        raise DisagreementError(
-            f"the clocks do not meet: images from {t_camera_s.min():.1f} to {t_camera_s.max():.1f} s, mocap from {track.t_s[0]:.1f} to "
-            f"{track.t_s[-1]:.1f} s",
-            needed=f"recordings of the same minutes, their clocks within {REACH_S:.0f} s",
-            todo="pair the right files, or state the offset: mocap.clock_offset",
-        )
     scan = _Scan.of(track, t_camera_s, H_CB)
     lags = np.arange(*_range(track, t_camera_s), STEP_S)[:MOST_LAGS]
     costs = scan.costs(lags, SOME_PAIRS)
@@ -127,6 +126,50 @@ class _Scan:
         mixed = (1 - share) * self.q_OP[at - 1] + share * self.q_OP[at]
         inside = (t >= t_s[0]) & (t <= t_s[-1]) & (run[at] == run[at - 1])
         return mixed / np.sqrt(np.einsum("...c,...c->...", mixed, mixed))[..., None], inside
+
+
+def fits_as_well(track: PoseTrack, t_camera_s: Array, H_CB: Array, offset_s: float, best: OffsetCandidate) -> bool:
+    """Whether the angles agree at an offset as they do at the best one, within what chance lets them differ by."""
+    cost = float(_Scan.of(track, t_camera_s, H_CB).costs(np.array([offset_s]), MOST_PAIRS)[0])
+    return bool(cost < best.cost + AS_WELL)
+
+
+def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Array, float]:
+    """The camera's times (N,) with their clock's rate put right, and the rate (s/s) by which it ran fast; 0 where none is needed.
+
+    Over a long session even a small difference of rates moves the views off the moments they were taken at. Rates up to `MOST_RATE` are
+    tried, so far apart that the times at the session's ends move by `RATE_STEP_S`; one is taken where the angles then agree far better.
+    """
+    middle, length = float(np.mean(t_camera_s)), float(np.ptp(t_camera_s))
+    count = int(MOST_RATE * length / RATE_STEP_S)
+    candidates = offset_candidates(track, t_camera_s, H_CB)
+    if count < 2 or not candidates:
+        return t_camera_s, 0.0
+    found = {0.0: candidates[0].cost}
+    for rate in np.linspace(-MOST_RATE, MOST_RATE, 2 * count + 1):
+        scan = _Scan.of(track, t_camera_s - rate * (t_camera_s - middle), H_CB)
+        low, high = _range(track, t_camera_s)
+        costs = scan.costs(np.arange(low, high, STEP_S)[:MOST_LAGS], SOME_PAIRS)
+        if np.isfinite(costs).any():
+            found[float(rate)] = min(float(np.nanmin(costs)), found.get(float(rate), np.inf))
+    best = min(found, key=lambda rate: found[rate])
+    if best == 0.0 or found[best] > found[0.0] - RATE_GAIN:
+        return t_camera_s, 0.0
+    return t_camera_s - best * (t_camera_s - middle), best
+
+
+def epochs(track: PoseTrack, t_camera_s: Array) -> str:
+    """What the two clocks count from, in words, where they do not meet as they stand; empty where they do."""
+    if t_camera_s.min() <= track.t_s[-1] + REACH_S and t_camera_s.max() >= track.t_s[0] - REACH_S:
+        return ""
+    words = [f"{name} {_epoch(float(t))}" for name, t in (("images", t_camera_s.min()), ("mocap", track.t_s[0]))]
+    return f"the clocks count from unlike epochs ({', '.join(words)}): they are lined up by the motion alone"
+
+
+def _epoch(start_s: float) -> str:
+    if 9e8 < start_s < 4e9:
+        return f"in Unix time, {datetime.fromtimestamp(start_s, UTC):%Y-%m-%d}"
+    return f"from {start_s:.1f} s"
 
 
 def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:

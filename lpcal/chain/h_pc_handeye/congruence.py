@@ -30,6 +30,8 @@ MENDS = 0.35
 SCALE_TOLERANCE = 0.2
 BOARD_OFF, BOARD_SIGMAS = 0.004, 4.0
 FAR_M = 1.0
+ON_BODY_M = 0.6
+"""Metres from the body's origin within which a board that it carries lies."""
 ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
@@ -122,6 +124,10 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
             needed="a camera fixed to the tracked body, a board that stays put, poses that belong to the images",
             todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
         )
+    if "poses are inverted" in named.found and named.reach_m > FAR_M:
+        fixed = fixed_camera(*park.park(se3.inv(H_OP[agreed.inliers]), H_CB[agreed.inliers]), inverted=True)
+        if fixed is not None:
+            raise fixed
     raise DisagreementError(
         f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once mended)",
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
@@ -139,6 +145,27 @@ def board_size_warning(H_OP: Array, H_CB: Array, R_PC: Array) -> str | None:
         f"the mocap measures the board as {100 * scale:.2f} +- {100 * sigma:.2f} % of its stated size: measure board.square again with a "
         "ruler over many squares (or the mocap's own scale is off)"
     )
+
+
+def fixed_camera(H_PC: Array, H_OB: Array, *, inverted: bool) -> DisagreementError | None:
+    """The error for a camera that stands in the room and a board that rides on the tracked body; None for a camera on the body.
+
+    With the poses inverted such a session fits as well as one of a camera on the body: then what is solved for as H_PC is H_OC, the camera
+    in the room, and what is solved for as H_OB is H_PB, the board on the body. Their sizes tell: a board rides within reach of the body.
+    """
+    camera_m, board_m = (float(np.linalg.norm(H[:3, 3])) for H in (H_PC, H_OB))
+    if not (inverted and camera_m > FAR_M and board_m < NEARER * camera_m and board_m < ON_BODY_M):
+        return None
+    return DisagreementError(
+        f"this looks like a camera that stands still in the room and a board that rides on the tracked body: camera in the room H_OC at "
+        f"{_mm(H_PC)} mm, board on the body H_PB at {_mm(H_OB)} mm",
+        needed="a camera on the tracked body and a board that stands still: lpcal solves no other set-up",
+        todo="if the camera is on the body after all, write mocap.direction: H_OP",
+    )
+
+
+def _mm(H: Array) -> str:
+    return ", ".join(f"{1e3 * value:.1f}" for value in H[:3, 3])
 
 
 def swapped_roles_warning(H_PC: Array, H_OB: Array) -> str | None:

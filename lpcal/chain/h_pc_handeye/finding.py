@@ -11,6 +11,7 @@ from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.drift import Drift
 from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
+from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.state import State
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
@@ -39,7 +40,13 @@ class HandEyeFinding:
 
 
 def finding_of(
-    state: State, t_camera_s: Array | None, warnings: list[str], known_offset_s: float | None, drift: Drift | None = None
+    state: State,
+    t_camera_s: Array | None,
+    warnings: list[str],
+    known_offset_s: float | None,
+    drift: Drift | None = None,
+    *,
+    inverted: bool = False,
 ) -> HandEyeFinding:
     """The record of a settled solve; `t_camera_s` are the views' times, freed of the `drift` that shows.
 
@@ -47,6 +54,8 @@ def finding_of(
     ------
     ConvergenceError
         Most views do not fit.
+    DisagreementError
+        Board or camera moved between two views; or the camera stands in the room and the board is tracked.
     DegenerateError
         Those that are left cannot show H_PC.
     """
@@ -59,6 +68,10 @@ def finding_of(
         raise ConvergenceError(
             f"{100 * bad:.0f} % of the views do not fit one rigid camera", needed="a majority that does", todo="look at: lpcal check"
         )
+    _refuse_a_step(state)
+    fixed = congruence.fixed_camera(found.H_PC, found.H_OB, inverted=inverted)
+    if fixed is not None:
+        raise fixed
     size = congruence.board_size_warning(views.H_OP, views.H_CB, found.H_PC[:3, :3])
     roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
     advised = advise(views.H_OP, views.H_CB, found.H_PC, found.H_OB, covariance[:6, :6])
@@ -79,6 +92,14 @@ def finding_of(
         evidence=_evidence(state, found, spread, factor) | {"weakest": advised.words()},
     )
     return HandEyeFinding(handeye, state.panel, state.offset_s, drift)
+
+
+def _refuse_a_step(state: State) -> None:
+    """Stop where board or camera moved between two views; their order is that of the images."""
+    rows = np.flatnonzero(state.panel.trusted)
+    step = find_step(state.panel.H[rows], state.boards.H_CB[rows], [state.boards.images[row] for row in rows])
+    if step is not None:
+        raise step.refusal()
 
 
 def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:

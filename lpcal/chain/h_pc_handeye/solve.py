@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import observability, variance
+from lpcal.chain.h_pc_handeye.clock import without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, estimate, misfit
@@ -40,6 +41,8 @@ CORNER_SIGMAS = 6.0
 READMIT = 5.0
 """Times the rms misfit of the chosen views, less a margin, up to which a view is taken in again."""
 ROUNDS_OF_DRIFT = 4
+COARSE_RATE = 1e-4
+"""Uncertainty (s/s) of a rate that the coarse search alone has found."""
 CLOCK_UNSEEN_S = 0.02
 """An offset less certain than this is not one that the data show."""
 
@@ -58,25 +61,30 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
     DegenerateError, DisagreementError, ConvergenceError
         Too few views or turns; clocks that do not meet; views that do not fit one rigid camera.
     """
-    t_camera_s = np.asarray(boards.t_camera_s)
+    stamped_s = np.asarray(boards.t_camera_s)
+    t_camera_s, rate = without_rate(track, stamped_s, boards.H_CB) if options.clock_offset_s is None else (stamped_s, 0.0)
     state = start_moving(boards, track, t_camera_s, camera, options)
     state = _refine(state, t_camera_s)
     state, t_camera_s, drift = _without_drift(state, t_camera_s)
+    if rate:
+        middle = float(np.mean(stamped_s))
+        rest = drift if drift is not None else Drift(0.0, COARSE_RATE, middle)
+        drift = Drift(rate + rest.rate - rate * rest.rate, rest.std, rest.middle_s)
     warnings: list[str] = []
     if drift is not None:
         warnings.append(
-            f"the camera's clock runs {1e6 * drift.rate:+.0f} +- {1e6 * drift.std:.0f} ppm fast: its times are corrected for it"
+            f"the camera's clock runs {1e6 * drift.rate:+.0f} +- {1e6 * drift.std:.1f} ppm fast: its times are corrected for it"
         )
     if options.clock_offset_s is None and not state.clock:
         warnings.append("the panel stood still in every view that was used: the data do not show the clock offset, it is left out")
-    return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift)
+    return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift, inverted=options.inverted)
 
 
 def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
     panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
-    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, [], None)
+    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, [], None, inverted=options.inverted)
 
 
 def _refine(state: State, t_camera_s: Array | None) -> State:

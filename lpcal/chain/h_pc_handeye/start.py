@@ -12,6 +12,7 @@ import numpy as np
 from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import congruence, observability
 from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior, turned_by_half
+from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.state import Options, State
 from lpcal.errors import DegenerateError
 from lpcal.geometry import park
@@ -39,8 +40,9 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
         panel = poses_at(track, t_camera_s - offset)
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
             continue
-        agreed = _agreed(boards, panel, options.seed)
-        turned, agreed = _turned_back(boards, panel, agreed)
+        ended, _ = settled_ends(boards, panel.H, panel.trusted)
+        agreed = _agreed(ended, panel, options.seed)
+        turned, agreed = _turned_back(ended, panel, agreed)
         score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
         if best is None or score < best[0]:
             state = _state(turned, panel, agreed, offset, camera, options, clock=options.clock_offset_s is None)
@@ -63,6 +65,7 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
 
 def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
     """The closed form with one panel pose a view. Raises as `start_moving`."""
+    boards, _ = settled_ends(boards, panel.H, panel.trusted)
     boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options.seed))
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
     _refuse(state, agreed)
@@ -81,6 +84,7 @@ def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
     trusted = panel.trusted
     observability.refuse_what_cannot_show_it(panel.H[trusted])
     found = park.consensus(panel.H[trusted], boards.H_CB[trusted], seed)
+    observability.refuse_what_cannot_show_it(panel.H[trusted][found.inliers])
     inliers = np.zeros(len(trusted), dtype=bool)
     inliers[trusted] = found.inliers
     angle, distance = park.residuals(panel.H, boards.H_CB, found.H_PC, found.H_OB)

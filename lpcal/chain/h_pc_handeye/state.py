@@ -24,6 +24,8 @@ class Options:
     camera_share: float = 0.0
     """Share of the views that the camera was solved from too, whose corners its prior has counted already."""
     seed: int = 0
+    inverted: bool = False
+    """Whether the poses are stated to take room to body: a tracked board before a fixed camera looks so."""
 
 
 @dataclass(frozen=True)
