@@ -16,7 +16,6 @@ from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, write_camera
 from lpcal.formats.cameramodel import cameramodel_text
 from lpcal.formats.documents import Provenance
-from lpcal.formats.image_checks import orientation, refuse_cut_or_turned
 from lpcal.records.calibration import Camera, CameraSolution
 
 K = np.array([[712.4, 0, 385.1], [0, 713.1, 230.6], [0, 0, 1.0]])
@@ -159,21 +158,3 @@ def test_a_camera_comes_back_from_its_own_file_whole(tmp_path: Path) -> None:
     found = read_camera(tmp_path / "camera.yaml")
     assert (found.black_level, found.white_level, found.gamma, found.rms_px, found.parameters) == (0.008, 0.9, 2.2, 0.05, names)
     np.testing.assert_array_equal(found.covariance, meant.covariance)
-
-
-def test_a_jpeg_cut_in_half_and_one_that_is_to_be_turned(tmp_path: Path) -> None:
-    picture = np.random.default_rng(0).integers(0, 255, (60, 80)).astype(np.uint8)
-    whole = cv2.imencode(".jpg", picture)[1].tobytes()
-    exif = b"Exif\x00\x00" + b"II*\x00\x08\x00\x00\x00" + b"\x01\x00" + struct.pack("<HHIHH", 274, 3, 1, 6, 0) + b"\x00" * 4
-    turned = whole[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + whole[2:]
-    assert orientation(whole) == 1
-    assert orientation(turned) == 6
-    for name, data, words in (("cut.jpg", whole[: len(whole) // 2], "cut off"), ("turned.jpg", turned, "orientation 6")):
-        (tmp_path / name).write_bytes(data)
-        with pytest.raises(InputError, match=words):
-            refuse_cut_or_turned(tmp_path / name)
-    (tmp_path / "whole.jpg").write_bytes(whole)
-    refuse_cut_or_turned(tmp_path / "whole.jpg")
-    (tmp_path / "cut.png").write_bytes(cv2.imencode(".png", picture)[1].tobytes()[:-40])
-    with pytest.raises(InputError, match="cut off"):
-        refuse_cut_or_turned(tmp_path / "cut.png")

@@ -156,11 +156,11 @@ MESSAGES = {
     ),
     "a control character": (
         'lpcal: 1\nname: "a\x00b"\n',
-        "panel.yaml:2: not YAML: a control character\n  needed: plain text\n  do: mend that line",
+        "panel.yaml: not text: a control character in line 2\n  needed: a text file\n  do: is it another kind of file?",
     ),
     "a section in itself": (
         "lpcal: 1\nlights: &a\n  L0: *a\n",
-        "panel.yaml:2: a section that contains itself\n  needed: sections that end\n  do: remove the * that refers to it",
+        "panel.yaml:2: a section that contains itself\n  needed: sections that end, without * and &\n  do: write it out",
     ),
     "not a list": ("lpcal: 1\nboard: {corners: 9, square: 25 mm}\n", "panel.yaml:2, board.corners: 9\n  needed: a list such as [9, 6]"),
     "three for two": (
@@ -224,15 +224,20 @@ def test_a_mistake_is_one_message_with_its_line(panel: Path, text: str, message:
     assert caught.value.exit_code == 3
 
 
-@pytest.mark.parametrize("bytes_", [b"lpcal: 1\nname: \xff\n", "lpcal: 1\n".encode("utf-16"), b"\x89PNG\r\n\x1a\n\x00"])
-def test_a_file_that_is_not_utf_8(panel: Path, bytes_: bytes) -> None:
-    panel.write_bytes(bytes_)
-    with pytest.raises(InputError, match=r"panel\.yaml: not a text file in UTF-8"):
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_a_file_of_whatever_encoding(panel: Path, encoding: str) -> None:
+    panel.write_bytes("lpcal: 1\r\nname: Münze\r\n".encode(encoding))
+    assert panel_yaml.read_rig(panel).rig.name == "Münze"
+
+
+def test_a_file_that_is_no_text(panel: Path) -> None:
+    panel.write_bytes(b"\x89PNG\r\n\x1a\n\x00")
+    with pytest.raises(InputError, match=r"panel\.yaml: not text"):
         panel_yaml.read_rig(panel)
 
 
 def test_a_file_that_is_not_there(panel: Path) -> None:
-    with pytest.raises(InputError, match=r"panel\.yaml: cannot be read: No such file"):
+    with pytest.raises(InputError, match=r"panel\.yaml: no such file"):
         panel_yaml.read_rig(panel)
 
 

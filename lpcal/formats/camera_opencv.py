@@ -82,10 +82,18 @@ def _stored(path: Path) -> dict[str, Any]:
     elif text.lstrip().startswith("{"):
         found = json.loads(text)
     else:
-        found = load_yaml(re.sub(r"\A\s*%YAML[^\n]*\n(?:---[^\n]*\n)?", "", text), path, _Loader)
+        found = _from_yaml(re.sub(r"\A\s*%YAML[^\n]*\n(?:---[^\n]*\n)?", lambda head: "\n" * head[0].count("\n"), text), path)
     if not isinstance(found, dict):
         raise InputError("no names and values", where=str(path), needed=NEEDED, todo="is it cut off?")
     return found
+
+
+def _from_yaml(text: str, path: Path) -> Any:
+    try:
+        return load_yaml(text, path, _Loader)
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise InputError(f"not YAML: {error.problem}", where=f"{path}:{line}", needed=NEEDED, todo="is it cut off?") from error
 
 
 def _from_xml(element: ET.Element) -> Any:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import io
-import struct
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.image_checks import as_stored, orientation, refuse_cut, refuse_odd_head
 from lpcal.formats.named_files import exists, kind_of_other
 from lpcal.formats.reading import reader
-from lpcal.geometry.arrays import Image as Pixels
+from lpcal.geometry.arrays import Image
 
 ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
 
@@ -22,7 +20,7 @@ ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".w
 class StoredImage:
     """Pixels (H, W) or (H, W, 3) RGB as fractions of full scale, and one step of the stored numbers on that scale."""
 
-    pixels: Pixels
+    pixels: Image
     step: float
 
     @property
@@ -31,20 +29,14 @@ class StoredImage:
         return self.pixels.shape[1], self.pixels.shape[0]
 
 
-MOST_PIXELS = 250_000_000
-"""Pixels of the largest image that is read: five times those of the largest cameras."""
-BOMB_PIXELS, BOMB_BYTES_A_PIXEL = 60_000_000, 1 / 200
-"""An image of more pixels than this, in fewer bytes a pixel than this, is taken for a bomb and not decoded."""
-
-
 @reader("an image")
 def read_image(path: Path) -> StoredImage:
-    """Read an image of 8 or 16 bit, or of float (full scale 1); grey or RGB, an alpha channel is dropped, EXIF turns are not applied.
+    """Read an image of 8 or 16 bit, or of float (full scale 1); grey or RGB, alpha is dropped; turns by tags are not applied.
 
     Raises
     ------
     InputError
-        Not there, of a kind that is not read, not an image that can be read whole, or larger than `MOST_PIXELS`.
+        Not there, of a kind that is not read, not an image that can be read whole, several in one file, or larger than any camera's.
     """
     import cv2
 
@@ -54,13 +46,17 @@ def read_image(path: Path) -> StoredImage:
     if other:
         raise InputError(other, where=str(path), needed=f"one of {', '.join(ENDINGS)}")
     data = path.read_bytes()
-    _refuse_bomb(data, path)
+    refuse_cut(data, path)
+    refuse_odd_head(data, path)
+    cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)  # what its decoders say is said here
     try:
         stored = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if data else None
     except cv2.error:
         stored = None
     if stored is None:
         raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(ENDINGS)}, whole", todo="copy it anew")
+    if data[:2] in {b"II", b"MM"}:
+        stored = as_stored(stored, orientation(data))
     if stored.ndim == 3:
         stored = stored[:, :, 2::-1] if stored.shape[2] >= 3 else stored[:, :, 0]
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
@@ -69,22 +65,3 @@ def read_image(path: Path) -> StoredImage:
     return StoredImage(
         np.ascontiguousarray(stored, dtype=np.float32) / np.float32(full_scale), 1.0 / full_scale if full_scale > 1 else 1e-6
     )
-
-
-def _refuse_bomb(data: bytes, path: Path) -> None:
-    """Refuse an image by what its head says of its size, before it is decoded."""
-    from PIL import Image, UnidentifiedImageError
-
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of its own bound
-            with Image.open(io.BytesIO(data)) as head:
-                width, height = head.size
-    except Image.DecompressionBombError:
-        raise InputError(f"more than {MOST_PIXELS / 1e6:.0f} megapixels", where=str(path), needed="a smaller image") from None
-    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, struct.error, OverflowError):
-        return  # the decoder says what is wrong with it
-    pixels = width * height
-    if pixels > MOST_PIXELS or (pixels > BOMB_PIXELS and len(data) < BOMB_BYTES_A_PIXEL * pixels):
-        found = f"says that it holds {width}x{height} pixels, in {len(data) / 1000:.0f} kB"
-        raise InputError(found, where=str(path), needed=f"an image of at most {MOST_PIXELS / 1e6:.0f} megapixels", todo="is it whole?")

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from lpcal.errors import InputError
-from lpcal.formats.guarded_yaml import refuse_bombs
+from lpcal.formats.guarded_yaml import load_yaml
 from lpcal.formats.reading import reader
+from lpcal.formats.text import read_text
 from lpcal.records.rig import CaptureSection, Rig, RigFile
 
 if TYPE_CHECKING:
@@ -86,20 +87,12 @@ class _AsWritten(yaml.SafeLoader):
 
 
 def _load(path: Path) -> tuple[Any, dict[str, int]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError("not a text file in UTF-8", where=str(path), needed="YAML", todo="save it as UTF-8") from error
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed="a text file") from error
+    text = read_text(path, "a text file")
     lines: dict[str, int] = {}
-    refuse_bombs(text, path)
     try:
-        _collect_lines(yaml.compose(text, Loader=_AsWritten), "", lines, path, ())
-        document = yaml.load(text, Loader=_AsWritten)
+        return load_yaml(text, path, _AsWritten, lambda node: _collect_lines(node, "", lines)), lines
     except yaml.YAMLError as error:
         raise _not_yaml(error, text, path) from error
-    return document, lines
 
 
 def _not_yaml(error: yaml.YAMLError, text: str, path: Path) -> InputError:
@@ -114,28 +107,15 @@ def _not_yaml(error: yaml.YAMLError, text: str, path: Path) -> InputError:
     return InputError("not YAML: a control character", where=f"{path}:{line}", needed="plain text", todo="mend that line")
 
 
-def _collect_lines(node: yaml.Node | None, prefix: str, lines: dict[str, int], path: Path, above: tuple[yaml.Node, ...]) -> None:
-    if node in above:
-        place = f"{path}:{node.start_mark.line + 1}" if node else str(path)
-        raise InputError("a section that contains itself", where=place, needed="sections that end", todo="remove the * that refers to it")
-    if node is not None:
-        above = (*above, node)
+def _collect_lines(node: yaml.Node, prefix: str, lines: dict[str, int]) -> None:
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
-            name = f"{prefix}{key.value}"
-            if name in lines:
-                raise InputError(
-                    f"the key {name} stands twice, first in line {lines[name]}",
-                    where=f"{path}:{key.start_mark.line + 1}",
-                    needed="each key once",
-                    todo="remove one of them",
-                )
-            lines[name] = key.start_mark.line + 1
-            _collect_lines(value, f"{name}.", lines, path, above)
+            lines[f"{prefix}{key.value}"] = key.start_mark.line + 1
+            _collect_lines(value, f"{prefix}{key.value}.", lines)
     elif isinstance(node, yaml.SequenceNode):
         for index, value in enumerate(node.value):
             lines[f"{prefix}{index}"] = value.start_mark.line + 1
-            _collect_lines(value, f"{prefix}{index}.", lines, path, above)
+            _collect_lines(value, f"{prefix}{index}.", lines)
 
 
 def _checked[Model: "BaseModel"](model: type[Model], document: Any, path: Path, lines: dict[str, int]) -> Model:

@@ -14,7 +14,6 @@ from lpcal.detect.board import DETECTOR_VERSION, count_corners, find_board
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.corner_cache import Sighting, cache_key, read_corner_cache, write_corner_cache
 from lpcal.formats.corners_vnl import read_corners
-from lpcal.formats.image_checks import refuse_cut_or_turned
 from lpcal.formats.images import read_image
 from lpcal.geometry.arrays import Image
 from lpcal.pipeline.workspace import Workspace
@@ -189,6 +188,5 @@ def _look(path: Path, board: Board) -> Sighting:
 
 
 def _grey(path: Path) -> Image:
-    refuse_cut_or_turned(path)
     pixels = read_image(path).pixels
     return pixels if pixels.ndim == 2 else np.asarray(pixels @ np.array([0.299, 0.587, 0.114], np.float32))
