@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.observations import MarkerStream
 
 FEWEST = 3
-UNLABELED = re.compile(r"(unlabel|uname|unnamed|\*|c_\d+$|active \d)", re.IGNORECASE)
+UNLABELED = re.compile(r"(unlabel|unident|uname|unnamed|new \d|\*|c_\d+$|active \d)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
