@@ -87,7 +87,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     response = sensor.response(linear.shape)
     exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
     ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
-    notes = [f"left out: {name} is no light's" for name in raw.left_out]
+    notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
     if ambient_linear is None:
         notes.append("no ambient image: what lights the scene beside the lights is not taken away")
     else:

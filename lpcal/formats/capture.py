@@ -17,6 +17,10 @@ from lpcal.records.observations import RawCapture, StatedSensor
 from lpcal.records.rig import CaptureSection
 
 SHORT = "short_"
+OVER_ONE = 1.25
+"""Largest number of a float image whose full scale is 1: averaging and flat-fielding lift some pixels over it."""
+FULL_SCALES = (255.0, 1023.0, 4095.0, 16383.0, 65535.0)
+"""Full scales of cameras' counts of 8 to 16 bit."""
 
 
 def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None, use: Sequence[str] | None = None) -> RawCapture:
@@ -42,15 +46,16 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     chosen = _chosen(folder, lights, use or section.lights, files)
     reader = _SameSize()
     images = np.stack([reader.read(files[light]).pixels for light in chosen])
+    scale, notes = _float_scale(images, folder)
     ambient_names = [stem for stem in files if stem == "ambient" or stem.startswith("ambient_")]
-    short = {light: reader.read(files[SHORT + light]).pixels for light in chosen if SHORT + light in files}
+    short = {light: reader.read(files[SHORT + light]).pixels / scale for light in chosen if SHORT + light in files}
     known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights)}
     return RawCapture(
         name=name or folder.resolve().name,
         lights=tuple(chosen),
-        images=images,
+        images=images / scale,
         exposure_s=np.array([_exposure(section, light) or 1.0 for light in chosen]),
-        ambient=np.stack([reader.read(files[stem]).pixels for stem in ambient_names]) if ambient_names else None,
+        ambient=np.stack([reader.read(files[stem]).pixels for stem in ambient_names]) / scale if ambient_names else None,
         ambient_exposure_s=np.array([_exposure(section, stem) or 1.0 for stem in ambient_names]),
         short=short,
         short_exposure_s={light: _exposure(section, SHORT + light, own=True) for light in short},
@@ -59,7 +64,25 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         step=reader.step,
         sensor=StatedSensor(section.gamma, section.black_level, section.white_level),
         distance_m=section.distance,
+        notes=notes,
     )
+
+
+def _float_scale(images: Image, folder: Path) -> tuple[np.float32, tuple[str, ...]]:
+    """What images of floats are divided by, so that full scale is 1, and what is to be said of it.
+
+    Raises
+    ------
+    InputError
+        A pixel is no finite number.
+    """
+    most = float(images.max())
+    if not np.isfinite(most) or not np.isfinite(float(images.min())):
+        raise InputError("pixels that are no finite numbers", where=str(folder), needed="finite numbers", todo="write them anew")
+    if most <= OVER_ONE:
+        return np.float32(1), ()
+    full = next((full for full in FULL_SCALES if full >= most), most)
+    return np.float32(full), (f"float images up to {most:g}: {full:g} is taken as full scale; divide them by it, or store 16 bit",)
 
 
 def check_lights(folder: Path, lights: Sequence[str], *, use: Sequence[str] | None = None) -> None:

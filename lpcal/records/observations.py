@@ -173,6 +173,8 @@ class RawCapture:
     """What capture.yaml says of the sensor."""
     distance_m: float | None = None
     """The panel's distance from the object, as capture.yaml says it."""
+    notes: tuple[str, ...] = ()
+    """What was made of the files, in words."""
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ MENDS = 0.35
 """A cure counts where it lessens the misplacement to this share."""
 SCALE_TOLERANCE = 0.2
 BOARD_OFF, BOARD_SIGMAS = 0.004, 4.0
+SCALE_SIGMAS = 2.5
+"""Sigmas by which the board's size must differ from the mocap's metre for that to be a doubt beyond the noise, which is counted already."""
 FAR_M = 1.0
 ON_BODY_M = 0.6
 """Metres from the body's origin within which a board that it carries lies."""
@@ -135,6 +137,21 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
     )
 
 
+def scale_doubt(H_OP: Array, H_CB: Array, R_PC: Array) -> Array | None:
+    """How far H_PC and H_OB move (12,), as left perturbations, if the board is as large as the mocap measures it; None where it agrees.
+
+    The data cannot tell which of the two lengths is right, the square as it was measured or the mocap's metre: what the solve would find
+    with the other one is one standard deviation away, along this vector.
+    """
+    scale, sigma = park.board_scale(H_OP, H_CB, R_PC)
+    if not abs(scale - 1) > SCALE_SIGMAS * sigma:
+        return None
+    larger = H_CB.copy()
+    larger[:, :3, 3] *= scale
+    pairs = zip(park.park(H_OP, larger), park.park(H_OP, H_CB), strict=True)
+    return np.concatenate([se3.log(after @ se3.inv(before)) for after, before in pairs])
+
+
 def board_size_warning(H_OP: Array, H_CB: Array, R_PC: Array) -> str | None:
     """In words, where the mocap finds the board another size than it was said to have."""
     scale, sigma = park.board_scale(H_OP, H_CB, R_PC)
@@ -143,7 +160,7 @@ def board_size_warning(H_OP: Array, H_CB: Array, R_PC: Array) -> str | None:
         return None
     return (
         f"the mocap measures the board as {100 * scale:.2f} +- {100 * sigma:.2f} % of its stated size: measure board.square again with a "
-        "ruler over many squares (or the mocap's own scale is off)"
+        "ruler over many squares (or the mocap's own scale is off); the sigmas of H_PC hold that doubt"
     )
 
 

@@ -63,6 +63,9 @@ def finding_of(
     spread, more = observability.refuse_what_cannot_show_it(views.H_OP)
     factor = variance.block_factor(views, found, None if t_camera_s is None else t_camera_s[state.inliers])
     covariance = found.covariance() * factor
+    doubt = congruence.scale_doubt(views.H_OP, views.H_CB, found.H_PC[:3, :3])
+    if doubt is not None:
+        covariance[:12, :12] += np.outer(doubt, doubt)
     bad = float(np.mean(~state.inliers[state.panel.trusted]))
     if bad > MOST_BAD:
         raise ConvergenceError(
