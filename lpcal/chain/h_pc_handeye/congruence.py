@@ -127,7 +127,7 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
             todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
         )
     if "poses are inverted" in named.found and named.reach_m > FAR_M:
-        fixed = fixed_camera(*park.park(se3.inv(H_OP[agreed.inliers]), H_CB[agreed.inliers]), inverted=True)
+        fixed = fixed_camera(*park.park(_turned_round(H_OP[agreed.inliers]), H_CB[agreed.inliers]), inverted=True)
         if fixed is not None:
             raise fixed
     raise DisagreementError(
@@ -135,6 +135,11 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
         todo=named.todo,
     )
+
+
+def _turned_round(poses: Array) -> Array:
+    """Poses that were stated one way round, the other way."""
+    return se3.inv(poses)
 
 
 def scale_doubt(H_OP: Array, H_CB: Array, R_PC: Array) -> Array | None:
