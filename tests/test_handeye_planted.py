@@ -186,9 +186,6 @@ REFUSED = {
     "a stream without a pose": Refused(
         lambda f: empty_stream(f, "t,x,y,z,qx,qy,qz,qw\n0,,,,,,,\n1,,,,,,,\n"), 4, "not one pose", "rows with position and rotation"
     ),
-    "clocks a year apart": Refused(
-        lambda f: moving_rig(f, moving(), t_camera_s=moving().boards.t_camera_s + 3.15e7), 6, "the clocks do not meet", "mocap.clock_offset"
-    ),
 }
 
 

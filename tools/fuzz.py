@@ -26,6 +26,7 @@ import signal
 import sys
 import tempfile
 import time
+import warnings
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -209,6 +210,7 @@ def _child(cases: list[int], samples: list[Sample], pipe: Connection) -> None:
     for stream in (1, 2):
         os.dup2(devnull, stream)
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    warnings.simplefilter("ignore")  # as errors they would be taken for lpcal's own
     held = 0
     for case in cases:
         pipe.send(case)
@@ -218,6 +220,13 @@ def _child(cases: list[int], samples: list[Sample], pipe: Connection) -> None:
         if not held:  # the first case does the imports; what comes after may take so much more
             held = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
             resource.setrlimit(resource.RLIMIT_AS, (held + MOST_BYTES, resource.RLIM_INFINITY))
+
+
+def prepare(samples: list[Sample]) -> None:
+    """Make every sample once, before the children that use them are forked."""
+    for sample in samples:
+        with tempfile.TemporaryDirectory() as folder:
+            sample.make(Path(folder), random.Random(0))
 
 
 def run_cases(cases: list[int], samples: list[Sample], report: Callable[[Result], None]) -> None:
@@ -267,9 +276,7 @@ def main() -> int:
         result = run_case(options.case, samples, folder)
         print(f"{folder}: {result.format}, code {result.code}, {result.seconds:.2f} s {result.wrong}\n{result.said}")
         return 0
-    for sample in samples:  # once, before the children are forked
-        with tempfile.TemporaryDirectory() as folder:
-            sample.make(Path(folder), random.Random(0))
+    prepare(samples)
     counts: Counter[tuple[str, str]] = Counter()
     wrong: list[Result] = []
     slowest: dict[str, float] = {}

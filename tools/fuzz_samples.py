@@ -418,7 +418,7 @@ def normals_tif() -> bytes:
     import tifffile
 
     stream = io.BytesIO()
-    tifffile.imwrite(stream, normals().astype(np.float32))
+    tifffile.imwrite(stream, normals().astype(np.float32), photometric="rgb")
     return stream.getvalue()
 
 
