@@ -26,6 +26,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
+from lpcal.formats.document_numbers import rigid, sigma
 from lpcal.formats.documents import Provenance, read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
 from lpcal.formats.reading import reader
@@ -63,7 +64,7 @@ def read_calibration(path: Path) -> Calibration:
     try:
         camera = sane_camera(camera_from_document(document["camera"]), f"{path}, camera") if document.get("camera") else None
         lights = tuple(_light(path, entry) for entry in document["lights"])
-        H_PC = _numbers(document, "H_PC", 4, 4) if document.get("H_PC") else None
+        H_PC = rigid(document, "H_PC") if document.get("H_PC") else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
@@ -138,21 +139,20 @@ def light_from_document(entry: dict[str, Any]) -> Light:
     if not np.isfinite(intensity).all() or intensity.size not in (1, 3):
         raise ValueError("intensity")
     direction_C = _numbers(entry, "direction", 3)
-
-    def sigma(key: str) -> float:
-        return float("nan") if entry.get(key) is None else float(entry[key])
+    if not np.any(direction_C):
+        raise ValueError("direction")
 
     return Light(
         name=str(entry["name"]),
         direction_C=direction_C / np.linalg.norm(direction_C),
         intensity=intensity,
-        H_CL=_numbers(entry, "H_CL", 4, 4) if entry.get("H_CL") is not None else None,
+        H_CL=rigid(entry, "H_CL") if entry.get("H_CL") is not None else None,
         source_C=_numbers(entry, "source_m", 3) if near else None,
         axis_C=_numbers(entry, "axis", 3) if near else None,
         lobe=lobe_from_document(entry.get("lobe") or {"kind": "isotropic"}),
-        position_std_m=sigma("position_std_m"),
-        direction_std_rad=float(np.radians(sigma("direction_std_deg"))),
-        intensity_std=sigma("intensity_std"),
+        position_std_m=sigma(entry, "position_std_m"),
+        direction_std_rad=float(np.radians(sigma(entry, "direction_std_deg"))),
+        intensity_std=sigma(entry, "intensity_std"),
     )
 
 

@@ -10,14 +10,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from lpcal.formats.camera_coefficients import sane_camera
+from lpcal.formats.document_numbers import covariance, number, numbers, sigma
 from lpcal.formats.documents import Provenance, read_record, write_document
-from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, FlatField, ViewVerdict
 
 KIND = "camera"
-MODELS = ("opencv4", "opencv5", "opencv8", "splined")
+COEFFICIENTS = {"opencv4": 4, "opencv5": 5, "opencv8": 8, "splined": -1}
+"""How many numbers of distortion each model has."""
 
 
 def write_camera(path: Path, solution: CameraSolution, provenance: Provenance) -> None:
@@ -44,7 +44,7 @@ def read_camera(path: Path) -> Camera:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    return read_record(path, KIND, "lpcal intrinsics", camera_from_document)
+    return sane_camera(read_record(path, KIND, "lpcal intrinsics", camera_from_document), str(path))
 
 
 def camera_document(camera: Camera) -> dict[str, Any]:
@@ -75,39 +75,35 @@ def camera_from_document(document: dict[str, Any]) -> Camera:
     KeyError, TypeError, ValueError
         A key is lacking or holds no numbers of the right count; the message is the key's name.
     """
-    if document["model"] not in MODELS:
+    if document["model"] not in COEFFICIENTS:
         raise ValueError("model")
-    width, height = (int(side) for side in document["image_size"])
-    covariance = document.get("covariance")
+    width, height = (int(side) for side in numbers(document, "image_size", 2))
+    parameters = tuple(document.get("parameters") or ())
     spline = document.get("spline")
     if document["model"] == "splined" and spline is None:
         raise KeyError("spline")
+    black, white, gamma = (
+        default if (found := number(document, key)) is None else found
+        for key, default in (("black_level", 0.0), ("white_level", 1.0), ("gamma", 1.0))
+    )
+    if not (0 <= black < white <= 1 and gamma > 0):
+        raise ValueError("black_level, white_level or gamma")
     return Camera(
         image_size=(width, height),
         model=document["model"],
-        K=_numbers(document, "K", (3, 3)),
-        distortion=_numbers(document, "distortion", (-1,)),
-        black_level=float(document.get("black_level", 0.0)),
-        white_level=float(document.get("white_level", 1.0)),
-        gamma=float(document.get("gamma", 1.0)),
-        flat_field=None if document.get("flat_field") is None else FlatField(np.array(document["flat_field"], dtype=float)),
-        rms_px=float("nan") if document.get("rms_px") is None else float(document["rms_px"]),
-        parameters=tuple(document.get("parameters") or ()),
-        covariance=None if covariance is None else np.array(covariance, dtype=float),
+        K=numbers(document, "K", 3, 3),
+        distortion=numbers(document, "distortion", COEFFICIENTS[document["model"]]),
+        black_level=black,
+        white_level=white,
+        gamma=gamma,
+        flat_field=None if document.get("flat_field") is None else FlatField(numbers(document, "flat_field", -1, -1)),
+        rms_px=sigma(document, "rms_px"),
+        parameters=parameters,
+        covariance=None if document.get("covariance") is None else covariance(document, "covariance", len(parameters)),
         lensmodel=document.get("lensmodel", ""),
-        spline=None if spline is None else np.array(spline, dtype=float),
+        spline=None if spline is None else numbers(document, "spline", -1),
         size_guessed=document.get("image_size_guessed") is True,
     )
-
-
-def _numbers(document: dict[str, Any], key: str, shape: tuple[int, ...]) -> Array:
-    try:
-        numbers = np.array(document[key], dtype=float).reshape(shape)
-    except (TypeError, ValueError) as error:
-        raise ValueError(key) from error
-    if not np.isfinite(numbers).all():
-        raise ValueError(key)
-    return numbers
 
 
 def _view(view: ViewVerdict) -> dict[str, Any]:

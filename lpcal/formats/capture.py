@@ -10,7 +10,7 @@ import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import ENDINGS, StoredImage, read_image
-from lpcal.formats.named_files import hidden, kind_of_other
+from lpcal.formats.named_files import exists, hidden, kind_of_other
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture, StatedSensor
@@ -39,11 +39,11 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     DisagreementError
         A light has no image, or two of one name; a name in `use` is no light; or images differ in size or channels.
     """
-    if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="a capture folder: one image a light, named after it")
+    _need_folder(folder, "a capture folder: one image a light, named after it")
     section = read_capture_section(folder / "capture.yaml")
     files = _by_name(folder)
     chosen = _chosen(folder, lights, use or section.lights, files)
+    _refuse_unknown(section, {*lights, *files, *(SHORT + light for light in lights)}, folder)
     reader = _SameSize()
     images = np.stack([reader.read(files[light]).pixels for light in chosen])
     scale, notes = _float_scale(images, folder)
@@ -93,8 +93,7 @@ def check_lights(folder: Path, lights: Sequence[str], *, use: Sequence[str] | No
     InputError, DisagreementError
         As `read_capture` raises them for the folder, its capture.yaml and the names of its images.
     """
-    if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="a capture folder: one image a light, named after it")
+    _need_folder(folder, "a capture folder: one image a light, named after it")
     _chosen(folder, lights, use or read_capture_section(folder / "capture.yaml").lights, _by_name(folder))
 
 
@@ -108,8 +107,7 @@ def read_sweep(folder: Path) -> tuple[Image, Array, float]:
     DisagreementError
         Images differ in size or channels.
     """
-    if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="images of one still scene under several exposures")
+    _need_folder(folder, "images of one still scene under several exposures")
     section, reader, files = read_capture_section(folder / "capture.yaml"), _SameSize(), _by_name(folder)
     exposure = {stem: _exposure(section, stem, own=True) for stem in files}
     untold = [stem for stem, value in exposure.items() if value is None]
@@ -160,6 +158,27 @@ def _kind(pixels: Image) -> str:
     return f"{pixels.shape[1]}x{pixels.shape[0]} {'grey' if pixels.ndim == 2 else 'RGB'}"
 
 
+def _need_folder(folder: Path, needed: str) -> None:
+    if not exists(folder) or not folder.is_dir():
+        raise InputError("not a folder" if exists(folder) else "no such folder", where=str(folder), needed=needed)
+    try:
+        next(folder.iterdir(), None)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", where=str(folder), needed=needed) from error
+
+
+def _refuse_unknown(section: CaptureSection, known: set[str], folder: Path) -> None:
+    """An exposure or gain that is stated for what is no image would be dropped."""
+    unknown = [name for name in {**section.exposures, **section.gains} if name not in known]
+    if unknown:
+        raise DisagreementError(
+            f"states an exposure or gain of {', '.join(unknown[:8])}, which is no image there",
+            where=str(folder / "capture.yaml"),
+            needed="names of lights, short_<light>, ambient",
+            todo="correct the name",
+        )
+
+
 def _by_name(folder: Path) -> dict[str, Path]:
     """The folder's images by their names without the ending."""
     files: dict[str, Path] = {}
@@ -178,6 +197,7 @@ def _by_name(folder: Path) -> dict[str, Path]:
 
 
 def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, files: dict[str, Path]) -> list[str]:
+    use = None if use is None else [next((own for own in lights if _composed(own) == _composed(light)), light) for light in use]
     unknown = [light for light in use or [] if light not in lights]
     if unknown:
         raise DisagreementError(
@@ -221,6 +241,10 @@ def _spelled_otherwise(lights: Sequence[str], files: dict[str, Path]) -> None:
                 short = next((stem for stem in files if same(stem) == same(SHORT + light)), None)
                 if short is not None:
                     files[SHORT + light] = files.pop(short)
+    for stem in [stem for stem in files if stem not in lights]:
+        plain = stem.lower()
+        if plain not in files and (plain in {"mask", "ambient"} or plain.startswith("ambient_")):
+            files[plain] = files.pop(stem)
 
 
 def _exposure(section: CaptureSection, stem: str, *, own: bool = False) -> float | None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.document_numbers import covariance, numbers, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardPoses
@@ -48,15 +49,16 @@ def read_h_cb(path: Path) -> BoardPoses:
 
 def _poses(document: dict[str, Any]) -> BoardPoses:
     views = [view for view in document["views"] if view["H_CB"] is not None]
+    points_B = numbers(document["board"], "points_m", -1, 3)
     return BoardPoses(
         images=tuple(view["image"] for view in views),
         t_camera_s=None,
-        H_CB=_stack([view["H_CB"] for view in views], (4, 4)),
-        corners_px=_stack([view["corners_px"] for view in views], (len(document["board"]["points_m"]), 2)),
-        points_B=np.array(document["board"]["points_m"], dtype=float),
-        covariance=_stack([view["covariance"] for view in views], (6, 6)),
-        rms_px=np.array([view["rms_px"] for view in views], dtype=float),
-        corner_sigma_px=float(document["corner_sigma_px"]),
+        H_CB=_stack([rigid(view, "H_CB") for view in views], (4, 4)),
+        corners_px=_stack([view["corners_px"] for view in views], (len(points_B), 2)),
+        points_B=points_B,
+        covariance=_stack([covariance(view, "covariance", 6) for view in views], (6, 6)),
+        rms_px=np.array([numbers(view, "rms_px") for view in views]),
+        corner_sigma_px=float(numbers(document, "corner_sigma_px")),
     )
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.formats.document_numbers import number, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.geometry.arrays import Array
 
@@ -64,13 +65,13 @@ def read_h_op(path: Path) -> ImagePanelPoses:
 def _poses(document: dict[str, Any]) -> ImagePanelPoses:
     views = document["views"]
     nothing = np.full((4, 4), np.nan)
-    times = [view["t_camera_s"] for view in views]
+    times = [number(view, "t_camera_s") for view in views]
     return ImagePanelPoses(
         body=document["body"],
         images=tuple(view["image"] for view in views),
         t_camera_s=None if any(time is None for time in times) else np.array(times, dtype=float),
-        H_OP=np.array([nothing if view["H_OP"] is None else view["H_OP"] for view in views], dtype=float).reshape(len(views), 4, 4),
+        H_OP=np.array([nothing if view["H_OP"] is None else rigid(view, "H_OP") for view in views]).reshape(len(views), 4, 4),
         why=tuple(view["why"] for view in views),
         steady=np.array([view["steady"] for view in views], dtype=bool),
-        clock_offset_s=document["clock_offset_s"],
+        clock_offset_s=number(document, "clock_offset_s"),
     )

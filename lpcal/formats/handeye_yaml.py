@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.document_numbers import covariance, number, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.formats.pasted_transforms import both_ways
-from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye, ViewVerdict
 
 KIND = "handeye"
@@ -56,25 +56,18 @@ def read_handeye(path: Path) -> HandEye:
 
 def _handeye(document: dict[str, Any]) -> HandEye:
     return HandEye(
-        H_PC=_matrix(document, "H_PC", 4),
-        H_PC_covariance=_matrix(document, "H_PC_covariance", 6),
-        H_OB=_matrix(document, "H_OB", 4),
-        H_OB_covariance=_matrix(document, "H_OB_covariance", 6),
-        clock_offset_s=document["clock_offset_s"],
-        clock_offset_std_s=document["clock_offset_std_s"],
+        H_PC=rigid(document, "H_PC"),
+        H_PC_covariance=covariance(document, "H_PC_covariance", 6),
+        H_OB=rigid(document, "H_OB"),
+        H_OB_covariance=covariance(document, "H_OB_covariance", 6),
+        clock_offset_s=number(document, "clock_offset_s"),
+        clock_offset_std_s=number(document, "clock_offset_std_s"),
         views=tuple(_verdict(view) for view in document["views"]),
-        clock_drift=1e-6 * (document.get("clock_drift_ppm") or 0.0),
-        clock_middle_s=document.get("clock_middle_s") or 0.0,
+        clock_drift=1e-6 * (number(document, "clock_drift_ppm") or 0.0),
+        clock_middle_s=number(document, "clock_middle_s") or 0.0,
         warnings=tuple(document.get("warnings") or ()),
         evidence=document.get("evidence") or {},
     )
-
-
-def _matrix(document: dict[str, Any], key: str, size: int) -> Array:
-    found = np.array(document[key], dtype=float)
-    if found.shape != (size, size) or not np.isfinite(found).all():
-        raise ValueError(key)
-    return found
 
 
 def _view(view: ViewVerdict) -> dict[str, Any]:

@@ -29,7 +29,7 @@ class StoredImage:
         return self.pixels.shape[1], self.pixels.shape[0]
 
 
-@reader("an image")
+@reader("an image", "cv2", "PIL.Image")
 def read_image(path: Path) -> StoredImage:
     """Read an image of 8 or 16 bit, or of float (full scale 1); grey or RGB, alpha is dropped; turns by tags are not applied.
 

@@ -15,6 +15,7 @@ from lpcal.errors import InputError
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Light
+from lpcal.records.rig import reserved
 
 C_FROM_UP = np.array([1.0, -1.0, -1.0])
 MOST_BYTES = 32_000_000
@@ -179,6 +180,8 @@ def _wrong(light: Light) -> str:
     """What is wrong with a light, in words; empty where nothing is."""
     if not light.name.strip() or set(light.name) & set("/\\\0") or light.name in {".", ".."}:
         return f"the name {light.name!r}, which no image can have"
+    if reserved(light.name):
+        return f"the name {light.name!r}: an image of that name is no light's"
     if not np.isfinite(light.direction_C).all() or not np.any(light.direction_C):
         return "a direction that is none"
     if not np.isfinite(light.intensity).all() or np.any(light.intensity < 0) or not np.any(light.intensity > 0):

@@ -11,13 +11,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from lpcal.formats.calibration_yaml import light_document, light_from_document
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
+from lpcal.formats.document_numbers import covariance, number, numbers, rigid, sigma
 from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.light_tables import sane_lights
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import LightsSolution, SphereFinding
+from lpcal.records.calibration import Calibration, LightsSolution, SphereFinding
 
 KIND = "lights"
 
@@ -64,17 +64,21 @@ def read_lights(path: Path) -> LightsSolution:
     InputError
         Not there, cut off, of another kind, or garbled.
     """
-    return read_record(path, KIND, "lpcal refine", _record_of)
+    found = read_record(path, KIND, "lpcal refine", _record_of)
+    sane_lights(Calibration(path.stem, found.lights), str(path))
+    return found
 
 
 def _record_of(document: dict[str, Any]) -> LightsSolution:
     def matrix(key: str) -> Array | None:
-        return None if document.get(key) is None else np.array(document[key], dtype=float)
+        if document.get(key) is None:
+            return None
+        return covariance(document, key, 6) if key.endswith("covariance") else rigid(document, key)
 
     return LightsSolution(
         lights=tuple(light_from_document(entry) for entry in document["lights"]),
-        focus_C=np.array(document["focus_m"]),
-        d_object_m=document["d_object_m"],
+        focus_C=numbers(document, "focus_m", 3),
+        d_object_m=number(document, "d_object_m"),
         H_CD=matrix("H_CD"),
         H_CD_covariance=matrix("H_CD_covariance"),
         H_PC=matrix("H_PC"),
@@ -86,12 +90,12 @@ def _record_of(document: dict[str, Any]) -> LightsSolution:
             SphereFinding(
                 name=entry["name"],
                 kind=entry["kind"],
-                centre_C=None if entry["centre_m"] is None else np.array(entry["centre_m"]),
-                radius_m=entry["radius_m"],
+                centre_C=None if entry["centre_m"] is None else numbers(entry, "centre_m", 3),
+                radius_m=number(entry, "radius_m"),
                 used=entry["used"],
                 why=entry["why"],
-                directions_C={light: np.array(direction) for light, direction in entry["directions"].items()},
-                residual=float("nan") if entry["residual"] is None else entry["residual"],
+                directions_C={light: numbers(entry["directions"], light, 3) for light in entry["directions"]},
+                residual=sigma(entry, "residual"),
             )
             for entry in document["spheres"]
         ),

@@ -6,6 +6,7 @@ in a fraction of a second.
 
 from __future__ import annotations
 
+import os
 import pickle
 import subprocess
 import sys
@@ -27,6 +28,8 @@ SPARE_BYTES = 450 << 20
 """Bytes of memory that a parser may take for any file, its libraries counted."""
 TIMES_SIZE = 30
 """Bytes of memory that it may take besides, for each byte of the file."""
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+"""Each thread of a library asks for memory of its own, on a large machine for more than the bound."""
 CHILD = """
 import importlib, os, pickle, sys
 module, name, path, most, seconds = sys.argv[1:]
@@ -61,7 +64,8 @@ def parse_limited(function: Callable[[str], Any], path: Path, needed: str) -> An
     words = [function.__module__, function.__name__, str(path.resolve()), str(SPARE_BYTES + TIMES_SIZE * size), str(int(seconds))]
     todo = "is it whole? export or copy it again"
     try:
-        ended = subprocess.run([sys.executable, "-c", CHILD, *words], capture_output=True, timeout=BUSY * seconds, check=False)
+        alone = os.environ | ONE_THREAD
+        ended = subprocess.run([sys.executable, "-c", CHILD, *words], capture_output=True, timeout=BUSY * seconds, check=False, env=alone)
     except subprocess.TimeoutExpired as error:
         raise InputError("its parser does not end", where=str(path), needed=needed, todo=todo) from error
     if not ended.stdout:

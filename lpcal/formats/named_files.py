@@ -40,9 +40,14 @@ def exists(path: Path) -> bool:
         return False
 
 
+def spellings(name: str) -> list[str]:
+    """A name as it is written, with its accents composed, and with them apart, as macOS writes them."""
+    return list(dict.fromkeys((name, unicodedata.normalize("NFC", name), unicodedata.normalize("NFD", name))))
+
+
 def resolve_named(folder: Path, name: str) -> Path | None:
     """The file or folder that a name in a file means, relative to a folder; None where it is not there."""
-    for spelled in dict.fromkeys((name, *(unicodedata.normalize(form, name) for form in ("NFC", "NFD")))):
+    for spelled in spellings(name):
         if exists(folder / spelled):
             return folder / spelled
     if "\\" in name:

@@ -31,7 +31,7 @@ LENGTHS = (0.5, 1.5)
 """A pixel whose vector is no longer or shorter holds a normal."""
 
 
-@reader("a normal map: .npz, .npy, .png or .tif")
+@reader("a normal map: .npz, .npy, .png or .tif", "cv2")
 def read_normals(path: Path) -> tuple[Image, Mask]:
     """Normals (H, W, 3) in C, not made unit, and the pixels (H, W) that hold one.
 

@@ -7,6 +7,7 @@ no file of this size can need) is the file's fault all the same, and is reported
 from __future__ import annotations
 
 import functools
+import importlib
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -47,12 +48,17 @@ def reading(path: Path, needed: str) -> Iterator[None]:
         raise InputError(found, where=str(path), needed=needed, todo="is it whole? export or copy it again") from error
 
 
-def reader[**P, T](needed: str) -> Callable[[Callable[Concatenate[Path, P], T]], Callable[Concatenate[Path, P], T]]:
-    """A function whose first argument is the path of the file that it reads, under the roof of `reading`."""
+def reader[**P, T](needed: str, *libraries: str) -> Callable[[Callable[Concatenate[Path, P], T]], Callable[Concatenate[Path, P], T]]:
+    """A function whose first argument is the path of the file that it reads, under the roof of `reading`.
+
+    `libraries` are loaded before the memory is bounded: they are not what the file asks for.
+    """
 
     def of(function: Callable[Concatenate[Path, P], T]) -> Callable[Concatenate[Path, P], T]:
         @functools.wraps(function)
         def read(path: Path, /, *given: P.args, **named: P.kwargs) -> T:
+            for library in libraries:
+                importlib.import_module(library)
             with reading(path, needed):
                 return function(path, *given, **named)
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.document_numbers import covariance, number, numbers, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.records.calibration import Wing, Wings
 
@@ -53,23 +54,32 @@ def _record_of(document: dict[str, Any]) -> Wings:
         wings=tuple(
             Wing(
                 light["name"],
-                float(np.radians(light["setting"]["azimuth_deg"])),
-                float(np.radians(light["setting"]["joint_angle_deg"])),
-                light["setting"]["d1_m"],
-                light["setting"]["d2_m"],
+                float(np.radians(numbers(light["setting"], "azimuth_deg"))),
+                _joint_angle(light["setting"]),
+                float(numbers(light["setting"], "d1_m")),
+                float(numbers(light["setting"], "d2_m")),
                 light["leds"],
             )
             for light in lights
         ),
-        H_CD=np.array(document["H_CD"]),
-        H_CD_covariance=np.array(document["H_CD_covariance"]),
-        setting_sigma=np.array([np.radians(std["azimuth_deg"]), np.radians(std["joint_angle_deg"]), std["d1_m"], std["d2_m"]]),
-        H_DL=np.array([light["H_DL"] for light in lights]),
-        H_CL=np.array([light["H_CL"] for light in lights]),
-        covariance=np.array(document["covariance"]),
+        H_CD=rigid(document, "H_CD"),
+        H_CD_covariance=covariance(document, "H_CD_covariance", 6),
+        setting_sigma=np.array(
+            [*np.radians([numbers(std, "azimuth_deg"), numbers(std, "joint_angle_deg")]), numbers(std, "d1_m"), numbers(std, "d2_m")]
+        ),
+        H_DL=np.array([rigid(light, "H_DL") for light in lights]),
+        H_CL=np.array([rigid(light, "H_CL") for light in lights]),
+        covariance=covariance(document, "covariance", 6 * len(lights)),
         source_of_H_CD=document["H_CD_from"],
-        d_object_m=float("inf") if document["d_object_m"] is None else document["d_object_m"],
+        d_object_m=float("inf") if (distance_m := number(document, "d_object_m")) is None else distance_m,
     )
+
+
+def _joint_angle(setting: dict[str, Any]) -> float:
+    angle_deg = float(numbers(setting, "joint_angle_deg"))
+    if abs(angle_deg) > 90:
+        raise ValueError("joint_angle_deg")
+    return float(np.radians(angle_deg))
 
 
 def _light(wings: Wings, k: int) -> dict[str, Any]:

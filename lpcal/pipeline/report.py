@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,9 +12,16 @@ import numpy as np
 
 from lpcal import __version__
 from lpcal.errors import InputError
+from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.documents import read_document, sha256
+from lpcal.formats.h_cb_yaml import read_h_cb
+from lpcal.formats.h_op_yaml import read_h_op
+from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.images import read_image
+from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.outputs import marked, refuse_place, write_text
+from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.report.page import render
@@ -37,13 +45,36 @@ class ReportStage(Stage):
         return path.is_file() and f'content="{_stamp(workspace)}"' in path.read_text(encoding="utf-8")[:STAMP_WITHIN]
 
 
+READERS: dict[str, Callable[[Path], object]] = {
+    "camera": read_camera,
+    "H_CB": read_h_cb,
+    "H_OP": read_h_op,
+    "handeye": read_handeye,
+    "wings": read_wings,
+    "lights": read_lights,
+    "calibration": read_calibration,
+}
+"""What judges each kind of document."""
+
+
+def _page(report: RigReport, workspace: Workspace) -> str:
+    """The page; where it cannot be made, the fault of the document that its own reader refuses."""
+    try:
+        return render(report, _stamp(workspace))
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError):
+        for path in _documents(workspace):
+            if path.stem in READERS:
+                READERS[path.stem](path)
+        raise
+
+
 def write_report(workspace: Workspace, progress: Progress) -> Outcome:
     """Write calib/report.html.
 
     Raises
     ------
     InputError
-        No stage has written anything; or a document is cut off.
+        No stage has written anything; or a document is cut off, or holds what cannot be.
     """
     path = workspace.calib(FILE)
     refuse_place(path, KIND)
@@ -61,7 +92,7 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
         surfaces.append(_surface(folder))
         progress("pictures", done, len(folders))
     report = RigReport(workspace.rig_file.rig.name, documents, tuple(surfaces))
-    write_text(path, render(report, _stamp(workspace)), KIND)
+    write_text(path, _page(report, workspace), KIND)
     lines = verdicts(report)
     tone, sentence = headline(lines)
     summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, workspace.relative(path)]

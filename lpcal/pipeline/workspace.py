@@ -15,7 +15,7 @@ from typing import Any
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.documents import Provenance, document_kind, plain, read_document, sha256
-from lpcal.formats.named_files import hidden, kind_of_other, resolve_named
+from lpcal.formats.named_files import hidden, kind_of_other, resolve_named, spellings
 from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import RigFile
@@ -92,14 +92,15 @@ class Workspace:
         """What a name or a pattern means: the file of that name, the files in the folder of that name, else what the pattern matches."""
         path = resolve_named(self.folder, pattern)
         if path is not None:
-            return list(path.iterdir()) if path.is_dir() else [path]
+            return self.files(pattern, key)
         folder, _, last = pattern.replace("\\", "/").rpartition("/")
         inside = resolve_named(self.folder, folder) if folder else self.folder
         try:
             if inside is not None and inside.is_dir() and not any(sign in folder for sign in "*?"):  # brackets in a folder's name
-                return list(inside.glob(last))
+                return [path for spelled in spellings(last) for path in inside.glob(spelled)]
             anchor = Path(pattern).anchor
-            return list(Path(anchor or self.folder).glob(str(Path(pattern).relative_to(anchor))))
+            rest = str(Path(pattern).relative_to(anchor))
+            return [path for spelled in spellings(rest) for path in Path(anchor or self.folder).glob(spelled)]
         except (OSError, ValueError, NotImplementedError, IndexError) as error:
             raise InputError(f"the pattern {pattern}: {error}", where=self.rig_file.where(key), needed="a pattern of names") from error
 

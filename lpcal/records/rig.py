@@ -34,6 +34,11 @@ RESERVED = ("mask", "ambient", "capture")
 """Names of files in a capture folder that are no light's."""
 
 
+def reserved(name: str) -> bool:
+    """Whether a file of this name in a capture folder is no light's image."""
+    return name.lower() in RESERVED or name.lower().startswith(("short_", "ambient_"))
+
+
 def plain_name(name: str, what: str) -> str:
     """The name of a light, sphere or object, which becomes that of a file or folder.
 
@@ -250,7 +255,7 @@ class Rig(Section):
     @classmethod
     def _lights_apart(cls, lights: dict[str, LightSection]) -> dict[str, LightSection]:
         for name in plain_names(lights, "light"):
-            if name.lower() in RESERVED or name.lower().startswith(("short_", "ambient_")):
+            if reserved(name):
                 msg = f"a light called {name!r}; another name: {name}.png in a capture folder is no light's image"
                 raise ValueError(msg)
         wings = [(name, light.azimuth) for name, light in lights.items() if light.azimuth is not None]
