@@ -32,6 +32,8 @@ SOME = 4000
 """Samples that a template is made of, at most."""
 FLAT = 0.02
 """Second extent of the template over the first, under which it is a line."""
+WORST_FIT = 0.05
+"""Residual of the usual sample over the body's size, beyond which its markers are on no rigid body: systems reach a hundredth."""
 MOST_MARKERS = 12
 """Beyond so many markers exchanged names are not tried: leaving one out is enough."""
 
@@ -58,12 +60,14 @@ def body_of(markers: MarkerStream, places_P: dict[str, tuple[float, float, float
     Raises
     ------
     DegenerateError
-        Fewer than three markers together at any time, or all on a line.
+        Fewer than three markers together at any time, all on a line, or markers that move against each other.
     """
     seen = np.isfinite(markers.x_O).all(axis=2)
     template, reference = _template(markers.x_O, seen)
     fits = _fit(markers.x_O, seen, template)
     sigma_m = float(np.sqrt(np.nanmedian(fits.rms_m**2)))
+    if sigma_m > WORST_FIT * float(np.sqrt(np.mean(np.sum(template**2, axis=1)))):
+        raise _not_rigid(markers, fits, sigma_m)
     limit_m = LIMIT_SIGMAS * max(sigma_m, FLOOR_M)
     fits, repaired, exchanged = _mended(fits, template, limit_m)
     good = fits.rms_m <= limit_m
@@ -89,6 +93,19 @@ def body_of(markers: MarkerStream, places_P: dict[str, tuple[float, float, float
         rate_hz=markers.rate_hz,
         notes=(*markers.notes, *notes),
         covariance=rigid_fit.covariances(se3.apply(H_OP, np.broadcast_to(template, track.shape)), fits.seen[good], sigma_m),
+    )
+
+
+def _not_rigid(markers: MarkerStream, fits: _Fits, sigma_m: float) -> DegenerateError:
+    """Names the marker whose distances from the others vary most."""
+    x_O = np.where(fits.seen[..., None], fits.x_O, np.nan)
+    distance = np.linalg.norm(x_O[:, :, None] - x_O[:, None], axis=3)
+    spread = np.nanmean(np.abs(distance - np.nanmedian(distance, axis=0)), axis=0)
+    worst = int(np.argmax(np.nanmedian(spread + np.where(np.eye(len(spread), dtype=bool), np.nan, 0.0), axis=0)))
+    return DegenerateError(
+        f"the markers {', '.join(markers.names)} are not rigid together: they fit to {1e3 * sigma_m:.0f} mm, {markers.names[worst]} worst",
+        needed="markers fixed to one body",
+        todo="name the body in panel.yaml: mocap.body, or leave that marker out of the export",
     )
 
 

@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.observations import MarkerStream
 
 FEWEST = 3
-UNLABELED = re.compile(r"(unlabel|unident|uname|unnamed|new \d|\*|c_\d+$|active \d)", re.IGNORECASE)
+UNLABELED = re.compile(r"(unlabel|unident|uname|unnamed|new \d|\*|c_\d+$|active \d|cent(re|er)[ _]?of[ _]?mass)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -47,9 +47,10 @@ def markers_of(table: MarkerTable, path: Path, body: str | None) -> MarkerStream
     """
     name, members = _chosen(list(table.tracks), body, path)
     if len(members) < FEWEST:
-        raise DegenerateError(
-            f"{len(members)} markers of {name or 'one body'}: {', '.join(members)}", where=str(path), needed=f"{FEWEST}, not on a line"
-        )
+        unlabeled = sum(bool(UNLABELED.match(member)) for member in table.tracks)
+        found = f"{len(members)} markers of {name or 'one body'}: {', '.join(members) or 'none'}"
+        found += f"; {unlabeled} unlabeled are left out" * bool(unlabeled)
+        raise DegenerateError(found, where=str(path), needed=f"{FEWEST}, not on a line", todo="label the body's markers and export again")
     x_O = METRES[table.units] * np.stack([table.tracks[member] for member in members], axis=1)
     keep, notes = in_order(table.t_s, np.isfinite(table.t_s))
     t_s, x_O = table.t_s[keep], x_O[keep]

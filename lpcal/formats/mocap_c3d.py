@@ -16,6 +16,9 @@ from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import is_rate
 from lpcal.formats.pose_table import METRES
 
+OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")
+"""Parameters of POINT that name what a model made and no camera saw."""
+
 
 def is_c3d(head: bytes) -> bool:
     """Whether the first bytes of a file are those of a C3D header."""
@@ -33,7 +36,8 @@ def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
     found = parse_limited(parse, path, "a whole C3D file")
     points, residuals, first, parameters = found["points"], found["residuals"], found["first_frame"], found["parameters"]
     labels = [str(label).strip() for key in ("LABELS", "LABELS2") for label in parameters.get(key, {"value": []})["value"]]
-    if not points.size or not labels:
+    made = {str(label).strip() for key in OUTPUTS for label in parameters.get(key, {"value": []})["value"]} - {""}
+    if not points.size or not set(labels) - made:
         raise InputError("no markers", where=str(path), needed="points with labels", todo="export the marker trajectories")
     stated = "".join(parameters.get("UNITS", {"value": []})["value"]).strip().lower()
     if units is None and stated not in METRES:
@@ -44,7 +48,8 @@ def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
     x = np.where(residuals[..., None] < 0, np.nan, np.moveaxis(points[:3], 0, -1))
     notes = (f"lengths read as {units}, as panel.yaml says, against the file's {stated}",) if units and stated not in {"", units} else ()
     t_s = (first + np.arange(points.shape[2])) / rate
-    return MarkerTable(t_s, dict(zip(labels, x, strict=False)), units or stated, notes)
+    tracks = {label: track for label, track in zip(labels, x, strict=False) if label not in made}
+    return MarkerTable(t_s, tracks, units or stated, notes)
 
 
 def parse(path: str) -> dict[str, Any]:
@@ -53,7 +58,7 @@ def parse(path: str) -> dict[str, Any]:
 
     content = ezc3d.c3d(path)
     parameters = content["parameters"]["POINT"]
-    wanted = ("LABELS", "LABELS2", "UNITS", "RATE")
+    wanted = ("LABELS", "LABELS2", "UNITS", "RATE", *OUTPUTS)
     return {
         "points": np.asarray(content["data"]["points"], dtype=float),
         "residuals": np.asarray(content["data"]["meta_points"]["residuals"], dtype=float)[0],

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lpcal.errors import DisagreementError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.number_table import COMMENTS, is_number
 from lpcal.formats.pose_table import METRES
 from lpcal.formats.reading import reader
@@ -68,6 +68,8 @@ class ImagePoses:
     H: Array
     files: tuple[str, ...] | None
     notes: tuple[str, ...] = ()
+    lost: tuple[int, ...] = ()
+    """Rows of H that are exactly the identity, as a lost body is written; the first alone may be the place that all count from."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,8 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
         None of the layouts, or a matrix that is no rigid transform; with its line.
     DisagreementError
         Two rows for one image.
+    DegenerateError
+        No pose but the identity.
     """
     text = with_commas(read_text(path, LAYOUT), path)
     lines = [
@@ -107,7 +111,12 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
         poses = _sixes(cells, numbers, path, stated)
     else:
         poses = _matrices(cells, numbers, path, stated)
-    return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, poses.notes)
+    lost = tuple(int(row) for row in np.flatnonzero(np.all(poses.H - np.eye(4) == 0, axis=(1, 2))))
+    lost = () if lost == (0,) else lost
+    if len(lost) == len(poses.H):
+        raise DegenerateError(f"all {len(lost)} poses are the identity", where=str(path), needed="a tracked body", todo="export it again")
+    notes = (*poses.notes, *[f"{len(lost)} poses are the identity: lost"] * bool(lost))
+    return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, notes, lost)
 
 
 def _cells(line: str) -> list[str]:

@@ -99,14 +99,27 @@ def with_commas(text: str, path: Path) -> str:
         return text
     if delimiter != "," and '"' not in text:
         return decimal_points(text).replace(",", " ").replace(delimiter, ",")
-    lines = []
+    lines, opened = [], False
     for line in text.split("\n"):
         if '"' not in line:
             lines.append(line if delimiter == "," else decimal_points(line).replace(",", " ").replace(delimiter, ","))
+            opened = opened and not line.strip()
             continue
-        cells = next(csv.reader([line], delimiter=delimiter, strict=False), [])
+        whole = _closed(line, delimiter) if opened else line
+        opened = whole.count('"') % 2 == 1
+        cells = next(csv.reader([whole], delimiter=delimiter, strict=False), [])
         lines.append(",".join(decimal_points(cell).replace(",", " ") for cell in cells))
-    return "\n".join(lines)
+    plain = "\n".join(lines)
+    if delimiter == ",":
+        _refuse_decimal_commas(plain, path)
+    return plain
+
+
+def _closed(line: str, delimiter: str) -> str:
+    """A line under a line whose last quotes stay open: what closes them here is taken away, or what they hold is put in quotes."""
+    if line == '"' or line.startswith((f'"{delimiter}', '""')):
+        return line[1:]
+    return line if line.startswith('"') else f'"{line}'
 
 
 def delimiter_of(text: str) -> str:

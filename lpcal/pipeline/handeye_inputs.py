@@ -175,9 +175,12 @@ def _from_poses(workspace: Workspace, section: MocapSection, known: BoardPoses, 
     path = workspace.path(str(section.poses), "mocap.poses")
     poses = read_robot_poses(path, Stated(section.quaternion, section.units, section.direction, section.rotation))
     images = [workspace.relative(image) for image in (mocap_images(workspace) or camera_images(workspace))]
-    pose_of = _paired(poses, images, path)
+    paired = _paired(poses, images, path)
+    lost = [poses.H[row] for row in poses.lost]
+    pose_of = {image: H for image, H in paired.items() if not any(np.array_equal(H, each) for each in lost)}
     boards, without = _chosen(known, images)
-    unposed = {image: "no pose of it in mocap.poses" for image in boards.images if image not in pose_of}
+    why = {True: "its pose is the identity, the body was lost", False: "no pose of it in mocap.poses"}
+    unposed = {image: why[image in paired] for image in boards.images if image not in pose_of}
     if len(unposed) == len(boards.images):
         raise DisagreementError(
             "its names are no image's", where=str(path), needed=f"names such as {images[0]}", todo="correct the names in mocap.poses"
