@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import errno
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -192,3 +194,37 @@ def test_an_interrupt_while_the_command_line_is_being_imported() -> None:
     )
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (found.returncode, found.stderr) == (130, "lpcal: interrupted; nothing half-written was kept\n")
+
+
+SPEAKER = (
+    "import sys, types\n"
+    "from lpcal.records.outcome import Outcome\n"
+    "run = lambda options, progress: Outcome(summary=['fx 518.2 \\u00b1 0.1 px, M\\u00fcnze'], warnings=['0.2 \\u00b0'])\n"
+    "sys.modules['lpcal.cli.check'] = types.SimpleNamespace(add_arguments=lambda parser: None, run=run)\n"
+    "sys.argv[1:] = ['check']\n"
+    "from lpcal.__main__ import run\n"
+    "sys.exit(run())\n"
+)
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&-"])
+def test_closed_streams_are_no_bug(closed: str) -> None:
+    found = subprocess.run(["sh", "-c", f'"$0" -c "$1" {closed}', sys.executable, SPEAKER], capture_output=True, text=True, check=False)
+    assert found.returncode == 0
+    assert "Traceback" not in found.stderr
+
+
+def test_a_terminal_of_plain_ascii_is_no_bug() -> None:
+    plain = {"PYTHONIOENCODING": "ascii", "PATH": os.environ["PATH"]}
+    found = subprocess.run([sys.executable, "-c", SPEAKER], capture_output=True, text=True, check=False, env=plain)
+    assert (found.returncode, found.stdout) == (0, "fx 518.2 ? 0.1 px, M?nze\n")
+    assert found.stderr == "warning: 0.2 ?\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_a_full_disk_under_stdout_is_named() -> None:
+    found = subprocess.run(["sh", "-c", '"$0" -c "$1" > /dev/full', sys.executable, SPEAKER], capture_output=True, text=True, check=False)
+    assert found.returncode == 3
+    assert "its summary cannot be written to stdout: No space left on device" in found.stderr
+    assert "Traceback" not in found.stderr
+    assert "Exception ignored" not in found.stderr

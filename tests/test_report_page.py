@@ -10,6 +10,7 @@ import pytest
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
+from lpcal.report import chain_sections
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.light_sections import lights_section, sphere_disagreement, spheres_section
 from lpcal.report.page import render
@@ -382,3 +383,16 @@ def test_shrinking_averages_inside_the_mask_only() -> None:
     small = shrink(value, mask, 8)
     assert small.shape == (8, 8, 4)
     assert set(np.unique(small[small[..., 3] > 0][:, :3])) == {128}
+
+
+def test_the_lens_table_shows_what_was_chosen_among_what_was_tried() -> None:
+    tried = [("opencv4", "curved", 0.21), ("opencv4", "flat", 0.34), ("opencv8", "curved", 0.29), ("splined", "curved", None)]
+    scores = [{"model": model, "board": board, "cross_validation_px": px} for model, board, px in tried]
+    evidence = {"cross_validation": scores, "chosen": {"model": "opencv4", "board": "curved", "why": "nearest"}}
+    found = chain_sections._choice({"evidence": evidence})
+    assert found is not None
+    assert found["boards"] == ["curved", "flat"]
+    rows = dict(found["rows"])
+    assert [chosen for _, chosen in rows["opencv4"]] == [True, False]
+    assert rows["opencv4"][0][0] == "0.210"
+    assert not any(chosen for model in ("opencv8", "splined") for _, chosen in rows[model])

@@ -208,20 +208,21 @@ def _round_down(value: float) -> float:
 
 
 def _choice(document: Document) -> Section | None:
-    """How the lens model was chosen: the difference between the halves of the views, for each model, board flat and bowed."""
-    tried = (document.get("evidence") or {}).get("cross_validation") or []
-    found: dict[str, dict[bool, float]] = {}
+    """How the lens model was chosen: the difference between the halves of the views, for each model and each board that was tried."""
+    evidence = document.get("evidence") or {}
+    tried = evidence.get("cross_validation") or []
+    boards = list(dict.fromkeys(str(entry.get("board")) for entry in tried))
+    found: dict[str, dict[str, float]] = {}
     for entry in tried:
-        found.setdefault(str(entry.get("model")), {})[bool(entry.get("warp"))] = entry.get("cross_validation_px")
+        found.setdefault(str(entry.get("model")), {})[str(entry.get("board"))] = entry.get("cross_validation_px")
     if not found:
         return None
-    chosen = (document.get("evidence") or {}).get("chosen") or {}
+    chosen = evidence.get("chosen") or {}
+    taken = (chosen.get("model"), chosen.get("board"))
     return {
         "why": chosen.get("why"),
-        "rows": [
-            (model, [(number(values.get(warp), 3), model == chosen.get("model") and warp == chosen.get("warp")) for warp in (False, True)])
-            for model, values in found.items()
-        ],
+        "boards": boards,
+        "rows": [(model, [(number(values.get(board), 3), (model, board) == taken) for board in boards]) for model, values in found.items()],
     }
 
 
