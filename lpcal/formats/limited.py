@@ -16,7 +16,7 @@ from typing import Any
 
 from lpcal.errors import InputError
 
-SECONDS = 4.0
+SECONDS = 3.0
 """Seconds of processor time that a parser has for any file."""
 SECONDS_A_BYTE = 1e-7
 """Seconds that it has besides, for each byte: ten times what the slowest takes."""
