@@ -90,7 +90,7 @@ def read_motive(
         return np.stack([next(numbers) for _ in range(count)], axis=1)
 
     t_s = next(numbers)
-    R, q, notes = _rotation(take(len(rotation)), rotation, header, quaternion)
+    R, q, notes = _rotation(take(len(rotation)), rotation, header, quaternion, path)
     unit, unit_notes = _units(header, units, path)
     return PoseTable(
         name,
@@ -177,7 +177,7 @@ def _markers(header: _Header, body: str) -> dict[str, list[_Column]]:
 
 
 def _rotation(
-    values: Array, columns: list[_Column], header: _Header, quaternion: str | None
+    values: Array, columns: list[_Column], header: _Header, quaternion: str | None, path: Path
 ) -> tuple[Array | None, Array | None, list[str]]:
     """Rotations (N, 3, 3) of Euler angles, or quaternions (N, 4) as x, y, z, w."""
     if len(columns) == 4:
@@ -186,7 +186,7 @@ def _rotation(
         axes = [column.axis for column in columns]
         if sorted(axes) != list("WXYZ"):
             found = f"rotation columns {', '.join(axes)}"
-            raise InputError(found, where=f"line {header.first_line - 1}", needed="X, Y, Z, W", todo="export the take again")
+            raise InputError(found, where=f"{path}:{header.first_line - 1}", needed="X, Y, Z, W", todo="export the take again")
         return None, values[:, [axes.index(axis) for axis in "XYZW"]], []
     order = header.keys.get("rotation type", "").upper()
     notes = [] if sorted(order) == list("XYZ") else ["the file does not say the order of its Euler angles: XYZ taken"]
