@@ -43,7 +43,7 @@ NAMES = [f"v{k:02d}.png" for k in range(60)]
 TURN = se3.exp(np.array([0, 0, np.radians(1.7), 0.02, 0, 0]))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("what", "H"), [("board", TURN), ("board", se3.exp(np.array([0, 0, 0, 0.005, 0.004, 0]))), ("camera", TURN)])
 def test_a_step_is_named(seed: int, what: str, H: Array) -> None:
     H_OP, H_CB = session(seed)
@@ -61,7 +61,7 @@ def test_a_step_is_named(seed: int, what: str, H: Array) -> None:
 
 @pytest.mark.parametrize("shared", [0.0, 0.6, 0.9])
 def test_a_session_in_one_piece_is_left_alone(shared: float) -> None:
-    assert all(find_step(*session(100 + seed, shared=shared), NAMES[:30]) is None for seed in range(60))
+    assert all(find_step(*session(100 + seed, shared=shared), NAMES[:30]) is None for seed in range(8))
 
 
 def test_handeye_refuses_a_step() -> None:

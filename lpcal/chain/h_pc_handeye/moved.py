@@ -23,7 +23,9 @@ from lpcal.geometry.arrays import Array
 FEWEST = 6
 """Views on either side of a step: with fewer a part fits by its own unknowns."""
 NEEDED = 3.5
-"""How many times smaller the mean square misplacement must be in two parts than in one; 300 drawn sessions of one piece reach 2.7."""
+"""How many times smaller the mean square misplacement must be in two parts than in one; see tools/step_threshold.py."""
+PLACES = 24
+"""Places in a long session at which a step is looked for first; then every place near the likeliest."""
 TRIM = 0.9
 """Share of the views that count, those that fit best: a blurred or flipped one is no step."""
 
@@ -54,20 +56,23 @@ class Step:
         )
 
 
-def find_step(H_OP: Array, H_CB: Array, images: list[str]) -> Step | None:
+def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NEEDED) -> Step | None:
     """The step in a session of views H_OP (N, 4, 4), H_CB (N, 4, 4) in their order; None where none shows."""
     count = len(H_OP)
     if count < 2 * FEWEST:
         return None
     whole = _fit(H_OP, H_CB)
-    best = (np.inf, 0)
-    for at in range(FEWEST, count - FEWEST + 1):
-        parts = [_fit(H_OP[part], H_CB[part]) for part in (slice(None, at), slice(at, None))]
-        parted = _trimmed(np.concatenate([_squares(H_OP[part], H_CB[part], *fit) for part, fit in zip(_halves(at), parts, strict=True)]))
-        best = min(best, (parted, at))
-    parted, at = best
+    tried: dict[int, float] = {}
+    for stride in (max(count // PLACES, 1), 1):
+        middle = min(tried, key=lambda at: tried[at]) if tried else None
+        places = range(FEWEST, count - FEWEST + 1, stride) if middle is None else range(middle - PLACES // 2, middle + PLACES // 2)
+        for at in places:
+            if at not in tried and FEWEST <= at <= count - FEWEST:
+                tried[at] = _parted(H_OP, H_CB, at)
+    at = min(tried, key=lambda place: tried[place])
+    parted = tried[at]
     together = _trimmed(_squares(H_OP, H_CB, *whole))
-    if not together > NEEDED * parted:
+    if not together > needed * parted:
         return None
     what, H = _which(H_OP, H_CB, at)
     return Step(
@@ -79,6 +84,12 @@ def find_step(H_OP: Array, H_CB: Array, images: list[str]) -> Step | None:
         float(np.sqrt(together)),
         float(np.sqrt(parted)),
     )
+
+
+def _parted(H_OP: Array, H_CB: Array, at: int) -> float:
+    """Mean square misplacement of the two parts before and after view `at`, each by itself."""
+    parts = [(H_OP[part], H_CB[part]) for part in _halves(at)]
+    return _trimmed(np.concatenate([_squares(*part, *_fit(*part)) for part in parts]))
 
 
 def _halves(at: int) -> tuple[slice, slice]:
