@@ -265,7 +265,8 @@ def test_the_second_of_two_waits_and_says_so(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
 def test_a_signal_ends_the_run_with_one_message_and_the_old_file(tmp_path: Path, name: str, code: int) -> None:
     program = (
-        "import sys, time, types, pathlib\n"
+        "import signal, sys, time, types, pathlib\n"
+        "for name in ('SIGINT', 'SIGTERM', 'SIGHUP'): signal.signal(getattr(signal, name), signal.SIG_DFL)\n"  # not as under nohup
         "from lpcal.formats.outputs import Kind, whole\n"
         "def run(options, progress):\n"
         "    with whole(pathlib.Path('camera.yaml'), Kind('x', lambda _: True)) as draft:\n"

@@ -138,7 +138,7 @@ def spoil_size(folder: Path) -> Path:
     [
         (spoil_form, 3, "20x30"),
         (spoil_zeros, 3, "no normals"),
-        (spoil_cut, 3, "cannot be read"),
+        (spoil_cut, 3, "needed: a whole .npz or .npy file"),
         (spoil_size, 6, "40x40"),
         (lambda folder: folder / "nowhere.npz", 3, "nowhere.npz"),
     ],

@@ -26,6 +26,8 @@ def numbers(document: Any, key: str, *shape: int) -> Array:
         found = np.array(document[key], dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(key) from error
+    if found.shape == (0,) and -1 in shape:  # no rows: how long they would be, YAML does not say
+        found = found.reshape([max(side, 0) for side in shape])
     alike = found.ndim == len(shape) and all(side in {-1, own} for side, own in zip(shape, found.shape, strict=True))
     if not alike or not np.isfinite(found).all():
         raise ValueError(key)
