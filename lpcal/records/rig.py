@@ -309,7 +309,6 @@ class CaptureSection(Section):
     gamma: float | None = Field(default=None, gt=0.1, lt=10)
     black_level: Share | None = None
     white_level: Share | None = None
-    flat_field: str | None = None
     exposure: Duration | None = None
     gain: Factor = 1.0
     exposures: dict[str, Duration] = {}

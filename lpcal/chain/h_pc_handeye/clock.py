@@ -69,7 +69,7 @@ def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[
         Fewer than two views.
     """
     scan = _Scan.of(track, t_camera_s, H_CB)
-    lags = np.arange(*_range(track, t_camera_s), STEP_S)[:MOST_LAGS]
+    lags = _lags(*_range(track, t_camera_s))
     costs = scan.costs(lags, SOME_PAIRS)
     found = []
     for k in _minima(costs):
@@ -149,7 +149,7 @@ def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Arra
     for rate in np.linspace(-MOST_RATE, MOST_RATE, 2 * count + 1):
         scan = _Scan.of(track, t_camera_s - rate * (t_camera_s - middle), H_CB)
         low, high = _range(track, t_camera_s)
-        costs = scan.costs(np.arange(low, high, STEP_S)[:MOST_LAGS], SOME_PAIRS)
+        costs = scan.costs(_lags(low, high), SOME_PAIRS)
         if np.isfinite(costs).any():
             found[float(rate)] = min(float(np.nanmin(costs)), found.get(float(rate), np.inf))
     best = min(found, key=lambda rate: found[rate])
@@ -179,6 +179,12 @@ def _range(track: PoseTrack, t_camera_s: Array) -> tuple[float, float]:
     if low <= 0 <= high:  # clocks that meet as they stand are off by their start, not by a session
         low, high = max(low, -REACH_S), min(high, REACH_S)
     return float(low), float(high)
+
+
+def _lags(low: float, high: float) -> Array:
+    """Offsets from low to high, `MOST_LAGS` at most: stamps of years, as a garbled file has them, are not scanned through."""
+    count = min(max((high - low) / STEP_S, 0.0), MOST_LAGS)
+    return np.asarray(low + STEP_S * np.arange(int(np.ceil(count))), dtype=float)
 
 
 def _pairs(t_camera_s: Array) -> npt.NDArray[np.intp]:
