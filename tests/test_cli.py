@@ -228,3 +228,16 @@ def test_a_full_disk_under_stdout_is_named() -> None:
     assert "its summary cannot be written to stdout: No space left on device" in found.stderr
     assert "Traceback" not in found.stderr
     assert "Exception ignored" not in found.stderr
+
+
+def test_a_signal_that_comes_out_as_another_exception_is_a_stop_all_the_same() -> None:
+    program = SPEAKER.replace(
+        "run = lambda options, progress: Outcome(",
+        "import os, signal\n"
+        "def swallowed():\n"
+        "    try:\n        os.kill(os.getpid(), signal.SIGTERM)\n        import time; time.sleep(5)\n"
+        "    except BaseException:\n        raise ImportError('a module that was being imported')\n"
+        "run = lambda options, progress: swallowed() or Outcome(",
+    )
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (found.returncode, found.stderr) == (143, "lpcal: ended by SIGTERM; nothing half-written was kept\n")

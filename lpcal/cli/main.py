@@ -13,7 +13,7 @@ from typing import Protocol, cast
 
 from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
-from lpcal.cli.stops import say_stopped
+from lpcal.cli.stops import Stopped, received, say_stopped
 from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.records.outcome import Outcome, Progress
 
@@ -71,8 +71,10 @@ def main(words: list[str] | None = None) -> int:
     except KeyboardInterrupt as stop:
         return say_stopped(stop)
     except (OSError, MemoryError) as error:  # what the system refuses is the user's to mend
-        return _refused(error)
+        return say_stopped(Stopped(received[0])) if received else _refused(error)
     except Exception as error:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
+        if received:
+            return say_stopped(Stopped(received[0]))
         if type(error).__name__ == "LinAlgError":  # numpy's, which is not imported here
             return _refused_singular(error)
         traceback.print_exc()

@@ -14,6 +14,10 @@ WORDS = {"SIGINT": "interrupted", "SIGTERM": "ended by SIGTERM", "SIGHUP": "ende
 """The signals that end a run, and how it says so."""
 
 
+received: list[int] = []
+"""The signals that have come; what is raised in a library's C code or in an import may come out of it as another exception."""
+
+
 class Stopped(KeyboardInterrupt):
     """A signal asks the run to end."""
 
@@ -26,6 +30,7 @@ def listen() -> None:
     """Turn the signals into `Stopped`; one that is ignored already, as under nohup, stays ignored."""
 
     def stop(number: int, _: FrameType | None) -> None:
+        received.append(number)
         raise Stopped(number)
 
     for name in WORDS:
