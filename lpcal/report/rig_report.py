@@ -73,10 +73,9 @@ def sigmas(covariance: Any, size: int) -> Array:
 def origin_sigmas(H: Array, covariance: Any) -> Array:
     """Standard deviations (6,) of a rotation (rad) and of the origin (m), from the covariance (6, 6) of the left perturbation.
 
-    With ``H = exp(xi) H_mean`` and ``xi = (phi, rho)`` the origin p moves by ``rho + phi x p``.
+    NaN where there is no covariance.
     """
     if covariance is None or np.shape(covariance) != (6, 6):
         return np.full(6, np.nan)
-    J = np.eye(6)
-    J[3:, :3] = -se3.hat(H[:3, 3])
+    J = se3.turn_and_origin_jacobian(H)
     return sigmas(J @ array(covariance) @ J.T, 6)
