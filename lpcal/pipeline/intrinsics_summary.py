@@ -23,6 +23,8 @@ def summarise(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, s
     """The outcome of the stage."""
     camera = solution.camera
     lines = [f"camera      {camera.model}, {camera.image_size[0]}x{camera.image_size[1]}, {solution.solver}"]
+    if note := solution.evidence.get("solver_note"):
+        lines.append(f"            {note}")
     lines += _figures(solution)
     images = len(poses.images) + len(left_out)
     if images:

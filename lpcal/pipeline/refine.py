@@ -130,9 +130,8 @@ def summary_of(solution: LightsSolution) -> list[str]:
         if light.source_C is None:
             lines.append(f"{light.name:<6} from {_numbers(light.direction_C, 4)}  {turn}")
         else:
-            lines.append(
-                f"{light.name:<6} source {_numbers(1e3 * light.source_C, 1)} mm  position +- {fine(1e3 * light.position_std_m, 1)} mm  {turn}"
-            )
+            place = f"{_numbers(1e3 * light.source_C, 1)} mm  position +- {fine(1e3 * light.position_std_m, 1)} mm"
+            lines.append(f"{light.name:<6} source {place}  {turn}")
     return lines
 
 

@@ -49,7 +49,8 @@ class Advice:
 
     def words(self) -> str:
         """In one sentence."""
-        now = f"worst along {_named(self.direction_P)} of the panel, {fine(1e3 * self.sigma_m)} mm, and {fine(np.degrees(self.sigma_rad), 3)} deg"
+        worst = f"{fine(1e3 * self.sigma_m)} mm, and {fine(np.degrees(self.sigma_rad), 3)} deg"
+        now = f"worst along {_named(self.direction_P)} of the panel, {worst}"
         if self.sigma_m_after > WORTH * self.sigma_m and self.sigma_rad_after > WORTH * self.sigma_rad:
             return f"{now}; no turn about one axis mends that, four times as many views like these halve it"
         return (
