@@ -35,6 +35,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         *(f"            {line}" for line in matrix_lines(H_PC)),
         f"sigma       {fine_each(np.degrees(sigma[:3]), 3)} deg, {fine_each(1e3 * sigma[3:])} mm, an axis",
         f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m",
+        *_size(handeye),
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}{_held_out(handeye)}",
         *_left_out(handeye),
@@ -48,6 +49,15 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         warnings=list(handeye.warnings),
         next_command="lpcal wings" if rig.lights else "lpcal report",
     )
+
+
+def _size(handeye: HandEye) -> list[str]:
+    """How large the mocap finds the board, and that H_PC is in the mocap's metres."""
+    found: dict[str, Any] = handeye.evidence
+    if "board_size_by_mocap" not in found:
+        return []
+    share, std = 100 * float(found["board_size_by_mocap"]), 100 * float(found["board_size_by_mocap_std"])
+    return [f"scale       the board is {share:.2f} +- {fine(std)} % of its stated size by the mocap, in whose metres H_PC is"]
 
 
 def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
