@@ -9,7 +9,7 @@ import pytest
 from board_pictures import LENS, K, Pattern, Studio, poses
 from lpcal.chain.k_camera import solve_camera
 from lpcal.errors import DegenerateError
-from lpcal.pipeline.intrinsics_summary import fine
+from lpcal.records.digits import fine
 from lpcal.records.observations import Board, BoardView, BoardViews
 
 BOARD = Board((9, 6), (0.025, 0.025))

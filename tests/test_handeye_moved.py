@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lpcal.chain.h_pc_handeye.congruence import fixed_camera, scale_doubt
+from lpcal.chain.h_pc_handeye.congruence import fixed_camera
 from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
@@ -114,7 +114,7 @@ def test_a_fixed_camera_is_told_from_an_inverted_stream() -> None:
 
 
 @pytest.mark.parametrize("scale", [1.015, 0.98, 1.03])
-def test_the_sigma_holds_the_doubt_of_the_scale(scale: float) -> None:
+def test_a_board_of_another_size_than_stated_is_solved_for_and_said(scale: float) -> None:
     H_OP, H_CB = session(3)
     small = H_CB.copy()
     small[:, :3, 3] /= scale
@@ -123,8 +123,10 @@ def test_the_sigma_holds_the_doubt_of_the_scale(scale: float) -> None:
     error = se3.log(found.H_PC @ se3.inv(H_PC))
     nees = error @ np.linalg.solve(found.H_PC_covariance, error)
     assert nees < 16.8
-    assert any("hold that doubt" in warning for warning in found.warnings)
-    assert scale_doubt(H_OP, H_CB, H_PC[:3, :3]) is None
+    assert abs(found.evidence["board_size_by_mocap"] - scale) < 4 * found.evidence["board_size_by_mocap_std"]
+    assert any("mocap measures the board" in warning and "H_PC is in the mocap's metres" in warning for warning in found.warnings)
+    sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, Options()).handeye
+    assert not any("mocap measures the board" in warning for warning in sound.warnings)
 
 
 def test_origin_sigmas_are_those_of_the_origin() -> None:

@@ -45,6 +45,47 @@ def test_static_with_flips_is_honest_and_names_them():
     assert np.sqrt(np.mean(np.square(error))) < 0.7e-3
 
 
+def with_square_stated(session, share):
+    """The session as it is where board.square is stated so much of what it is."""
+    H_CB = session.boards.H_CB.copy()
+    H_CB[:, :3, 3] *= share
+    return replace(session, boards=replace(session.boards, H_CB=H_CB, points_B=share * session.boards.points_B))
+
+
+@pytest.mark.parametrize("off", [0.0, 0.005, 0.015, -0.02])
+def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
+    nees = []
+    for seed in range(3):
+        session = static_session(np.random.default_rng(seed), 30)
+        found = _static(with_square_stated(session, 1 / (1 + off)))
+        nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
+        size, std = (found.evidence[key] for key in ("board_size_by_mocap", "board_size_by_mocap_std"))
+        assert abs(size - 1 - off) < 5 * std
+        assert 2e-4 < std < 3e-3
+        said = any("mocap measures the board" in line for line in found.warnings)
+        assert said == (abs(size - 1) > max(3 * std, 0.004))
+        assert said == bool(off) or off == 0.005
+    assert np.mean(nees) < 6.0 + 4 * np.sqrt(12 / 3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("off", [0.0, 0.005, 0.015, -0.02])
+def test_the_covariance_holds_whatever_the_square_is_stated(off):
+    sessions = [static_session(np.random.default_rng(seed), 30) for seed in range(60)]
+    found = [_static(with_square_stated(session, 1 / (1 + off))) for session in sessions]
+    nees = [_nees(session.H_PC, one.H_PC, one.H_PC_covariance) for session, one in zip(sessions, found, strict=True)]
+    assert np.mean(nees) == pytest.approx(6.3, abs=1.5)
+
+
+def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
+    session = static_session(np.random.default_rng(4), 12, 12.0, Noise(mocap_rad=np.radians(0.5), mocap_m=3e-3))
+    found = _static(session)
+    assert 2e-3 < found.evidence["board_size_by_mocap_std"] < 8e-3  # no surer than before the data, or little
+    depth_P = found.H_PC[:3, 2]
+    sigma = np.sqrt(depth_P @ se3.origin_covariance(found.H_PC, found.H_PC_covariance) @ depth_P)
+    assert sigma > 0.5e-3
+
+
 def test_moving_finds_the_offset_and_is_honest():
     nees, offset, std = [], [], []
     for seed in range(8):

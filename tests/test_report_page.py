@@ -17,8 +17,8 @@ from lpcal.report.page import render
 from lpcal.report.pictures import png, shrink
 from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas
 from lpcal.report.scene import half_angle, rig_scene, room_scene
-from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import fixed, listed, number, with_sigma
+from lpcal.report.verdict import GATE_WORDS, GATES, headline, verdicts
+from lpcal.report.wording import fixed, listed, number, sigma_of, with_sigma
 
 K = np.array([[700.0, 0, 320], [0, 701.0, 240], [0, 0, 1]])
 DISTORTION = np.array([-0.2, 0.05, 1e-3, -1e-3])
@@ -270,6 +270,82 @@ def test_a_surface_without_a_camera_is_not_judged_by_its_distance() -> None:
     orthographic = SurfaceReport("flat", surface().summary | {"units": "pixels"})
     lines = verdicts(RigReport("r", {}, (orthographic, surface(0.05))))
     assert [line.tone for line in lines[-2:]] == ["none", "poor"]
+
+
+def distant_lights(**stated: Any) -> dict[str, Any]:
+    """A calibration of lights that have directions only, as imported: no camera, no focus."""
+    ways = [[0.5, 0.1, -0.8], [-0.5, 0.0, -0.8], [0.0, -0.6, -0.7]]
+    lights = [{"name": f"L{k}", "direction": way, "source_m": None, "intensity": 1.0, "lobe": None} | stated for k, way in enumerate(ways)]
+    return {"name": "dome", "camera": None, "lights": lights, "focus_m": None, "d_object_m": None}
+
+
+def test_a_rig_without_a_camera_shows_no_camera_and_no_frame_at_nought() -> None:
+    report = RigReport("dome", {"calibration": distant_lights()}, (SurfaceReport("flat", surface().summary | {"units": "pixels"}),))
+    scene = rig_scene(report)
+    assert scene is not None
+    assert {item["tone"] for item in scene["items"]} == {"light"}
+    reach = np.max([np.linalg.norm(np.array(item["p"]), axis=1).max() for item in scene["items"]])
+    assert scene["radius"] > 0.4 * reach  # all of it is in sight
+    said = text_of(render(report))
+    assert "intensity not measured" in said
+    assert "1.000" not in said
+    assert "direction to the light" in said
+    assert "seen from behind the camera" not in said
+    assert "No camera: rays are taken as parallel" in said
+    assert "mm away" not in said
+    assert "relative depth" in said
+
+
+@pytest.mark.parametrize("kind", ["matte", "chrome"])
+def test_an_intensity_is_shown_where_spheres_or_an_import_say_it(kind: str) -> None:
+    whole = documents()
+    whole["lights"]["spheres"][0]["kind"] = kind
+    for entry in whole["lights"]["lights"]:
+        entry["intensity"] = 1.0
+    assert ("not measured" in text_of(render(RigReport("r", whole)))) == (kind == "chrome")
+    stated = {"calibration": distant_lights(intensity=[0.9, 0.8, 1.2])}
+    assert "0.900 / 0.800 / 1.200" in text_of(render(RigReport("dome", stated)))
+
+
+def test_a_camera_that_only_the_calibration_has_is_shown() -> None:
+    camera = {key: documents()["camera"][key] for key in ("image_size", "model", "K", "distortion")}
+    report = RigReport("near", {"calibration": distant_lights() | {"camera": camera}})
+    assert verdicts(report)[0].tone == "none"
+    assert "camera" in {item["tone"] for item in rig_scene(report)["items"]}
+
+
+def test_gates_are_said_as_they_are_applied(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert set(GATES) == set(GATE_WORDS)
+    before = verdicts(RigReport("r", documents()))
+    assert before[0].gate == "rms \u2264 0.3 px, focal length \u2264 0.2 %"
+    monkeypatch.setitem(GATES, "handeye_mm", (0.05, 2.5))
+    line = next(line for line in verdicts(RigReport("r", documents())) if line.stage == "handeye")
+    assert "H_PC \u2264 0.05 mm" in line.gate
+    assert line.tone == "fair"
+
+
+def test_a_solver_other_than_mrcal_is_no_doubt_of_the_camera() -> None:
+    whole = documents()
+    whole["camera"] |= {"solver": "opencv", "evidence": {"solver_note": "mrcal is not installed: solved without it"}, "warnings": []}
+    report = RigReport("r", whole)
+    assert verdicts(report)[0].tone == "good"
+    assert "mrcal is not installed" in text_of(render(report))
+
+
+@pytest.mark.parametrize("sigma", [4.2e-4, 3.1e-6, 0.0123])
+def test_no_sigma_reads_as_nought(sigma: float) -> None:
+    whole = documents()
+    for entry in whole["lights"]["lights"]:
+        entry |= {"direction_std_deg": sigma, "position_std_m": 1e-3 * sigma, "intensity_std": 0.01 * sigma}
+    whole["handeye"]["H_PC_covariance"] = (np.diag([np.radians(sigma)] * 3 + [1e-3 * sigma] * 3) ** 2).tolist()
+    whole["handeye"]["H_PC"] = np.eye(4).tolist()
+    report = RigReport("r", whole)
+    section = lights_section(report)
+    assert section is not None
+    shown = [row[key] for row in section["rows"] for key in ("position_std", "direction_std", "intensity_std")]
+    for text in shown:
+        assert float(text.replace("\u2212", "-")) == pytest.approx(sigma, rel=0.06)
+    assert f"H_PC within {sigma_of(sigma, 3, '°')} and {sigma_of(sigma, 2, 'mm')}" in verdicts(report)[1].found
 
 
 def test_origin_sigmas_are_those_of_the_origin() -> None:

@@ -130,5 +130,4 @@ def _refine(H_CB: Array, corners_px: Array, points_B: Array, camera: Camera) -> 
 
 
 def _jacobian(x_C: Array, camera: Camera) -> Array:
-    J_x = camera.projection_jacobian(x_C)
-    return np.concatenate([-J_x @ se3.hat(x_C), J_x], axis=-1).reshape(-1, 6)
+    return np.asarray(camera.projection_jacobian(x_C) @ se3.point_jacobian(x_C)).reshape(-1, 6)

@@ -36,8 +36,7 @@ def track_of(stream: PoseStream) -> pose_track.PoseTrack:
 
 def _over_the_usual(covariance: Array, H_OP: Array) -> Array:
     """Variances (N, 6) of rotation and origin along the axes of O, each over its median."""
-    T = np.tile(np.eye(6), (len(H_OP), 1, 1))
-    T[:, 3:, :3] = -se3.hat(H_OP[:, :3, 3])
+    T = se3.turn_and_origin_jacobian(H_OP)
     variance = np.einsum("nij,njk,nik->ni", T, covariance, T)
     usual = [float(np.median(variance[:, part].mean(axis=1))) for part in (slice(0, 3), slice(3, 6))]
     return np.asarray(variance / np.repeat(usual, 3))

@@ -13,6 +13,7 @@ import numpy as np
 
 from lpcal.formats.document_numbers import covariance, number, numbers, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.geometry import se3
 from lpcal.records.calibration import Wing, Wings
 
 KIND = "wings"
@@ -85,10 +86,6 @@ def _joint_angle(setting: dict[str, Any]) -> float:
 def _light(wings: Wings, k: int) -> dict[str, Any]:
     wing = wings.wings[k]
     block = wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
-    # the origin moves by rho - p x phi
-    p = wings.H_CL[k, :3, 3]
-    cross = np.array([[0, -p[2], p[1]], [p[2], 0, -p[0]], [-p[1], p[0], 0]])
-    to_origin = np.hstack([-cross, np.eye(3)])
     return {
         "name": wing.name,
         "setting": {
@@ -100,6 +97,6 @@ def _light(wings: Wings, k: int) -> dict[str, Any]:
         "leds": wing.leds,
         "H_DL": wings.H_DL[k],
         "H_CL": wings.H_CL[k],
-        "position_std_m": float(np.sqrt(np.trace(to_origin @ block @ to_origin.T) / 3)),
+        "position_std_m": float(np.sqrt(np.trace(se3.origin_covariance(wings.H_CL[k], block)) / 3)),
         "axis_std_deg": float(np.degrees(np.sqrt(np.trace(block[:3, :3]) / 3))),
     }

@@ -51,7 +51,7 @@ def fit(points_A: Array, points_B: Array, sigma_m: float | None = None) -> tuple
     residuals_A = points_A - fitted_A
     if sigma_m is None:
         sigma_m = float(np.sqrt(np.sum(residuals_A**2) / (3 * len(points_A) - 6)))
-    J = np.concatenate([-se3.hat(fitted_A), np.tile(np.eye(3), (len(points_A), 1, 1))], axis=2).reshape(-1, 6)
+    J = se3.point_jacobian(fitted_A).reshape(-1, 6)
     return H_AB, sigma_m**2 * np.linalg.inv(J.T @ J), residuals_A
 
 
@@ -79,5 +79,5 @@ def fit_each(points_A: Array, points_B: Array, seen: Mask) -> tuple[Array, Array
 
 def covariances(fitted_A: Array, seen: Mask, sigma_m: float) -> Array:
     """Covariance (N, 6, 6) of each H_AB of fitted points (N, M, 3), of which some were seen (N, M)."""
-    J = np.concatenate([-se3.hat(fitted_A), np.broadcast_to(np.eye(3), (*fitted_A.shape, 3))], axis=-1) * seen[..., None, None]
+    J = se3.point_jacobian(fitted_A) * seen[..., None, None]
     return np.asarray(sigma_m**2 * np.linalg.inv(np.einsum("nmki,nmkj->nij", J, J)))

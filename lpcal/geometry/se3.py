@@ -171,7 +171,20 @@ def point_jacobian(x_A: Array) -> Array:
     return np.concatenate([-hat(x_A), np.broadcast_to(np.eye(3), (*x_A.shape[:-1], 3, 3))], axis=-1)
 
 
+def turn_and_origin_jacobian(H_AB: Array) -> Array:
+    """Derivatives (..., 6, 6) of the turn and of B's origin in A by the left perturbation of H_AB (..., 4, 4)."""
+    J = np.zeros((*H_AB.shape[:-2], 6, 6))
+    J[..., :3, :3] = np.eye(3)
+    J[..., 3:, :] = point_jacobian(H_AB[..., :3, 3])
+    return J
+
+
+def origin_covariance(H_AB: Array, covariance: Array) -> Array:
+    """Covariance (3, 3) of B's origin in A, of the covariance (6, 6) of the left perturbation of H_AB (4, 4)."""
+    J = point_jacobian(H_AB[:3, 3])
+    return np.asarray(J @ covariance @ J.T)
+
+
 def origin_sigmas(H_AB: Array, covariance: Array) -> Array:
     """Standard deviations (3,) of B's origin in A, of the covariance (6, 6) of the left perturbation of H_AB (4, 4)."""
-    J = point_jacobian(H_AB[:3, 3])
-    return np.asarray(np.sqrt(np.diag(J @ covariance @ J.T)))
+    return np.asarray(np.sqrt(np.diag(origin_covariance(H_AB, covariance))))

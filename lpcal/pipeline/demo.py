@@ -82,11 +82,10 @@ def compare(workspace: Workspace) -> tuple[list[str], dict[str, Any]]:
         float(np.degrees(np.sqrt(np.trace(sigma[:3, :3])))),
         "deg",
     )
-    carry = np.hstack([-se3.hat(np.array(handeye["H_PC"])[:3, 3]), np.eye(3)])
     say(
         "camera in the panel, position",
         1e3 * float(np.linalg.norm(origin_m)),
-        1e3 * float(np.sqrt(np.trace(carry @ sigma @ carry.T))),
+        1e3 * float(np.linalg.norm(se3.origin_sigmas(np.array(handeye["H_PC"]), sigma))),
         "mm",
     )
     if handeye["clock_offset_s"] is not None:

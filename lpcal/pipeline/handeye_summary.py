@@ -10,6 +10,7 @@ from lpcal.formats.pasted_transforms import both_ways, matrix_lines, numbers
 from lpcal.geometry import se3
 from lpcal.pipeline.handeye_inputs import HandEyeInputs
 from lpcal.records.calibration import HandEye
+from lpcal.records.digits import fine, fine_each
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
@@ -32,8 +33,9 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     lines = [
         f"H_PC        camera in {body}: position {numbers(1e3 * H_PC[:3, 3], 2)} mm, quaternion {numbers(q, 6)} xyzw",
         *(f"            {line}" for line in matrix_lines(H_PC)),
-        f"sigma       {numbers(np.degrees(sigma[:3]), 3)} deg, {numbers(1e3 * sigma[3:], 2)} mm, an axis",
+        f"sigma       {fine_each(np.degrees(sigma[:3]), 3)} deg, {fine_each(1e3 * sigma[3:])} mm, an axis",
         f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m",
+        *_size(handeye),
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}{_held_out(handeye)}",
         *_left_out(handeye),
@@ -49,6 +51,15 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     )
 
 
+def _size(handeye: HandEye) -> list[str]:
+    """How large the mocap finds the board, and that H_PC is in the mocap's metres."""
+    found: dict[str, Any] = handeye.evidence
+    if "board_size_by_mocap" not in found:
+        return []
+    share, std = 100 * float(found["board_size_by_mocap"]), 100 * float(found["board_size_by_mocap_std"])
+    return [f"scale       the board is {share:.2f} +- {fine(std)} % of its stated size by the mocap, in whose metres H_PC is"]
+
+
 def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
     if given.stream is None:
         return f"clock       none: {'no times of the images' if given.body else 'one pose an image'}"
@@ -57,7 +68,7 @@ def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
     if not handeye.clock_offset_std_s:
         return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} ms, as given"
     drift = f" {1e6 * handeye.clock_drift:+.0f} ppm (t_camera - {handeye.clock_middle_s:.1f} s)" if handeye.clock_drift else ""
-    return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} +- {1e3 * handeye.clock_offset_std_s:.2f} ms{drift}"
+    return f"clock       t_camera = t_mocap {1e3 * handeye.clock_offset_s:+.2f} +- {fine(1e3 * handeye.clock_offset_std_s)} ms{drift}"
 
 
 def _rms_words(handeye: HandEye) -> str:
@@ -66,7 +77,7 @@ def _rms_words(handeye: HandEye) -> str:
     rad = np.sqrt(np.mean([(view.residual_rad or 0.0) ** 2 for view in used]))
     px = [view.residual_px for view in used if view.residual_px is not None]
     corners = f", corners {np.sqrt(np.mean(np.square(px))):.3f} px" if px else ""
-    return f"{1e3 * metre:.2f} mm, {np.degrees(rad):.3f} deg rms{corners}"
+    return f"{fine(1e3 * metre)} mm, {fine(np.degrees(rad), 3)} deg rms{corners}"
 
 
 def _left_out(handeye: HandEye) -> list[str]:
@@ -88,15 +99,15 @@ def _more(count: int) -> str:
 def _noise(handeye: HandEye) -> str:
     found: dict[str, Any] = handeye.evidence
     if "corner_sigma_px" in found:
-        mocap = f"mocap {found['mocap_sigma_deg']:.3f} deg, {1e3 * float(found['mocap_sigma_m']):.2f} mm"
-        return f"{mocap}; corners {found['corner_sigma_px']:.3f} px"
+        mocap = f"mocap {fine(found['mocap_sigma_deg'], 3)} deg, {fine(1e3 * float(found['mocap_sigma_m']))} mm"
+        return f"{mocap}; corners {fine(found['corner_sigma_px'], 3)} px"
     across, depth = 1e3 * float(found["board_sigma_m"][0]), 1e3 * float(found["board_sigma_m"][2])
-    return f"{found['board_sigma_deg']:.3f} deg, {across:.2f} mm across, {depth:.2f} mm in depth, both sensors together"
+    return f"{fine(found['board_sigma_deg'], 3)} deg, {fine(across)} mm across, {fine(depth)} mm in depth, both sensors together"
 
 
 def _held_out(handeye: HandEye) -> str:
     errors = [1e3 * view.held_out_m for view in handeye.views if view.held_out_m is not None]
-    return f"; left out of the solve by {np.median(errors):.2f} (median), {max(errors):.2f} mm" if errors else ""
+    return f"; left out of the solve by {fine(float(np.median(errors)))} (median), {fine(max(errors))} mm" if errors else ""
 
 
 def _document(handeye: HandEye, body: str) -> dict[str, Any]:

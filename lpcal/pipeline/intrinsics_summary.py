@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.records.calibration import CameraSolution
+from lpcal.records.digits import fine
 from lpcal.records.observations import BoardPoses
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
@@ -16,14 +17,14 @@ from lpcal.records.rig import Rig
 NAMED_VIEWS = 6
 FLAT_SIGMAS = 2.0
 """A board none of whose terms is over so many sigmas is said to be flat."""
-MOST_DECIMALS = 6
-"""Of a sigma in px; what is smaller is written with an exponent."""
 
 
 def summarise(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, str], rig: Rig) -> Outcome:
     """The outcome of the stage."""
     camera = solution.camera
     lines = [f"camera      {camera.model}, {camera.image_size[0]}x{camera.image_size[1]}, {solution.solver}"]
+    if note := solution.evidence.get("solver_note"):
+        lines.append(f"            {note}")
     lines += _figures(solution)
     images = len(poses.images) + len(left_out)
     if images:
@@ -55,14 +56,6 @@ def _figures(solution: CameraSolution) -> list[str]:
         sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
         lines.append(f"{label}           {values[0]:.2f} +- {fine(sigma[0])}, {values[1]:.2f} +- {fine(sigma[1])} px")
     return [*lines, f"board       {_board(evidence)}", f"model       {camera.model}: {chosen.get('why', 'as asked')}", *_sureness(evidence)]
-
-
-def fine(size: float) -> str:
-    """A sigma or a difference with two significant digits at least, two decimals at least: never 0.00 for what is not nought."""
-    if not np.isfinite(size) or size == 0:
-        return f"{size:.2f}"
-    decimals = int(np.clip(1 - np.floor(np.log10(abs(size))), 2, MOST_DECIMALS))
-    return f"{size:.{decimals}f}" if abs(size) >= 10.0**-MOST_DECIMALS else f"{size:.1e}"
 
 
 def _board(evidence: Mapping[str, Any]) -> str:

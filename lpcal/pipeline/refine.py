@@ -24,6 +24,7 @@ from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
 from lpcal.pipeline.sensor import check_sweep, flat_field_path, has_lens, sensor_of_camera, sensor_of_panel, sweep_path
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
+from lpcal.records.digits import fine
 from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
@@ -125,13 +126,12 @@ def summary_of(solution: LightsSolution) -> list[str]:
     for light in solution.lights:
         seen = any(sphere.used and sphere.kind == "matte" for sphere in solution.spheres)
         intensity = "intensity " + " ".join(f"{value:.3f}" for value in light.intensity) if seen else "intensity not measured"
-        turn = f"direction +- {np.degrees(light.direction_std_rad):.2f} deg  {intensity}"
+        turn = f"direction +- {fine(np.degrees(light.direction_std_rad))} deg  {intensity}"
         if light.source_C is None:
             lines.append(f"{light.name:<6} from {_numbers(light.direction_C, 4)}  {turn}")
         else:
-            lines.append(
-                f"{light.name:<6} source {_numbers(1e3 * light.source_C, 1)} mm  position +- {1e3 * light.position_std_m:.1f} mm  {turn}"
-            )
+            place = f"{_numbers(1e3 * light.source_C, 1)} mm  position +- {fine(1e3 * light.position_std_m, 1)} mm"
+            lines.append(f"{light.name:<6} source {place}  {turn}")
     return lines
 
 
@@ -141,7 +141,7 @@ def _advice(solution: LightsSolution) -> list[str]:
     if not isinstance(advice, dict):
         return []
     before, after = (advice[key] for key in ("direction_std_deg", "with_it_deg"))
-    return [f"one more chrome sphere tells most {advice['where']}: directions from +- {before:.3f} to +- {after:.3f} deg"]
+    return [f"one more chrome sphere tells most {advice['where']}: directions from +- {fine(before, 3)} to +- {fine(after, 3)} deg"]
 
 
 def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:

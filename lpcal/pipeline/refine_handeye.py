@@ -12,6 +12,7 @@ from lpcal.geometry import se3
 from lpcal.pipeline.wings import disc_in_body, tracks_panel, wanted
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import LightsSolution
+from lpcal.records.digits import fine
 
 
 def with_handeye(workspace: Workspace, solution: LightsSolution) -> LightsSolution:
@@ -50,9 +51,8 @@ def summary_of_handeye(workspace: Workspace, solution: LightsSolution) -> list[s
 def _place(H_AB: np.ndarray, covariance: np.ndarray) -> str:
     """Origin and turn of a transform, and how sure: the place's covariance is that of the left perturbation carried to the origin."""
     x_A = H_AB[:3, 3]
-    carry = np.hstack([-se3.hat(x_A), np.eye(3)])
-    spread_mm = 1e3 * np.sqrt(np.trace(carry @ covariance @ carry.T) / 3)
+    spread_mm = 1e3 * np.linalg.norm(se3.origin_sigmas(H_AB, covariance)) / np.sqrt(3)
     turn_deg = np.degrees(np.linalg.norm(se3.log(H_AB)[:3]))
     spread_deg = np.degrees(np.sqrt(np.trace(covariance[:3, :3]) / 3))
     x, y, z = 1e3 * x_A
-    return f"[{x:.2f} {y:.2f} {z:.2f}] mm +- {spread_mm:.2f}, turned {turn_deg:.3f} deg +- {spread_deg:.3f}"
+    return f"[{x:.2f} {y:.2f} {z:.2f}] mm +- {fine(spread_mm)}, turned {turn_deg:.3f} deg +- {fine(spread_deg, 3)}"

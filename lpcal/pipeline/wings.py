@@ -16,6 +16,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.pipeline.handeye_inputs import recording
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Wing, Wings
+from lpcal.records.digits import fine
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import LightSection, PanelSection
 
@@ -127,7 +128,7 @@ def _lines(wings: Wings) -> list[str]:
         x, y, z = 1e3 * wings.H_CL[k, :3, 3]
         turn_deg = np.degrees(np.sqrt(np.trace(wings.covariance[6 * k : 6 * k + 3, 6 * k : 6 * k + 3]) / 3))
         lines.append(
-            f"{wing.name:<6} g {np.degrees(wing.joint_angle_rad):5.1f} deg  at [{x:.1f} {y:.1f} {z:.1f}] mm, turned +- {turn_deg:.2f} deg"
+            f"{wing.name:<6} g {np.degrees(wing.joint_angle_rad):5.1f} deg  at [{x:.1f} {y:.1f} {z:.1f}] mm, turned +- {fine(turn_deg)} deg"
         )
     return lines
 

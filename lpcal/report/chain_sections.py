@@ -21,7 +21,7 @@ FEWEST_CORNERS = 8
 
 def camera_section(report: RigReport) -> Section | None:
     """Intrinsics with their sigmas, residuals a view, coverage of the image, the board's shape."""
-    document = report.get("camera")
+    document = report.camera
     if not document:
         return None
     views = items(document, "views")
@@ -112,7 +112,8 @@ def _intrinsics(document: Document) -> list[tuple[str, str]]:
     ]
     rows += [("rms a coordinate", number(document["rms_px"], 3, "px"))] if document.get("rms_px") else []
     rows += [("corner noise", number(document["corner_sigma_px"], 3, "px"))] if document.get("corner_sigma_px") else []
-    rows += [("solver", str(document["solver"]))] if document.get("solver") else []
+    note = (document.get("evidence") or {}).get("solver_note")
+    rows += [("solver", f"{document['solver']}{f' ({note})' if note else ''}")] if document.get("solver") else []
     return rows
 
 

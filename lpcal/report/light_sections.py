@@ -13,25 +13,27 @@ import numpy as np
 from lpcal.geometry.arrays import Array
 from lpcal.report import charts
 from lpcal.report.rig_report import RigReport, array, items
-from lpcal.report.wording import fixed, number, plural
+from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of
 
 type Section = dict[str, Any]
 
 
 def lights_section(report: RigReport) -> Section | None:
     """One row a light: position, direction, their sigmas, intensity, and the way from the drawing."""
-    document = report.get("lights") or report.get("calibration")
+    document, measured = report.lights, report.intensities_measured
     lights = items(document, "lights")
     if not lights:
         return None
     before = {entry.get("name"): entry for entry in items(report.get("wings"), "lights")}
     focus = document.get("focus_m")
     return {
-        "rows": [_row(light, before.get(light.get("name"), {})) for light in lights],
+        "rows": [_row(light, before.get(light.get("name"), {}), measured=measured) for light in lights],
         "moved": any(light.get("name") in before for light in lights),
+        "measured": measured,
+        "direction_from": "from the focus" if focus else "to the light",
         "focus": None if not focus else ", ".join(fixed(1000 * value, 2) for value in focus),
         "d_object": fixed(1000 * document["d_object_m"], 1, "mm") if document.get("d_object_m") else None,
-        "intensities": charts.bars(_intensities(lights), unit="relative", across="lights in order"),
+        "intensities": charts.bars(_intensities(lights), unit="relative", across="lights in order") if measured else None,
         "lobe": _lobe(lights),
         "warnings": document.get("warnings") or [],
     }
@@ -89,7 +91,7 @@ def _mirror_point(centre_C: Array, radius: float, direction_C: Array) -> Array:
     return point_C
 
 
-def _row(light: dict[str, Any], before: dict[str, Any]) -> Section:
+def _row(light: dict[str, Any], before: dict[str, Any], *, measured: bool) -> Section:
     H_CL = array(light["H_CL"]) if light.get("H_CL") else None
     place = H_CL[:3, 3] if H_CL is not None else array(light["source_m"]) if light.get("source_m") else None
     moved, turned = None, None
@@ -103,13 +105,13 @@ def _row(light: dict[str, Any], before: dict[str, Any]) -> Section:
     return {
         "name": light.get("name"),
         "position": None if place is None else [fixed(1000 * value, 1) for value in place],
-        "position_std": fixed(_scaled(light, "position_std_m", 1000), 2),
-        "direction": [fixed(value, 4) for value in light["direction"]] if light.get("direction") else ["–"] * 3,
-        "direction_std": fixed(light.get("direction_std_deg"), 3),
-        "intensity": " / ".join(fixed(value, 3) for value in intensity),
-        "intensity_std": fixed(_scaled(light, "intensity_std", 100), 2),
-        "moved": moved or "–",
-        "turned": turned or "–",
+        "position_std": sigma_of(_scaled(light, "position_std_m", 1000), 2),
+        "direction": [fixed(value, 4) for value in light["direction"]] if light.get("direction") else [NOTHING] * 3,
+        "direction_std": sigma_of(light.get("direction_std_deg"), 3),
+        "intensity": " / ".join(fixed(value, 3) for value in intensity) if measured else "not measured",
+        "intensity_std": sigma_of(_scaled(light, "intensity_std", 100) if measured else None, 2),
+        "moved": moved or NOTHING,
+        "turned": turned or NOTHING,
     }
 
 
@@ -156,5 +158,5 @@ def _sphere(sphere: dict[str, Any]) -> Section:
         "radius": fixed(_scaled(sphere, "radius_m", 1000), 1),
         "residual": (number(residual, 2, "px") if chrome else number(100 * residual, 2, "%"))
         if isinstance(residual, (int, float))
-        else "–",
+        else NOTHING,
     }

@@ -13,7 +13,7 @@ from lpcal import __version__
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.light_sections import lights_section, spheres_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
-from lpcal.report.scene import rig_scene, room_scene
+from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.templates import environment
 from lpcal.report.verdict import headline, verdicts
 from lpcal.report.wording import Document, with_sigma
@@ -27,6 +27,7 @@ def render(report: RigReport, stamp: str = "") -> str:
     """The page, whole; a stage that is not there is said to be so. `stamp` stands in it and tells later what it was made from."""
     lines = verdicts(report)
     tone, sentence = headline(lines)
+    rig = rig_scene(report)
     return (
         environment()
         .get_template("report.html")
@@ -42,7 +43,9 @@ def render(report: RigReport, stamp: str = "") -> str:
             handeye=handeye_section(report),
             lights=lights_section(report),
             spheres=spheres_section(report),
-            rig=_script(rig_scene(report)),
+            rig=_script(rig),
+            rig_layers=layers_of(rig),
+            rig_caption=rig_caption(report),
             room=_script(room_scene(report)),
             surfaces=[_surface(surface) for surface in report.surfaces],
             provenance=[_provenance(kind, report) for kind in KINDS if report.get(kind)],

@@ -38,6 +38,26 @@ class RigReport:
         """A document, empty where the stage has not run."""
         return self.documents.get(kind) or {}
 
+    @property
+    def camera(self) -> Document:
+        """The camera as solved or read, or the one of an imported calibration; empty for a rig that has none."""
+        return self.get("camera") or self.get("calibration").get("camera") or {}
+
+    @property
+    def lights(self) -> Document:
+        """The document that the lights stand in: refined, or exported or imported; empty where there is none."""
+        return self.get("lights") or self.get("calibration")
+
+    @property
+    def intensities_measured(self) -> bool:
+        """Whether the lights' intensities are more than a stand-in of 1: matte spheres showed them, or an import states them."""
+        lights = items(self.lights, "lights")
+        if any(np.any(array(light.get("intensity")) != 1.0) for light in lights):
+            return True
+        if self.get("lights"):
+            return any(sphere.get("used") and sphere.get("kind") == "matte" for sphere in items(self.get("lights"), "spheres"))
+        return not self.get("wings") and any(light.get("intensity_std") is not None for light in lights)
+
 
 def array(value: Any) -> Array:
     """A nested list as an array, null as NaN."""
@@ -73,10 +93,9 @@ def sigmas(covariance: Any, size: int) -> Array:
 def origin_sigmas(H: Array, covariance: Any) -> Array:
     """Standard deviations (6,) of a rotation (rad) and of the origin (m), from the covariance (6, 6) of the left perturbation.
 
-    With ``H = exp(xi) H_mean`` and ``xi = (phi, rho)`` the origin p moves by ``rho + phi x p``.
+    NaN where there is no covariance.
     """
     if covariance is None or np.shape(covariance) != (6, 6):
         return np.full(6, np.nan)
-    J = np.eye(6)
-    J[3:, :3] = -se3.hat(H[:3, 3])
+    J = se3.turn_and_origin_jacobian(H)
     return sigmas(J @ array(covariance) @ J.T, 6)

@@ -18,30 +18,31 @@ type Scene = dict[str, Any]
 type Item = dict[str, Any]
 
 CONE_M = 0.06
+DISTANT_M = (0.05, 0.3)
+"""Metres from the focus between which the line of a distant light is drawn: it has a direction only, this is about a rig's size."""
 BOARDS_SHOWN = 48
 MANY = 30
 
 
 def rig_scene(report: RigReport) -> Scene | None:
     """The rig in C: camera, lights with axis and cone, where they were designed, panel frame, focus, the board's stations."""
-    document = report.get("lights") or report.get("calibration") or report.get("wings")
+    document = report.lights or report.get("wings")
     lights = items(document, "lights")
-    camera = report.get("camera") or report.get("calibration").get("camera") or {}
+    camera = report.camera
     if not lights:
         return None
     focus = array(document["focus_m"]) if document.get("focus_m") else None
-    drawn: list[Item] = _camera(np.eye(4), camera, 0.05, "camera", "camera")
+    drawn: list[Item] = _camera(np.eye(4), camera, 0.05, "camera", "camera") if camera else []
     reach = [np.zeros(3)]
     for light in lights:
         drawn += _light(light, focus)
         where = _place(light)
-        if where is not None:
-            reach.append(where)
+        reach.append(_towards(light, focus)[0] if where is None else where)
     drawn += _designed(report, lights) + _struts(report)
     H_CD = document.get("H_CD") or report.get("wings").get("H_CD")
     if H_CD:
         drawn += _triad(array(H_CD), 0.055, "D", "frames")
-    drawn += _triad(np.eye(4), 0.035, "C", "frames")
+    drawn += _triad(np.eye(4), 0.035, "C", "frames") if camera else []
     H_PC = report.get("handeye").get("H_PC")
     if H_PC:
         drawn += _triad(se3.inv(array(H_PC)), 0.075, "P", "frames")
@@ -53,6 +54,23 @@ def rig_scene(report: RigReport) -> Scene | None:
         reach.append(focus)
     drawn += _boards(report)
     return _scene(drawn, np.array(reach), up=[0, -1, 0], yaw=-0.75, pitch=0.35)
+
+
+LAYERS = {"axes": "axes", "wings": "wings", "designed": "as designed", "frames": "frames", "boards": "board views"}
+"""What of the rig can be shown or hidden, and its name on the page."""
+
+
+def layers_of(scene: Scene | None) -> list[tuple[str, str, bool]]:
+    """Layers that the scene has, their names, and whether they show at first."""
+    found = {item["layer"] for item in (scene or {"items": []})["items"]}
+    return [(layer, name, layer != "boards") for layer, name in LAYERS.items() if layer in found]
+
+
+def rig_caption(report: RigReport) -> str:
+    """From where the rig is seen, and what of it is drawn to scale."""
+    placed = any(_place(light) is not None for light in items(report.lights or report.get("wings"), "lights"))
+    view = "seen from behind the camera" if report.camera else "directions to the lights, x right and y down as in the images"
+    return f"{view}, at true scale" if placed else view if not report.camera else f"{view}, lights drawn where they come from, not how far"
 
 
 def room_scene(report: RigReport) -> Scene | None:
@@ -118,12 +136,17 @@ def _place(light: dict[str, Any]) -> Array | None:
     return array(light["source_m"]) if light.get("source_m") else None
 
 
+def _towards(light: dict[str, Any], focus: Array | None) -> list[Array]:
+    """The line of a distant light, its far end first: towards the focus, or the origin."""
+    direction = array(light["direction"])
+    centre = focus if focus is not None else np.zeros(3)
+    return [centre + DISTANT_M[1] * direction, centre + DISTANT_M[0] * direction]
+
+
 def _light(light: dict[str, Any], focus: Array | None) -> list[Item]:
     where = _place(light)
-    if where is None:  # a distant light: an arrow towards the origin
-        direction = array(light["direction"])
-        centre = focus if focus is not None else np.zeros(3)
-        line = [centre + 0.3 * direction, centre + 0.05 * direction]
+    if where is None:
+        line = _towards(light, focus)
         return [
             {"kind": "line", "p": line, "tone": "light", "layer": "rig"},
             {"kind": "label", "p": [line[0]], "text": light["name"], "tone": "light", "layer": "rig"},

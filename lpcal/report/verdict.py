@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.report.rig_report import RigReport, SurfaceReport, array, items, origin_sigmas, sigmas
-from lpcal.report.wording import Document, fixed, number, plural, with_sigma
+from lpcal.report.wording import Document, fixed, number, plural, sigma_of, with_sigma
 
 GATES = {
     "camera_rms_px": (0.3, 0.7),
@@ -21,6 +21,16 @@ GATES = {
     "light_deg": (0.2, 0.6),
     "light_percent": (2.0, 5.0),
     "surface_percent": (1.0, 3.0),
+}
+GATE_WORDS = {
+    "camera_rms_px": "rms ≤ {:g} px",
+    "camera_focal_percent": "focal length ≤ {:g} %",
+    "handeye_deg": "H_PC ≤ {:g}°",
+    "handeye_mm": "H_PC ≤ {:g} mm",
+    "clock_ms": "clock ≤ {:g} ms",
+    "light_deg": "direction ≤ {:g}°",
+    "light_percent": "intensity ≤ {:g} %",
+    "surface_percent": "distance ≤ {:g} %",
 }
 LEVELS = ("good", "fair", "poor")
 WORDS = {"good": "good", "fair": "fair", "poor": "poor", "none": "not judged", "absent": "not there"}
@@ -46,10 +56,10 @@ class Verdict:
 def verdicts(report: RigReport) -> list[Verdict]:
     """A line a stage, in the chain's order."""
     lines = [
-        _camera(report.get("camera")),
+        _camera(report.camera, lights=bool(report.get("calibration"))),
         _handeye(report.get("handeye")),
         _wings(report.get("wings")),
-        _lights(report.get("lights") or report.get("calibration"), refined=bool(report.get("lights"))),
+        _lights(report),
     ]
     return [*lines, *(_surface(surface) for surface in report.surfaces)]
 
@@ -79,6 +89,11 @@ def _level(*measured: tuple[float, str]) -> str:
     return LEVELS[int(max(found))] if found else "none"
 
 
+def _gate(*measured: tuple[float, str]) -> str:
+    """The gates for good of the figures that there are, in words."""
+    return ", ".join(GATE_WORDS[gate].format(GATES[gate][0]) for value, gate in measured if np.isfinite(value))
+
+
 def _lower(tone: str, notes: tuple[str, ...]) -> str:
     return "fair" if notes and tone == "good" else tone
 
@@ -87,7 +102,9 @@ def _warnings(document: Document) -> tuple[str, ...]:
     return tuple(str(line) for line in document.get("warnings") or ())
 
 
-def _camera(document: Document) -> Verdict:
+def _camera(document: Document, *, lights: bool) -> Verdict:
+    if not document and lights:
+        return Verdict("camera", "Camera", "absent", "No camera: rays are taken as parallel, and no distance is known.")
     if not document:
         return Verdict("camera", "Camera", "absent", "No intrinsics: lpcal intrinsics, or camera.cameramodel in panel.yaml.")
     K = document.get("K")
@@ -100,9 +117,9 @@ def _camera(document: Document) -> Verdict:
     found = f"{document.get('model', 'a camera')}, fx {with_sigma(focal, sigma, 'px')}"
     found += f", rms {number(rms, 2, 'px')} a coordinate" if np.isfinite(rms) else ", as given"
     found += f", {used} of {plural(len(views), 'view')}" if views else ""
-    tone = _level((rms, "camera_rms_px"), (100 * sigma / focal, "camera_focal_percent"))
+    measured = ((rms, "camera_rms_px"), (100 * sigma / focal, "camera_focal_percent"))
     notes = _warnings(document)
-    return Verdict("camera", "Camera", _lower(tone, notes), found, "rms ≤ 0.3 px and focal length ≤ 0.2 %", notes)
+    return Verdict("camera", "Camera", _lower(_level(*measured), notes), found, _gate(*measured), notes)
 
 
 def _handeye(document: Document) -> Verdict:
@@ -114,12 +131,12 @@ def _handeye(document: Document) -> Verdict:
     offset_ms, clock = (None, float("nan")) if offset is None else (1000 * offset, 1000 * (offset_std or float("nan")))
     views = items(document, "views")
     used = sum(bool(view.get("used")) for view in views)
-    found = f"H_PC within {fixed(turn, 3, '°')} and {fixed(shift, 2, 'mm')} an axis"
+    found = f"H_PC within {sigma_of(turn, 3, '°')} and {sigma_of(shift, 2, 'mm')} an axis"
     found += f", clock offset {with_sigma(offset_ms, clock, 'ms')}" if offset_ms is not None else ", no clock offset"
     found += f", {used} of {plural(len(views), 'view')}" if views else ""
-    tone = _level((turn, "handeye_deg"), (shift, "handeye_mm"), (clock, "clock_ms"))
+    measured = ((turn, "handeye_deg"), (shift, "handeye_mm"), (clock, "clock_ms"))
     notes = _warnings(document)
-    return Verdict("handeye", "Hand-eye", _lower(tone, notes), found, "H_PC ≤ 0.08° and ≤ 0.8 mm, clock ≤ 0.5 ms", notes)
+    return Verdict("handeye", "Hand-eye", _lower(_level(*measured), notes), found, _gate(*measured), notes)
 
 
 def _wings(document: Document) -> Verdict:
@@ -133,21 +150,25 @@ def _wings(document: Document) -> Verdict:
     return Verdict("wings", "Wings", "none", found, "the prior: refined by the spheres", _warnings(document))
 
 
-def _lights(document: Document, *, refined: bool) -> Verdict:
+def _lights(report: RigReport) -> Verdict:
+    document, refined = report.lights, bool(report.get("lights"))
     if not document:
         return Verdict("lights", "Lights", "absent", "No lights: lpcal refine, or lpcal export.")
     lights = items(document, "lights")
     direction = _worst(lights, "direction_std_deg")
     position = 1000 * _worst(lights, "position_std_m")
-    intensity = 100 * _worst(lights, "intensity_std")
+    intensity = 100 * _worst(lights, "intensity_std") if report.intensities_measured else float("nan")
     spheres = items(document, "spheres")
     used = sum(bool(sphere.get("used")) for sphere in spheres)
-    found = f"{plural(len(lights), 'light')}, worst direction {fixed(direction, 2, '°')} an axis, position {fixed(position, 1, 'mm')}"
-    found += f", intensity {fixed(intensity, 1, '%')}" if np.isfinite(intensity) else ""
+    found = plural(len(lights), "light")
+    found += f", worst direction {sigma_of(direction, 2, '°')} an axis" if np.isfinite(direction) else ""
+    found += f", position {sigma_of(position, 1, 'mm')}" if np.isfinite(position) else ""
+    found += f", intensity {sigma_of(intensity, 1, '%')}" if np.isfinite(intensity) else ""
+    found += "" if report.intensities_measured else ", intensity not measured"
     found += f", {used} of {plural(len(spheres), 'sphere')}" if spheres else ""
-    tone = _level((direction, "light_deg"), (intensity, "light_percent"))
+    measured = ((direction, "light_deg"), (intensity, "light_percent"))
     notes = _warnings(document) if refined else ("The lights stand as designed or imported; no spheres refined them.", *_warnings(document))
-    return Verdict("lights", "Lights", _lower(tone, notes), found, "direction ≤ 0.2° and intensity ≤ 2 %", notes)
+    return Verdict("lights", "Lights", _lower(_level(*measured), notes), found, _gate(*measured), notes)
 
 
 def _worst(lights: list[dict[str, object]], key: str) -> float:
@@ -162,7 +183,8 @@ def _surface(surface: SurfaceReport) -> Verdict:
     spread = [100 * float(piece["scale_std"]) for piece in pieces if metric and isinstance(piece.get("scale_std"), (int, float))]
     pixels = sum(int(piece.get("pixels") or 0) for piece in pieces)
     found = f"{pixels:,} pixels in {plural(len(pieces), 'piece')}".replace(",", "\N{NARROW NO-BREAK SPACE}") if pieces else "a surface"
+    measured = (max(spread, default=float("nan")), "surface_percent")
     if spread and pieces[0].get("mean_depth_m") is not None:
         depth = float(pieces[0]["mean_depth_m"])
         found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away"
-    return Verdict("surface", surface.name, _level((max(spread, default=float("nan")), "surface_percent")), found, "distance ≤ 1 %")
+    return Verdict("surface", surface.name, _level(measured), found, _gate(measured))

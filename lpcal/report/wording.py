@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from lpcal.records.digits import fine
+
 type Document = Mapping[str, Any]
 """A document that a stage wrote, as read."""
 
@@ -29,7 +31,12 @@ def number(value: Any, digits: int = 3, unit: str = "") -> str:
 
 def fixed(value: Any, decimals: int, unit: str = "") -> str:
     """A number to some decimals; a dash for none."""
-    return _signed(f"{float(value):.{decimals}f}") + _unit(unit) if _finite(value) else NOTHING
+    return _signed(f"{float(value):z.{decimals}f}") + _unit(unit) if _finite(value) else NOTHING
+
+
+def sigma_of(value: Any, decimals: int, unit: str = "") -> str:
+    """A standard deviation with two significant digits at least, some decimals at least; a dash for none."""
+    return _signed(fine(float(value), decimals)) + _unit(unit) if _finite(value) else NOTHING
 
 
 def with_sigma(value: Any, sigma: Any, unit: str = "") -> str:

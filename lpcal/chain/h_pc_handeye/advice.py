@@ -18,6 +18,7 @@ import numpy as np
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.digits import fine
 
 TURN_DEG = 20.0
 FEWEST_MORE, MORE_SHARE = 6, 0.2
@@ -48,12 +49,13 @@ class Advice:
 
     def words(self) -> str:
         """In one sentence."""
-        now = f"worst along {_named(self.direction_P)} of the panel, {1e3 * self.sigma_m:.2f} mm, and {np.degrees(self.sigma_rad):.3f} deg"
+        worst = f"{fine(1e3 * self.sigma_m)} mm, and {fine(np.degrees(self.sigma_rad), 3)} deg"
+        now = f"worst along {_named(self.direction_P)} of the panel, {worst}"
         if self.sigma_m_after > WORTH * self.sigma_m and self.sigma_rad_after > WORTH * self.sigma_rad:
             return f"{now}; no turn about one axis mends that, four times as many views like these halve it"
         return (
             f"{now}; {self.more} more views with the panel turned by up to {TURN_DEG:.0f} deg either way about its {self.turn_about}, the "
-            f"board kept in sight, make that {1e3 * self.sigma_m_after:.2f} mm and {np.degrees(self.sigma_rad_after):.3f} deg"
+            f"board kept in sight, make that {fine(1e3 * self.sigma_m_after)} mm and {fine(np.degrees(self.sigma_rad_after), 3)} deg"
         )
 
     def warning(self) -> str | None:
@@ -103,19 +105,9 @@ def _weight(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> Array:
 
 def _information(H_OP: Array, H_OB: Array, weight: Array) -> Array:
     """(12, 12) of H_PC and H_OB."""
-    A = np.eye(6)
-    A[3:, :3] = -se3.hat(H_OB[:3, 3])
-    J = np.concatenate([A @ _adjoint(H_OP), np.broadcast_to(-A, (len(H_OP), 6, 6))], axis=2)
+    A = se3.turn_and_origin_jacobian(H_OB)
+    J = np.concatenate([A @ se3.adjoint(H_OP), np.broadcast_to(-A, (len(H_OP), 6, 6))], axis=2)
     return np.asarray(np.einsum("nki,k,nkj->ij", J, weight, J))
-
-
-def _adjoint(H: Array) -> Array:
-    """(N, 6, 6) that takes a left perturbation of what stands behind H to one of the product; rotation first."""
-    R = H[:, :3, :3]
-    found = np.zeros((len(H), 6, 6))
-    found[:, :3, :3] = found[:, 3:, 3:] = R
-    found[:, 3:, :3] = se3.hat(H[:, :3, 3]) @ R
-    return found
 
 
 def _covariance(N: Array) -> Array:
@@ -126,8 +118,7 @@ def _covariance(N: Array) -> Array:
 
 def _centred(covariance: Array, H_PC: Array) -> Array:
     """Covariance of turn and of the camera's centre, of that of a left perturbation."""
-    T = np.eye(6)
-    T[3:, :3] = -se3.hat(H_PC[:3, 3])
+    T = se3.turn_and_origin_jacobian(H_PC)
     return np.asarray(T @ covariance @ T.T)
 
 

@@ -22,15 +22,17 @@ import numpy as np
 from lpcal.errors import DisagreementError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.digits import fine
 
 FITS = 0.03
 """Misplacement of the board, as a share of its distance, up to which data count as one rigid motion; real ones leave 0.002 to 0.012."""
 MENDS = 0.35
 """A cure counts where it lessens the misplacement to this share."""
 SCALE_TOLERANCE = 0.2
-BOARD_OFF, BOARD_SIGMAS = 0.004, 4.0
-SCALE_SIGMAS = 2.5
-"""Sigmas by which the board's size must differ from the mocap's metre for that to be a doubt beyond the noise, which is counted already."""
+BOARD_OFF = 0.004
+"""Share by which the board's size must differ from the mocap's metre to be worth a word: a tenth of a millimetre in a square of 25."""
+BOARD_SIGMAS = 3.0
+"""Standard deviations by which it must differ: of sound data one session in 400 does."""
 FAR_M = 1.0
 ON_BODY_M = 0.6
 """Metres from the body's origin within which a board that it carries lies."""
@@ -142,30 +144,15 @@ def _turned_round(poses: Array) -> Array:
     return se3.inv(poses)
 
 
-def scale_doubt(H_OP: Array, H_CB: Array, R_PC: Array) -> Array | None:
-    """How far H_PC and H_OB move (12,), as left perturbations, if the board is as large as the mocap measures it; None where it agrees.
-
-    The data cannot tell which of the two lengths is right, the square as it was measured or the mocap's metre: what the solve would find
-    with the other one is one standard deviation away, along this vector.
-    """
-    scale, sigma = park.board_scale(H_OP, H_CB, R_PC)
-    if not abs(scale - 1) > SCALE_SIGMAS * sigma:
+def board_size_warning(scale: float, sigma: float, H_PC: Array) -> str | None:
+    """In words, where the mocap finds the board another size than it was said to have, by its scale and that one's sigma."""
+    if abs(scale - 1) < max(BOARD_OFF, BOARD_SIGMAS * sigma):
         return None
-    larger = H_CB.copy()
-    larger[:, :3, 3] *= scale
-    pairs = zip(park.park(H_OP, larger), park.park(H_OP, H_CB), strict=True)
-    return np.concatenate([se3.log(after @ se3.inv(before)) for after, before in pairs])
-
-
-def board_size_warning(H_OP: Array, H_CB: Array, R_PC: Array) -> str | None:
-    """In words, where the mocap finds the board another size than it was said to have."""
-    scale, sigma = park.board_scale(H_OP, H_CB, R_PC)
-    off = abs(scale - 1)
-    if sigma > BOARD_OFF or off < BOARD_OFF or off < BOARD_SIGMAS * sigma:
-        return None
+    otherwise = ", ".join(f"{1e3 * value:.1f}" for value in H_PC[:3, 3] / scale)
     return (
-        f"the mocap measures the board as {100 * scale:.2f} +- {100 * sigma:.2f} % of its stated size: measure board.square again with a "
-        "ruler over many squares (or the mocap's own scale is off); the sigmas of H_PC hold that doubt"
+        f"the mocap measures the board as {100 * scale:.2f} +- {fine(100 * sigma)} % of its stated size; which of the two is right these "
+        f"data cannot tell. H_PC is in the mocap's metres: if those are right, board.square is wrong (measure it over many squares); if "
+        f"board.square is right, all of the mocap's lengths are wrong by as much and the camera is at {otherwise} mm in the body"
     )
 
 

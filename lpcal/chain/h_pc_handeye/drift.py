@@ -45,7 +45,7 @@ def drift_of(state: State, t_s: Array) -> Drift | None:
     moving = state.inliers & np.any(state.panel.velocity != 0, axis=1)
     if moving.sum() < FEWEST:
         return None
-    H_OP = found.H_OB @ se3.inv(found.H_PC @ state.boards.H_CB[moving])
+    H_OP = found.H_OB @ se3.inv(found.H_PC @ found.in_mocap_metres(state.boards.H_CB[moving]))
     measured, u = state.panel.H[moving], state.panel.velocity[moving]
     turn = se3.rotation_vector(H_OP[:, :3, :3] @ np.swapaxes(measured[:, :3, :3], 1, 2))
     e = np.concatenate([turn, H_OP[:, :3, 3] - measured[:, :3, 3]], axis=1)

@@ -63,9 +63,6 @@ def finding_of(
     spread, more = observability.refuse_what_cannot_show_it(views.H_OP)
     factor = variance.block_factor(views, found, None if t_camera_s is None else t_camera_s[state.inliers])
     covariance = found.covariance() * factor
-    doubt = congruence.scale_doubt(views.H_OP, views.H_CB, found.H_PC[:3, :3])
-    if doubt is not None:
-        covariance[:12, :12] += np.outer(doubt, doubt)
     bad = float(np.mean(~state.inliers[state.panel.trusted]))
     if bad > MOST_BAD:
         raise ConvergenceError(
@@ -75,9 +72,9 @@ def finding_of(
     fixed = congruence.fixed_camera(found.H_PC, found.H_OB, inverted=inverted)
     if fixed is not None:
         raise fixed
-    size = congruence.board_size_warning(views.H_OP, views.H_CB, found.H_PC[:3, :3])
+    size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC)
     roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
-    advised = advise(views.H_OP, views.H_CB, found.H_PC, found.H_OB, covariance[:6, :6])
+    advised = advise(views.H_OP, found.in_mocap_metres(views.H_CB), found.H_PC, found.H_OB, covariance[:6, :6])
     warnings += [each for each in (size, roles, advised.warning()) if each is not None]
     clocked = state.clock and t_camera_s is not None
     offset = state.offset_s if clocked else known_offset_s
@@ -147,6 +144,8 @@ def _evidence(state: State, found: Estimate, spread: observability.Spread, facto
         "mocap_sigma_m": s.mocap_m[0],
         "closed_form_H_PC": state.start[0],
         "covariance_factor_of_shared_errors": factor,
+        "board_size_by_mocap": found.scale,
+        "board_size_by_mocap_std": found.scale_std * np.sqrt(factor),
         "views_that_share_an_error": float(np.median(state.deflation[state.inliers])),
     }
     if group:

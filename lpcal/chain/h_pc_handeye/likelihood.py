@@ -8,6 +8,13 @@ measured pose H~_k, the velocity (w, v) of the panel and d = offset - offset_0::
                           sensors (they cannot be told apart without corners), so that no latent pose is needed
     mocap pose k:         [ rotation( R_OP,k R~_k^T (I + d hat(w)) ),  t_OP,k - t~_k + d v ] / sigmas
     camera:               its prior from the intrinsics' covariance
+    scale:                log s / its prior's sigma, s the board's size by the mocap over its stated size: x_B,m stands for s x_B,m above
+
+Metres are the mocap's. That the board's square and the mocap's metre are both known to some parts in a thousand only is always in the
+covariance, as s is solved for: with a board that is wrong (s x_B) the rotation and the position of H_PC are right; with a mocap whose
+metre is wrong the data are the same, H_PC is right in the mocap's metres, in which H_OP comes too, and its position in true metres is
+1/s of that. So no choice between the two is called for, and nothing but the unit of the position hangs on it. With s held at 1 instead,
+a wrong one moves the camera along its view of the board by up to (s - 1) times the board's distance, and turns it.
 
 The clock's part is linear in d: `solve` relinearises. Source: the usual joint formulation of robot-world hand-eye calibration with
 errors in both sensors, for example Koide & Menegatti, General hand-eye calibration based on reprojection error minimization (2019).
@@ -26,6 +33,11 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.least_squares import POSE, Block, Model, Options, Solution, Term, compile_residual, matrix, prior, small_rotation, solve
 
+SCALE_SIGMA = 0.005
+"""One standard deviation of the board's size by the mocap over its stated size, before the data: printers miss by up to a percent, the
+wand that a mocap's metre comes from by a tenth to half of one."""
+PRIORS = ("camera", "scale")
+"""Kinds of terms that no view has a part in."""
 CAMERA_SIZE = 12
 """fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6."""
 
@@ -101,6 +113,8 @@ class Sigmas:
     mocap_rad: tuple[float, ...] = (np.deg2rad(0.075), np.deg2rad(0.075))
     """By noise class."""
     mocap_m: tuple[float, ...] = (2e-4, 2e-4)
+    log_scale: float = SCALE_SIGMA
+    """Of the board's size: as wide as it is before the data, and as what was found, so that a board far off is not pulled back."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +125,11 @@ class Estimate:
     H_OB: Array
     camera: Array
     d_offset_s: float
+    scale: float
+    """The board's size by the mocap over its stated size."""
     solution: Solution
     order: tuple[str, ...]
-    """Kinds of the solution's terms: corners | board, mocap, camera."""
+    """Kinds of the solution's terms: corners | board, mocap, camera, scale."""
     sigmas: Sigmas
     """Those that it was weighted by."""
 
@@ -122,14 +138,14 @@ class Estimate:
         return self.order.index(kind) if kind in self.order else -1
 
     def views_of(self, kind: str) -> npt.NDArray[np.intp]:
-        """The view (K,) of each observation of a kind of term that is not the camera's prior."""
+        """The view (K,) of each observation of a kind of term that is no prior."""
         term = self.solution.terms[self.term(kind)]
         return term.items(term.blocks.index("H_OP")) if "H_OP" in term.blocks else np.arange(term.count)
 
     def of_views(self, chosen: Mask) -> list[Mask]:
         """Which observations (K,) of each term belong to chosen views (N,)."""
         terms = zip(self.order, self.solution.terms, strict=True)
-        return [np.zeros(term.count, dtype=bool) if kind == "camera" else chosen[self.views_of(kind)] for kind, term in terms]
+        return [np.zeros(term.count, dtype=bool) if kind in PRIORS else chosen[self.views_of(kind)] for kind, term in terms]
 
     def corner_residuals(self) -> tuple[Array, npt.NDArray[np.intp]]:
         """Residuals (K, 2) of the corners in pixels of the image, and the view (K,) of each; empty where there are no corners."""
@@ -138,6 +154,17 @@ class Estimate:
             return np.zeros((0, 2)), np.zeros(0, dtype=np.intp)
         term = self.solution.terms[place]
         return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, self.views_of("corners")
+
+    def in_mocap_metres(self, H_CB: Array) -> Array:
+        """Board poses (N, 4, 4) at the board's size as found."""
+        found = H_CB.copy()
+        found[..., :3, 3] *= self.scale
+        return found
+
+    @property
+    def scale_std(self) -> float:
+        """One standard deviation of the scale."""
+        return float(self.scale * np.sqrt(self.solution.covariance("scale")[0, 0]))
 
     def covariance(self) -> Array:
         """(13, 13) of H_PC, H_OB (left perturbations) and the offset."""
@@ -161,20 +188,26 @@ def estimate(
         As `least_squares.solve`.
     """
     H_PC, H_OB = (start.H_PC, start.H_OB) if isinstance(start, Estimate) else start
-    blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock)}
-    if views.corners_px is None or camera is None:
-        found = solve(blocks, [_board_term(views, sigmas)], options=options)
-        return Estimate(found["H_PC"][0], found["H_OB"][0], np.zeros(CAMERA_SIZE), float(found["clock"][0, 0]), found, ("board",), sigmas)
     earlier = start if isinstance(start, Estimate) else None
+    log_scale = Block(np.full((1, 1), 0.0 if earlier is None else np.log(earlier.scale)))
+    blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock), "scale": log_scale}
+    of_scale = prior("scale", log_scale, np.zeros(1), np.array([[sigmas.log_scale**2]]))
+    if views.corners_px is None or camera is None:
+        return _estimate(solve(blocks, [_board_term(views, sigmas), of_scale], options=options), ("board", "scale"), sigmas)
     same_views = earlier is not None and len(earlier.solution["H_OP"]) == views.count
     blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same_views else views.H_OP)
     blocks["camera"] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
-    terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas)], ["mocap", "corners"]
+    terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas), of_scale], ["mocap", "corners", "scale"]
     if camera.free.any():
         terms.append(_camera_prior(camera))
         order.append("camera")
-    found = solve(blocks, terms, eliminate="H_OP", options=options)
-    return Estimate(found["H_PC"][0], found["H_OB"][0], found["camera"][0], float(found["clock"][0, 0]), found, tuple(order), sigmas)
+    return _estimate(solve(blocks, terms, eliminate="H_OP", options=options), tuple(order), sigmas)
+
+
+def _estimate(found: Solution, order: tuple[str, ...], sigmas: Sigmas) -> Estimate:
+    camera = found["camera"][0] if "camera" in found.blocks else np.zeros(CAMERA_SIZE)
+    clock, scale = float(found["clock"][0, 0]), float(np.exp(found["scale"][0, 0]))
+    return Estimate(found["H_PC"][0], found["H_OB"][0], camera, clock, scale, found, order, sigmas)
 
 
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
@@ -190,8 +223,8 @@ def _corner_term(views: Views, sigmas: Sigmas) -> Term:
     scale = np.ones(len(view)) if views.corner_scale is None else views.corner_scale[view, corner]
     return Term(
         _corner_model(),
-        ("H_PC", "H_OB", "H_OP", "camera"),
-        (0, 0, view, 0),
+        ("H_PC", "H_OB", "H_OP", "camera", "scale"),
+        (0, 0, view, 0, 0),
         data,
         weight=np.repeat(scale[:, None] ** -2.0, 2, axis=1) / sigmas.px**2,
     )
@@ -201,7 +234,7 @@ def _board_term(views: Views, sigmas: Sigmas) -> Term:
     s = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
     weight = np.array(s) ** -2.0 / views.deflation[:, None]
     data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity, views.H_CB.reshape(-1, 16)], axis=1)
-    return Term(_board_model(), ("H_PC", "H_OB", "clock"), (0, 0, 0), data, weight=weight)
+    return Term(_board_model(), ("H_PC", "H_OB", "clock", "scale"), (0, 0, 0, 0), data, weight=weight)
 
 
 def _camera_prior(camera: CameraPrior) -> Term:
@@ -227,22 +260,22 @@ def _mocap_model() -> Model:
 def _board_model() -> Model:
     import casadi as ca
 
-    def residual(H_PC: Any, H_OB: Any, d: Any, data: Any) -> Any:
+    def residual(H_PC: Any, H_OB: Any, d: Any, log_scale: Any, data: Any) -> Any:
         H_then, w, v, H_seen = matrix(data[:16], 4, 4), data[16:19], data[19:22], matrix(data[22:], 4, 4)
         R_OP, t_OP = (ca.SX.eye(3) - ca.skew(w) * d) @ H_then[:3, :3], H_then[:3, 3] - v * d
         R_OC, t_OC = R_OP @ H_PC[:3, :3], R_OP @ H_PC[:3, 3] + t_OP
         turn = R_OC.T @ H_OB[:3, :3] @ H_seen[:3, :3].T
-        return ca.vertcat(small_rotation(turn), R_OC.T @ (H_OB[:3, 3] - t_OC) - H_seen[:3, 3])
+        return ca.vertcat(small_rotation(turn), R_OC.T @ (H_OB[:3, 3] - t_OC) * ca.exp(-log_scale) - H_seen[:3, 3])
 
-    return compile_residual(residual, (POSE, POSE, 1), 38)
+    return compile_residual(residual, (POSE, POSE, 1, 1), 38)
 
 
 @cache
 def _corner_model() -> Model:
     import casadi as ca
 
-    def residual(H_PC: Any, H_OB: Any, H_OP: Any, camera: Any, data: Any) -> Any:
-        x_O = H_OB[:3, :3] @ data[2:] + H_OB[:3, 3]
+    def residual(H_PC: Any, H_OB: Any, H_OP: Any, camera: Any, log_scale: Any, data: Any) -> Any:
+        x_O = H_OB[:3, :3] @ (ca.exp(log_scale) * data[2:]) + H_OB[:3, 3]
         x_P = H_OP[:3, :3].T @ (x_O - H_OP[:3, 3])
         x_C = H_PC[:3, :3].T @ (x_P - H_PC[:3, 3])
         x, y = x_C[0] / x_C[2], x_C[1] / x_C[2]
@@ -253,10 +286,10 @@ def _corner_model() -> Model:
         y_d = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
         return ca.vertcat(camera[0] * x_d + camera[2], camera[1] * y_d + camera[3]) - data[:2]
 
-    return compile_residual(residual, (POSE, POSE, POSE, CAMERA_SIZE), 5)
+    return compile_residual(residual, (POSE, POSE, POSE, CAMERA_SIZE, 1), 5)
 
 
 def misfit(views: Views, found: Estimate) -> tuple[Array, Array]:
     """Angle (N,) and distance (N,) by which each view's board, seen through the measured panel pose, misses H_OB."""
-    H_OB_k = views.H_OP @ found.H_PC @ views.H_CB
+    H_OB_k = views.H_OP @ found.H_PC @ found.in_mocap_metres(views.H_CB)
     return se3.angle_rad(H_OB_k[:, :3, :3] @ found.H_OB[:3, :3].T), np.linalg.norm(H_OB_k[:, :3, 3] - found.H_OB[:3, 3], axis=1)

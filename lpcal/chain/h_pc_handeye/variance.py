@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye.likelihood import Estimate, Sigmas, Views
+from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, Estimate, Sigmas, Views
 from lpcal.errors import DegenerateError
 from lpcal.geometry.arrays import Array
 
@@ -38,6 +38,7 @@ FLOOR_PX = 1e-3
 
 def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
     """The sigmas that the residuals show, at the present weights."""
+    sigmas = replace(sigmas, log_scale=float(np.hypot(SCALE_SIGMA, np.log(found.scale))))
     if (place := found.term("board")) >= 0:
         r, free = found.solution.residuals[place], 1 - found.solution.leverage(place)
         return replace(
@@ -71,7 +72,9 @@ def row_sigmas(views: Views, sigmas: Sigmas, kind: str) -> Array:
 
 def change(before: Sigmas, after: Sigmas) -> float:
     """The largest relative change of a sigma."""
-    old, new = (np.array([s.px, s.board_rad, s.board_lateral_m, s.board_depth_m, *s.mocap_rad, *s.mocap_m]) for s in (before, after))
+    old, new = (
+        np.array([s.px, s.board_rad, s.board_lateral_m, s.board_depth_m, *s.mocap_rad, *s.mocap_m, s.log_scale]) for s in (before, after)
+    )
     return float(np.max(np.abs(new / old - 1)))
 
 

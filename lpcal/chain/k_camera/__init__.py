@@ -85,8 +85,8 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         views=_verdicts(views, found, misfits, fit),
         solver=name,
         corner_sigma_px=fit.sigma_px,
-        evidence=_evidence(chosen, tried, fit, board) | figures,
-        warnings=(*((missing,) if missing else ()), *doubts, *unmodelled, *blurred_or_glaring(views.views)),
+        evidence=_evidence(chosen, tried, fit, board) | figures | ({"solver_note": missing} if missing else {}),
+        warnings=(*doubts, *unmodelled, *blurred_or_glaring(views.views)),
         cameramodel=fit.cameramodel() if fit.cameramodel else "",
         H_CB={views.views[index].image: H_CB for index, H_CB in zip(found, fit.H_CB, strict=True)},
     )

@@ -88,7 +88,7 @@ class Bundle:
         """Derivatives of the projection by the shared unknowns (N, M, 2, S) and by the poses (N, M, 2, 6)."""
         x_C = se3.apply(state.H_CB, self.shaped(state))
         J_x = projection_jacobian(x_C, state.K, state.distortion)
-        poses = np.concatenate([-J_x @ se3.hat(x_C), J_x], axis=-1)
+        poses = J_x @ se3.point_jacobian(x_C)
         shared = [lens_jacobian(x_C, state.K, state.distortion)] if self.free_lens else []
         if len(self.terms.names):
             J_B = J_x @ state.H_CB[:, None, :3, :3]

@@ -32,9 +32,9 @@ def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> Lig
         H_CL, block = wings.H_CL[k], wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
         axis_C = H_CL[:3, 2]
         source_C = H_CL[:3, 3] + SOURCE_OFFSET_M * axis_C
-        carry = _point_by_twist(source_C)
+        carry = se3.point_jacobian(source_C)
         covariance = carry @ block @ carry.T + SOURCE_OFFSET_SIGMA_M**2 * np.outer(axis_C, axis_C)
-        origin = _point_by_twist(H_CL[:3, 3])
+        origin = se3.point_jacobian(H_CL[:3, 3])
         found.append(
             Light(
                 name=wings.wings[k].name,
@@ -70,7 +70,7 @@ def near_lights(
             source_C=fit.source_C[k],
             axis_C=axes[k],
             lobe=known[k] or Lobe(),
-            position_std_m=_per_axis(_origin_covariance(fit, k) if row is not None else covariance),
+            position_std_m=_per_axis(se3.origin_covariance(fit.H_CL[k], fit.frame_covariance[k]) if row is not None else covariance),
             direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
             intensity_std=intensity_sd,
         )
@@ -148,20 +148,11 @@ def _frame_at(source_C: Array, axis_C: Array) -> Array:
     return se3.transform(np.stack([x, np.cross(axis_C, x), axis_C], axis=1), source_C)
 
 
-def _origin_covariance(fit: GeometryFit, k: int) -> Array:
-    carry = _point_by_twist(fit.H_CL[k, :3, 3])
-    return carry @ fit.frame_covariance[k] @ carry.T
-
-
 def _direction_std(away: Array, covariance: Array) -> float:
     """Standard deviation a tangent axis, in radians, of the direction of a vector with this covariance."""
     d = unit(away)
     across = np.eye(3) - np.outer(d, d)
     return float(np.sqrt(np.trace(across @ covariance @ across) / 2) / np.linalg.norm(away))
-
-
-def _point_by_twist(x: Array) -> Array:
-    return np.hstack([-se3.hat(x), np.eye(3)])
 
 
 def _per_axis(covariance: Array) -> float:

@@ -206,7 +206,7 @@ class _Problem:
                 J_frame[:, start["setting"] + 4 * k : start["setting"] + 4 * k + 4] = se3.adjoint(H_CD) @ wing_jacobian(setting)
                 H = H_CD @ wing_transform(setting)
                 x = H[:3, 3] + offset * H[:3, 2]
-                J_source = _point_by_twist(x) @ J_frame
+                J_source = se3.point_jacobian(x) @ J_frame
                 J_source[:, start["offset"] + mode] = H[:3, 2]
             else:
                 k = self.free.index(light)
@@ -305,7 +305,3 @@ def highlight_data(views: Sequence[SphereView], seen: Sequence[tuple[int, str]],
 def settings_of(wings: Wings) -> Array:
     """Settings (W, 4) as drawn: azimuth, g (rad), d1, d2 (m)."""
     return np.array([[w.azimuth_rad, w.joint_angle_rad, w.d1_m, w.d2_m] for w in wings.wings])
-
-
-def _point_by_twist(x: Array) -> Array:
-    return np.hstack([-se3.hat(x), np.eye(3)])
