@@ -25,7 +25,7 @@ class Errors:
     irradiance: np.ndarray
     """(L, N) log ratio, its mean over all lights and points taken away; NaN where the light is dim."""
     position: np.ndarray
-    """(L,) of the origin of H_CL."""
+    """(L,) of the origin of H_CL, of a free light's source; NaN of a distant one."""
     axis: np.ndarray
     level: np.ndarray
     """(L,) log irradiance at the focus, its mean over the lights taken away."""
@@ -40,6 +40,7 @@ class Errors:
             "direction": float(np.mean(np.mean(self.direction**2, axis=1) / (2 * self.sigma[:, 0] ** 2))),
             "position": float(np.mean(self.position**2 / (3 * self.sigma[:, 1] ** 2))),
             "intensity": float(np.mean(self.level**2 / self.sigma[:, 2] ** 2)),
+            "irradiance": float(np.mean(np.nanmean(self.irradiance**2, axis=1) / self.sigma[:, 2] ** 2)),
         }
 
 
@@ -52,9 +53,9 @@ def errors_of(found: LightsSolution, true: Sequence[LedLight], points_C: np.ndar
         at_focus = [_field(light, found.focus_C[None])[0][0], _real(real, found.focus_C[None])[0][0]]
         aim.append(np.linalg.norm(np.cross(*at_focus)))
         irradiance.append(np.where(E_real > DIM * E_real.max(), np.log(E / E_real), np.nan))
-        assert light.H_CL is not None
-        position.append(np.linalg.norm(light.H_CL[:3, 3] - real.H_CL[:3, 3]))
-        axis.append(np.arccos(min(1.0, float(light.H_CL[:3, 2] @ real.H_CL[:3, 2]))))
+        place, turn = _pose_error(light, real)
+        position.append(place)
+        axis.append(turn)
         level.append(float(np.log(_field(light, found.focus_C[None])[1] / _real(real, found.focus_C[None])[1])[0]))
         sigma.append([light.direction_std_rad, light.position_std_m, light.intensity_std])
     ratio = np.array(irradiance)
@@ -67,6 +68,16 @@ def errors_of(found: LightsSolution, true: Sequence[LedLight], points_C: np.ndar
         level=np.array(level) - np.mean(level),
         sigma=np.array(sigma),
     )
+
+
+def _pose_error(light: Light, real: LedLight) -> tuple[float, float]:
+    """Distance and angle of the axis: of a wing's frame; of a free light's source, whose axis is not known; NaN of a distant light."""
+    if light.H_CL is None or light.source_C is None:
+        return float("nan"), float("nan")
+    if np.array_equal(light.H_CL[:3, 3], light.source_C):
+        return float(np.linalg.norm(light.source_C - real.source_C)), float("nan")
+    axis = np.arccos(min(1.0, float(light.H_CL[:3, 2] @ real.H_CL[:3, 2])))
+    return float(np.linalg.norm(light.H_CL[:3, 3] - real.H_CL[:3, 3])), float(axis)
 
 
 def _field(light: Light, points_C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

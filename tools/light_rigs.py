@@ -33,7 +33,7 @@ from lpcal.pipeline.wings import wing_of
 from lpcal.records.calibration import Camera, Wing, Wings
 from lpcal.records.observations import Radiance, RawCapture, SphereView
 from lpcal.records.rig import Rig, SphereSection
-from lpcal.simulate.built import Built, build
+from lpcal.simulate.built import Built, build, working_distance
 from lpcal.simulate.captures import Capture, Studio, place_spheres
 from lpcal.simulate.leds import LedLight, ring_directions
 from lpcal.simulate.lens import Lens
@@ -97,7 +97,7 @@ def rig_of(name: str = "lightpanel-6", chrome: int = 4, matte: int = 4) -> tuple
 
 def drawn(seed: int, name: str = "lightpanel-6", chrome: int = 4, matte: int = 4, margin: float | None = MARGIN) -> Drawn:
     """Rendered, then seen by lpcal's detection; kept in `CACHE` for the next time: delete it when the detection has changed."""
-    code = hashlib.sha256(b"".join(path.read_bytes() for path in _sources())).hexdigest()[:12]
+    code = hashlib.sha256(b"".join(path.read_bytes() for path in sources())).hexdigest()[:12]
     kept = CACHE / f"{name}_{seed}_{chrome}_{matte}_{'whole' if margin is None else margin}_{code}.pkl"
     if not kept.exists():
         CACHE.mkdir(exist_ok=True)
@@ -105,10 +105,11 @@ def drawn(seed: int, name: str = "lightpanel-6", chrome: int = 4, matte: int = 4
         kept.with_suffix(".part").write_bytes(pickle.dumps(found))
         kept.with_suffix(".part").rename(kept)
     built, camera, windows, wings = pickle.loads(kept.read_bytes())
-    return Drawn(built, camera, tuple(_in_frame(view, corner, camera.image_size) for view, corner in windows), wings)
+    return Drawn(built, camera, tuple(in_frame(view, corner, camera.image_size) for view, corner in windows), wings)
 
 
-def _sources() -> list[Path]:
+def sources() -> list[Path]:
+    """The code that what is drawn depends on, but for the detection."""
     return [Path(__file__), *sorted((REPOSITORY / "lpcal" / "simulate").glob("*.py"))]
 
 
@@ -124,9 +125,16 @@ def _draw(
     seed: int, name: str, chrome: int, matte: int, margin: float | None
 ) -> tuple[Built, Camera, list[tuple[SphereView, tuple[int, int]]], Wings]:
     rig, wings, sigma = rig_of(name, chrome, matte)
-    recipe = _recipe(seed)
+    return capture_rig(rig, wings, sigma, _recipe(seed), margin)
+
+
+def capture_rig(
+    rig: Rig, wings: list[Wing], sigma: np.ndarray, recipe: Recipe, margin: float | None = MARGIN
+) -> tuple[Built, Camera, list[tuple[SphereView, tuple[int, int]]], Wings]:
+    """A rig built, its spheres rendered and seen; each view with the first column and row of its window."""
+    seed = recipe.seed
     built, rng = build(rig, recipe), np.random.default_rng([seed, 78])
-    lens = built.lens
+    lens, focus_m = built.lens, working_distance(rig)
     camera = Camera(lens.image_size, "opencv5", lens.K, lens.distortion)
     studio = Studio(built, recipe, Response(recipe.sensor, lens.vignetting(), BLACK), place_spheres(built, rig, rng))
     flat = np.asarray(studio.flat(rng) / 255, np.float32)
@@ -138,7 +146,7 @@ def _draw(
         capture = small.sphere(ball, np.random.default_rng([seed, 4, index]))
         rows, columns = (slice(start, start + size) for start, size in zip(corner[::-1], window.image_size[::-1], strict=True))
         radiance = _flattened(to_radiance(_raw(ball, capture), Sensor(BLACK)), response[rows, columns])
-        expected = Expected(studio.spheres[ball].kind, studio.spheres[ball].radius_m, None, (0.14, 0.88))
+        expected = Expected(studio.spheres[ball].kind, studio.spheres[ball].radius_m, None, (0.4 * focus_m, 2.5 * focus_m))
         seen.append((observe_sphere(radiance, expected, Camera(window.image_size, "opencv5", window.K, lens.distortion)), corner))
     H_CD_drawn = se3.exp(rng.normal(size=6) * DISC_SIGMA) @ se3.inv(built.H_DC)
     return built, camera, seen, _wings(wings, H_CD_drawn, sigma)
@@ -187,7 +195,7 @@ def _flattened(radiance: Radiance, response: np.ndarray) -> Radiance:
     return replace(radiance, signal=signal, sigma=sigma, ambient=radiance.ambient / response, short=short)
 
 
-def _in_frame(view: SphereView, corner: tuple[int, int], image_size: tuple[int, int]) -> SphereView:
+def in_frame(view: SphereView, corner: tuple[int, int], image_size: tuple[int, int]) -> SphereView:
     """What was seen in a window, in the pixels of the whole image; nothing is known outside the window."""
     outline, highlights = view.outline_px + corner, {light: pixel + corner for light, pixel in view.highlights_px.items()}
     if view.shading is None:

@@ -10,6 +10,7 @@ import numpy as np
 from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit
 from lpcal.chain.refine_lights.joint_fit import JointFit
 from lpcal.chain.refine_lights.shading import ShadingFit, lobe_of_leds
+from lpcal.chain.refine_lights.volume import direction_std, volume_points
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
@@ -45,7 +46,7 @@ def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> Lig
                 axis_C=axis_C,
                 lobe=lobe_of_leds(wings.wings[k].leds) or Lobe(),
                 position_std_m=_per_axis(origin @ block @ origin.T),
-                direction_std_rad=_direction_std(source_C - focus_C, covariance),
+                direction_std_rad=direction_std(source_C, covariance, volume_points(focus_C)),
                 intensity_std=intensity_sd,
             )
         )
@@ -59,7 +60,7 @@ def near_lights(
 ) -> tuple[list[Light], list[str]]:
     """The lights as the geometry alone has them, each with the lobe that it is known by beforehand; and warnings."""
     found, warnings = [], []
-    axes = _axes(fit, focus_C)
+    axes, points_C = _axes(fit, focus_C), volume_points(focus_C)
     for k, name in enumerate(lights):
         covariance, row, away = fit.source_covariance[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], fit.wing_of[k], fit.source_C[k] - focus_C
         light = Light(
@@ -71,7 +72,7 @@ def near_lights(
             axis_C=axes[k],
             lobe=known[k] or Lobe(),
             position_std_m=_per_axis(se3.origin_covariance(fit.H_CL[k], fit.frame_covariance[k]) if row is not None else covariance),
-            direction_std_rad=float(np.hypot(_direction_std(away, covariance), DIRECTION_FLOOR_RAD)),
+            direction_std_rad=float(np.hypot(direction_std(fit.source_C[k], covariance, points_C), DIRECTION_FLOOR_RAD)),
             intensity_std=intensity_sd,
         )
         distance_std = float(np.sqrt(unit(away) @ covariance @ unit(away))) / float(np.linalg.norm(away))
@@ -146,13 +147,6 @@ def _frame_at(source_C: Array, axis_C: Array) -> Array:
     """A frame with its origin at a source and its z along an axis, x as near to that of C as can be."""
     x = unit(np.array([1.0, 0.0, 0.0]) - axis_C[0] * axis_C)
     return se3.transform(np.stack([x, np.cross(axis_C, x), axis_C], axis=1), source_C)
-
-
-def _direction_std(away: Array, covariance: Array) -> float:
-    """Standard deviation a tangent axis, in radians, of the direction of a vector with this covariance."""
-    d = unit(away)
-    across = np.eye(3) - np.outer(d, d)
-    return float(np.sqrt(np.trace(across @ covariance @ across) / 2) / np.linalg.norm(away))
 
 
 def _per_axis(covariance: Array) -> float:

@@ -17,6 +17,7 @@ from lpcal.chain.refine_lights.led_fit import Cluster
 from lpcal.chain.refine_lights.measure import CentreMeasurement
 from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, ShadingFit
+from lpcal.chain.refine_lights.volume import volume_points
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.arrays import Array, Index
 from lpcal.geometry.least_squares import Block, Options, Solution, Term, independent_prior, prior, solve
@@ -53,8 +54,9 @@ class JointFit:
     """Rms of data over model, as a fraction, by sphere."""
     position_std_m: Array
     direction_std_rad: Array
+    """(L,) a tangent axis, rms over the working volume."""
     intensity_std: Array
-    """(L,) of the relative irradiance at the focus."""
+    """(L,) of the relative irradiance, rms over the working volume."""
     source_C: Array
     """(L, 3) middles of the blobs' domes."""
     source_covariance: Array
@@ -222,9 +224,9 @@ class _Problem:
         lights = [self._with_direction(k, blocks, focus_C) for k in range(len(self.names))]
         parts = ["H_CD", "setting", "dome", "roll", "intensity", *(f"led{mode}" for mode in self.modes)]
         covariance = solution.covariance(*parts)
-        J = self._derivatives(blocks, parts, focus_C)
-        place, turn, level, source = J[:, :3], J[:, 3:6], J[:, 6], J[:, 7:].reshape(-1, J.shape[2])
-        level = level - level.mean(axis=0)
+        J = self._derivatives(blocks, parts, volume_points(focus_C))
+        place, source, field = J[:, :3], J[:, 3:6].reshape(-1, J.shape[2]), J[:, 6:].reshape(len(self.names), -1, 4, J.shape[2])
+        turn, level = field[:, :, :3], field[:, :, 3] - field[:, :, 3].mean(axis=(0, 1))
         shading_terms = [place_ for place_, term in enumerate(solution.terms) if "delta" in term.blocks and len(term.blocks) > 1]
         left = np.concatenate([solution.residuals[t][:, 0] / solution.terms[t].data[:, 5] for t in shading_terms])
         which = np.concatenate([solution.terms[t].items(7) for t in shading_terms])
@@ -242,44 +244,44 @@ class _Problem:
             highlight_px=self._misses(lights, solution["centre"]),
             shading={self.views[s].name: float(np.sqrt(np.mean(left[which == s] ** 2))) for s in np.unique(which)},
             position_std_m=np.sqrt(np.einsum("kij,jl,kil->k", place, covariance, place) / 3),
-            direction_std_rad=np.sqrt(np.einsum("kij,jl,kil->k", turn, covariance, turn) / 2),
-            intensity_std=np.sqrt(np.einsum("kj,jl,kl->k", level, covariance, level)),
-            source_C=np.array([self._figures(k, blocks, focus_C)[7:] for k in range(len(self.names))]),
+            direction_std_rad=np.sqrt(_mean_variance(turn, covariance).sum(axis=1) / 2),
+            intensity_std=np.sqrt(_mean_variance(level[:, :, None], covariance)[:, 0]),
+            source_C=np.array([self._figures(k, blocks, focus_C[None])[3:6] for k in range(len(self.names))]),
             source_covariance=source @ covariance @ source.T,
         )
 
     def _with_direction(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Light:
         light = self._light(k, blocks)
-        around = focus_C + 0.05 * np.array(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1])).reshape(3, -1).T
+        around = volume_points(focus_C)
         d_C, _ = light.field(around)
         across = np.eye(3) - d_C[:, :, None] * d_C[:, None]
         source_C = np.linalg.solve(across.sum(axis=0), np.sum(across @ around[:, :, None], axis=0)[:, 0])
         return replace(light, direction_C=light.field(focus_C[None])[0][0], source_C=source_C)
 
-    def _derivatives(self, blocks: dict[str, Block], parts: list[str], focus_C: Array) -> Array:
-        """(L, 10, P) of `_figures` by the parameters; those of one light count in its rows only."""
+    def _derivatives(self, blocks: dict[str, Block], parts: list[str], points_C: Array) -> Array:
+        """(L, 6 + 4 N, P) of `_figures` by the parameters; those of one light count in its rows only."""
         start = dict(zip(parts, np.cumsum([0, *(blocks[name].count * blocks[name].size for name in parts)]), strict=False))
-        J = np.zeros((len(self.names), 10, sum(blocks[name].count * blocks[name].size for name in parts)))
+        J = np.zeros((len(self.names), 6 + 4 * len(points_C), sum(blocks[name].count * blocks[name].size for name in parts)))
         for k, leds in enumerate(self.leds):
-            now = self._figures(k, blocks, focus_C)
+            now = self._figures(k, blocks, points_C)
             own = {"H_CD": 0, "setting": self.wing[k], "dome": self.mode[k], "roll": k, "intensity": k, f"led{leds}": k}
             for name, item in own.items():
                 block = blocks[name]
                 for axis in range(block.size):
                     step = np.zeros((block.count, block.size))
                     step[item, axis] = STEP
-                    moved = self._figures(k, blocks | {name: block.moved(step)}, focus_C)
+                    moved = self._figures(k, blocks | {name: block.moved(step)}, points_C)
                     J[k, :, start[name] + item * block.size + axis] = (moved - now) / STEP
         return J
 
-    def _figures(self, k: int, blocks: dict[str, Block], focus_C: Array) -> Array:
-        """(10,) of one light: origin of H_CL, direction and log irradiance at the focus, middle of the dome."""
+    def _figures(self, k: int, blocks: dict[str, Block], points_C: Array) -> Array:
+        """(6 + 4 N,) of one light: origin of H_CL, middle of the dome; direction and log irradiance at points (N, 3)."""
         H_CL, leds = self._frame(k, blocks), self._leds(k, blocks)
-        x_L = se3.apply(se3.inv(H_CL), focus_C[None])
+        x_L = se3.apply(se3.inv(H_CL), points_C)
         d_L, irradiance = led_cluster.cluster_field(x_L, leds.position_L, leds.axis_L, leds.power, leds.exponent)
         level = np.log(irradiance) + blocks["intensity"].value[k]
         middle_C = H_CL[:3, 3] + blocks["dome"].value[self.mode[k], 0] * H_CL[:3, 2]
-        return np.concatenate([H_CL[:3, 3], se3.rotate(H_CL, d_L)[0], level, middle_C])
+        return np.concatenate([H_CL[:3, 3], middle_C, np.column_stack([se3.rotate(H_CL, d_L), level]).ravel()])
 
     def _frame(self, k: int, blocks: dict[str, Block]) -> Array:
         H_CL: Array = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])
@@ -300,6 +302,11 @@ class _Problem:
                     P = sphere.mirror_point(centres_C[s], view.radius_m, light.source_C)
                     misses[view.name, name] = float(np.linalg.norm(self.camera.project(P) - seen))
         return misses
+
+
+def _mean_variance(J: Array, covariance: Array) -> Array:
+    """Variances (L, F), mean over points, of figures whose derivatives (L, N, F, P) by the parameters are given."""
+    return np.asarray(np.mean(np.sum((J @ covariance) * J, axis=3), axis=1))
 
 
 def _deltas(samples: Samples) -> Block:
