@@ -43,3 +43,46 @@ def seen(paper: np.ndarray, seed: int, *, size: tuple[int, int] = (960, 720), no
     H = cv2.getPerspectiveTransform((board + np.array([w, h]) / 2).astype(np.float32), target.astype(np.float32))
     fine = cv2.warpPerspective(paper, H, size, flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE)
     return np.clip(cv2.GaussianBlur(fine, (0, 0), 0.9) + noise * rng.standard_normal(fine.shape), 0, 255).astype(np.uint8)
+
+
+def cap(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return np.clip(rng.normal(4, 3, (h, w)), 0, 255)
+
+
+def bright_noise(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return np.clip(rng.normal(128, 45, (h, w)), 0, 255)
+
+
+def cloth(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    white = rng.normal(0, 1, (h, w)).astype(np.float32)
+    return np.clip(128 + sum(40 * s * cv2.GaussianBlur(white, (0, 0), s) for s in (1, 2, 4, 8, 16)), 0, 255)
+
+
+def leaves(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    image = np.full((h, w), 60, np.uint8)
+    for _ in range(h * w // 300):
+        at, axes = rng.integers(0, (w, h)), rng.integers((4, 2), (25, 12))
+        cv2.ellipse(
+            image,
+            (int(at[0]), int(at[1])),
+            (int(axes[0]), int(axes[1])),
+            float(rng.uniform(0, 360)),
+            0,
+            360,
+            int(rng.integers(20, 230)),
+            -1,
+        )
+    return image
+
+
+def carpet(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    y, x = np.mgrid[:h, :w]
+    return np.clip(128 + 50 * np.sin(x / 5.1) * np.sin(y / 4.7 + 0.8 * np.sin(x / 40)) + rng.normal(0, 8, (h, w)), 0, 255)
+
+
+def defocused(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
+    return cv2.GaussianBlur(leaves(rng, h, w), (0, 0), 30) + rng.normal(0, 2, (h, w))
+
+
+BOARDLESS = (cap, bright_noise, cloth, leaves, carpet, defocused)
+"""Frames without a board, each a function of a generator, height and width: dark, noisy, textured or out of focus."""

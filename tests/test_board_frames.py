@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,65 +9,20 @@ import cv2
 import numpy as np
 import pytest
 
-from board_sheets import DARK, LIGHT, seen, sheet
+from board_sheets import BOARDLESS, DARK, LIGHT, bright_noise, cap, carpet, seen, sheet
 from lpcal.detect.board import count_corners, find_board
 from lpcal.detect.board_absent import hardly_any_contrast
 from lpcal.records.observations import Board
 
 BOARD = Board((9, 6), (0.025, 0.025))
-MOST_S = 1.0
-"""Processor time, in s, that a frame without a board may cost on a machine like those of 2024."""
 
 
-def cap(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    return np.clip(rng.normal(4, 3, (h, w)), 0, 255)
-
-
-def bright_noise(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    return np.clip(rng.normal(128, 45, (h, w)), 0, 255)
-
-
-def cloth(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    white = rng.normal(0, 1, (h, w)).astype(np.float32)
-    return np.clip(128 + sum(40 * s * cv2.GaussianBlur(white, (0, 0), s) for s in (1, 2, 4, 8, 16)), 0, 255)
-
-
-def leaves(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    image = np.full((h, w), 60, np.uint8)
-    for _ in range(h * w // 300):
-        at, axes = rng.integers(0, (w, h)), rng.integers((4, 2), (25, 12))
-        cv2.ellipse(
-            image,
-            (int(at[0]), int(at[1])),
-            (int(axes[0]), int(axes[1])),
-            float(rng.uniform(0, 360)),
-            0,
-            360,
-            int(rng.integers(20, 230)),
-            -1,
-        )
-    return image
-
-
-def carpet(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    y, x = np.mgrid[:h, :w]
-    return np.clip(128 + 50 * np.sin(x / 5.1) * np.sin(y / 4.7 + 0.8 * np.sin(x / 40)) + rng.normal(0, 8, (h, w)), 0, 255)
-
-
-def defocused(rng: np.random.Generator, h: int, w: int) -> np.ndarray:
-    return cv2.GaussianBlur(leaves(rng, h, w), (0, 0), 30) + rng.normal(0, 2, (h, w))
-
-
-@pytest.mark.parametrize("draw", [cap, bright_noise, cloth, leaves, carpet, defocused])
+@pytest.mark.parametrize("draw", BOARDLESS)
 @pytest.mark.parametrize("corners", [(9, 6), (26, 16)])
-def test_a_frame_without_a_board_costs_little(draw: Callable[..., np.ndarray], corners: tuple[int, int]) -> None:
+def test_a_frame_without_a_board_has_none(draw: Callable[..., np.ndarray], corners: tuple[int, int]) -> None:
     image = np.clip(np.rint(draw(np.random.default_rng(7), 1080, 1920)), 0, 255).astype(np.uint8)
-    find_board(image[:200, :200], BOARD)  # imports what it needs
-    began = time.process_time()
     view = find_board(image, Board(corners, (0.025, 0.025)))
-    spent_s = time.process_time() - began
     assert view.corners_px is None
-    assert spent_s < MOST_S
     assert count_corners(image) is None or draw is carpet
 
 
@@ -135,7 +89,7 @@ def test_a_spot_of_glare_is_named() -> None:
 
 
 @pytest.mark.parametrize(("there", "stated"), [((28, 17), (24, 17)), ((10, 7), (9, 6)), ((8, 6), (9, 6)), ((17, 28), (17, 24))])
-def test_another_count_is_refused_within_seconds(
+def test_another_count_is_named(
     there: tuple[int, int], stated: tuple[int, int], tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]
 ) -> None:
     (tmp_path / "boards").mkdir()
@@ -143,9 +97,7 @@ def test_another_count_is_refused_within_seconds(
         cv2.imwrite(str(tmp_path / f"boards/{seed}.png"), seen(sheet(there), seed, size=(1280, 960)))
     board = f"{{kind: chessboard, corners: [{stated[0]}, {stated[1]}], square: 25 mm}}"
     (tmp_path / "panel.yaml").write_text(f"lpcal: 1\ncamera: {{images: boards/*.png}}\nboard: {board}\n")
-    began = time.process_time()
     code, _, err = lpcal("intrinsics", cwd=tmp_path)
-    assert time.process_time() - began < 15
     assert code == 6
     assert f"found a board of {max(there)}x{min(there)} inner corners" in err
     assert f"you asked for {stated[0]}x{stated[1]}" in err

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -45,13 +44,11 @@ READERS: dict[str, Callable[[Path], object]] = {
 
 @pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
-def test_hostile_yaml_is_refused_at_once_with_its_line(tmp_path: Path, text: str, reader: str) -> None:
+def test_hostile_yaml_is_refused_with_its_line(tmp_path: Path, text: str, reader: str) -> None:
     path = tmp_path / reader
     path.write_text(("%YAML:1.0\n---\n" if reader == "opencv.yml" else "lpcal: 1\n" * (text[0] != "-")) + text)
-    begun = time.process_time()
     with pytest.raises(InputError, match=rf"{reader}:\d+") as caught:
         READERS[reader](path)
-    assert time.process_time() - begun < 2
     assert len(str(caught.value)) < 600
 
 

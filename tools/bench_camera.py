@@ -1,10 +1,12 @@
-"""Figures of the camera stage: ``python tools/bench_camera.py [WHAT...]``, of rigs, drawn, spread, bouguet, boards, speed; all without.
+"""Figures of the camera stage: ``python tools/bench_camera.py [WHAT...]``, some of the following, or all.
 
 rigs     rendered rigs with a truth: rig_a of the recordings and calib_data/demo_rig: projection difference, errors in sigmas
 drawn    corners of boards drawn by ray casting: rms against where the pattern's edges cross
 spread   100 seeded calibrations: predicted projection uncertainty against the spread; NEES of the intrinsics
 bouguet  Bouguet's example 1 by opencv4 and a flat board, and by what is chosen
 boards   boards found on real sets, beside OpenCV's detectors alone
+frames   1920x1080 frames without a board: seconds of processor an image, beside OpenCV's classic and sector detectors
+count    28x17 boards asked for as 24x17, thirty images: what ``lpcal intrinsics`` says and the seconds of processor that it takes
 speed    bouguet_ex1: ``lpcal intrinsics`` beside mrcal-calibrate-cameras fed the same corners plus OpenCV's detection
 """
 
@@ -26,6 +28,7 @@ import yaml
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from board_pictures import LENS, K, Pattern, Studio, exposed, poses
+from board_sheets import BOARDLESS, seen, sheet
 from lpcal.chain.k_camera import solve_camera
 from lpcal.chain.k_camera.assess import assess, information, ray_slope
 from lpcal.chain.k_camera.problem import CornerProblem
@@ -162,6 +165,33 @@ def timed(run: Callable[[], object]) -> tuple[float, float]:
     return after[0] - before[0], after[1] - before[1]
 
 
+def frames() -> None:
+    for draw in BOARDLESS:
+        image = np.clip(np.rint(draw(np.random.default_rng(7), 1080, 1920)), 0, 255).astype(np.uint8)
+        for corners in ((9, 6), (26, 16)):
+            board = Board(corners, (0.025, 0.025))
+            find_board(image[:200, :200], board)
+            own = timed(lambda image=image, board=board: find_board(image, board))[1]
+            classic = timed(lambda image=image, corners=corners: cv2.findChessboardCorners(image, corners))[1]
+            sector = timed(lambda image=image, corners=corners: cv2.findChessboardCornersSB(image, corners))[1]
+            print(f"{draw.__name__}, {corners[0]}x{corners[1]}: {own:.2f} s of processor; OpenCV classic {classic:.2f}, SB {sector:.2f}")
+
+
+def count() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "boards").mkdir()
+        for seed in range(30):
+            cv2.imwrite(f"{folder}/boards/{seed:02d}.png", seen(sheet((28, 17)), seed, size=(1280, 960)))
+        board = "{kind: chessboard, corners: [24, 17], square: 25 mm}"
+        (Path(folder) / "panel.yaml").write_text(f"lpcal: 1\ncamera: {{images: boards/*.png}}\nboard: {board}\n")
+        said: list[subprocess.CompletedProcess[str]] = []
+        command = [sys.executable, "-m", "lpcal.cli.main", "intrinsics", "--rig", folder]
+        took = timed(lambda: said.append(subprocess.run(command, capture_output=True, check=False, text=True)))
+        print(
+            f"28x17 asked for as 24x17, 30 images: {took[1]:.1f} s of processor, exit code {said[0].returncode}: {said[0].stderr.strip()}"
+        )
+
+
 def speed() -> None:
     paths = [str(DATA / "intrinsics" / "bouguet_ex1" / f"Image{k}.tif") for k in range(1, 21)]
 
@@ -207,7 +237,16 @@ def speed() -> None:
         )
 
 
-BENCHES = {"rigs": rigs, "drawn": drawn, "spread": spread, "bouguet": bouguet, "boards": boards, "speed": speed}
+BENCHES = {
+    "rigs": rigs,
+    "drawn": drawn,
+    "spread": spread,
+    "bouguet": bouguet,
+    "boards": boards,
+    "frames": frames,
+    "count": count,
+    "speed": speed,
+}
 
 if __name__ == "__main__":
     for what in sys.argv[1:] or BENCHES:
