@@ -57,6 +57,7 @@ def sessions(lights: list[np.ndarray]) -> list[BoardViews]:
     return [detected(lights, seed) for seed in range(10)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_errors_are_as_large_as_said(sessions: list[BoardViews], solver: str) -> None:
     """NEES of the nine intrinsics over seeds of noise: its mean has the spread of chi^2 over the trials."""
@@ -230,6 +231,7 @@ def rippled(px: np.ndarray) -> np.ndarray:
 
 
 @mrcal_only
+@pytest.mark.slow
 def test_a_lens_that_no_polynomial_follows_is_splined_and_says_how_sure() -> None:
     views = corner_views(40, pattern=Pattern())
     waves = replace(views, views=tuple(replace(view, corners_px=rippled(np.asarray(view.corners_px))) for view in views.views))

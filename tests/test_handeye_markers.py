@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from handeye_scene import Noise, moving_session
 from lpcal.chain.h_op_body import body_of
@@ -30,6 +31,7 @@ def _session(seed):
     return session, body_of(MarkerStream("Panel", t, tuple(PLACES_P), x_O, 120.0), PLACES_P)
 
 
+@pytest.mark.slow
 def test_poses_count_by_their_own_covariance():
     weighted, alike, nees = [], [], []
     for seed in range(6):

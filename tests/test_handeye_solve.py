@@ -30,6 +30,7 @@ def _moving(session, **options):
     return solve_moving(session.boards, track_of(session.stream), session.camera, Options(**options)).handeye
 
 
+@pytest.mark.slow
 def test_static_with_flips_is_honest_and_names_them():
     nees, error = [], []
     for seed in range(14):
@@ -209,6 +210,7 @@ def test_refusals():
     assert np.abs(found.H_PC - as_it_was.H_PC).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_what_more_views_would_do_is_what_they_do():
     told, done = [], []
     for seed in range(6):

@@ -139,6 +139,7 @@ TOLD: dict[str, tuple[Plant, int, str, str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TOLD)
 def test_done_and_said(tmp_path: Path, lpcal: Run, name: str) -> None:
     plant, code, words, more = TOLD[name]
@@ -196,6 +197,7 @@ def test_another_order_of_the_images_is_refused(tmp_path: Path, lpcal: Run) -> N
     assert not (tmp_path / "calib" / "lights.yaml").exists()
 
 
+@pytest.mark.slow
 def test_far_lights_are_said_to_be_distant(tmp_path: Path, lpcal: Run) -> None:
     from dataclasses import replace
 

@@ -163,6 +163,7 @@ def dome(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_dome_calibrates_from_spheres_alone(dome: Path, lpcal: Run) -> None:
     code, out, err = lpcal("export", cwd=dome)
     assert code == 0, err
@@ -187,6 +188,7 @@ def test_a_light_without_its_image_is_an_error_of_that_light(dome: Path, lpcal: 
     assert out == ""
 
 
+@pytest.mark.slow
 def test_an_all_black_capture_is_refused(dome: Path, lpcal: Run, tmp_path: Path) -> None:
     rig = shutil.copytree(dome, tmp_path / "rig", ignore=shutil.ignore_patterns("calib"))
     for path in (rig / "objects" / "bust").glob("*.png"):

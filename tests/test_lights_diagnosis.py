@@ -84,16 +84,16 @@ def curved(folder: Path) -> None:
 
 PLANTED = {
     "two cables swapped": Planted(swapped_cables, 6, "L1 where L4 should be, L4 where L1 should be"),
-    "a wing one click off": Planted(clicked, 0, "L5: joint at 30 deg, not 40"),
+    "a wing one click off": Planted(clicked, 0, "L5: joint at 30 deg, not 40", slow=True),
     "a blob with its outer ring off": Planted(ring_off, 0, "L5: falls off as 7 LEDs do, not 19: is its outer ring off", slow=True),
     "a chrome sphere of another radius": Planted(another_radius, 6, "sphere chrome_1: its highlights fit as if its radius were 2"),
     "a matte sphere of another radius": Planted(
         lambda f: another_radius(f, "matte_0"), 6, "sphere matte_0: its shading fits as if its radius were 2", slow=True
     ),
-    "a moved camera": Planted(moved_camera, 6, "has it moved since the hand-eye images"),
+    "a moved camera": Planted(moved_camera, 6, "has it moved since the hand-eye images", slow=True),
     "a light that drifts by 10 %": Planted(drifting, 0, "L2: 1", slow=True),
-    "a matte sphere's images in another order": Planted(reordered_matte, 6, "sphere matte_1: its images are in another order"),
-    "a gamma that nobody states": Planted(curved, 6, "gamma"),
+    "a matte sphere's images in another order": Planted(reordered_matte, 6, "sphere matte_1: its images are in another order", slow=True),
+    "a gamma that nobody states": Planted(curved, 6, "gamma", slow=True),
 }
 
 
@@ -107,6 +107,7 @@ def test_each_mistake_is_named(tmp_path: Path, lpcal: Run, name: str) -> None:
     assert (tmp_path / "calib" / "lights.yaml").exists() == (code == 0)
 
 
+@pytest.mark.slow
 def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_foretold(tmp_path: Path, lpcal: Run) -> None:
     rig(tmp_path, ALL, wings=True)
     code, _, err = lpcal("refine", cwd=tmp_path)

@@ -203,6 +203,7 @@ def test_without_spheres_the_lights_are_as_designed() -> None:
     assert np.sqrt(np.mean(error**2)) < 2.5 * np.sqrt(2) * np.mean([light.direction_std_rad for light in found.lights])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spheres", [2, 4])
 def test_a_joint_one_click_off_is_named_and_none_falsely(spheres: int) -> None:
     named = [w.name for w in DRAWN]
@@ -218,6 +219,7 @@ def test_a_joint_one_click_off_is_named_and_none_falsely(spheres: int) -> None:
         ]
 
 
+@pytest.mark.slow
 def test_a_clicked_wing_does_not_pull_the_others() -> None:
     errors = []
     for seed in range(3):

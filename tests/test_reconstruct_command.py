@@ -128,6 +128,7 @@ def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
     assert (rig / "surfaces/ball/surface.npz").is_file()
 
 
+@pytest.mark.slow
 def test_without_an_ambient_image_the_rooms_light_is_estimated_and_said(lpcal, rig, quick):
     lit = draw(Scene(room=0.25), calibration())
     write_capture(rig / "objects/lit", lit)

@@ -77,6 +77,7 @@ def test_the_demo_rig_travels_with_its_truth():
     assert sum(path.stat().st_size for path in demo.rglob("*.png")) < 4e6
 
 
+@pytest.mark.slow
 def test_a_seed_gives_the_same_bytes_and_another_seed_others(tmp_path):
     first, again = made(tmp_path, DOME, name="first"), made(tmp_path, DOME, name="again")
     other = made(tmp_path, DOME, Recipe(seed=6, image_size=SMALL.image_size), name="other")
@@ -84,6 +85,7 @@ def test_a_seed_gives_the_same_bytes_and_another_seed_others(tmp_path):
     assert digests(first)["spheres/chrome/L0.png"] != digests(other)["spheres/chrome/L0.png"]
 
 
+@pytest.mark.slow
 def test_a_dome_needs_neither_board_nor_mocap(tmp_path):
     rig = made(tmp_path, DOME)
     assert not (rig / "truth" / "handeye.yaml").exists()
@@ -115,6 +117,7 @@ def test_images_listed_by_name_are_made_by_name(tmp_path):
     assert [row.split(",")[0] for row in rows[1:]] == ["a/one.png", "a/two.tif", "b/three.png"]
 
 
+@pytest.mark.slow
 def test_a_charuco_board_is_found_in_its_images(tmp_path):
     charuco = "kind: charuco\n  marker: 20 mm\n  dictionary: DICT_4X4_50"
     panel = rig_file("robot-camera").read_text().replace("kind: chessboard", charuco)

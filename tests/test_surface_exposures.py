@@ -69,6 +69,7 @@ def test_more_ambient_than_lamps_is_said():
     assert "more ambient light" in ambient_notes(to_radiance(bright, Sensor()), bright, Sensor())[0]
 
 
+@pytest.mark.slow
 def test_lights_of_different_colours_are_told_from_the_objects_colour():
     scene = Scene(albedo=(0.8, 0.5, 0.2))
     raw, lights, mask = draw(scene, calibration()), calibration().lights, truth(scene)[0]
@@ -86,6 +87,7 @@ def test_lights_of_different_colours_are_told_from_the_objects_colour():
     assert np.abs(colour["grey"]).max() > 0.1
 
 
+@pytest.mark.slow
 def test_twelve_bits_low_in_sixteen_need_the_white_level():
     raw, mask = overexposed(), truth(Scene())[0]
     low = replace(raw, images=raw.images / 16, ambient=raw.ambient / 16, short={}, short_exposure_s={}, step=1 / 65535)
@@ -114,6 +116,7 @@ def test_more_ambient_images_mean_less_noise():
     assert np.std(many.signal - true) == pytest.approx(np.median(many.sigma), rel=0.2)
 
 
+@pytest.mark.slow
 def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness():
     row, column = np.indices(SIZE[::-1])
     fall = (1 - 0.55 * (((row - 56) ** 2 + (column - 80) ** 2) / 97**2)).astype(np.float32)
@@ -130,6 +133,7 @@ def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness():
     assert spread["none"] > 0.04
 
 
+@pytest.mark.slow
 def test_a_cards_flatness_is_told_and_a_balls_is_not():
     card = to_radiance(draw(Scene(centre=None, wall_z=0.35, wall_albedo=0.7), calibration()), Sensor())
     middle = np.zeros(SIZE[::-1], bool)

@@ -33,6 +33,7 @@ def error_mm(found: np.ndarray, depth: np.ndarray, mask: np.ndarray) -> float:
     return float(np.mean(np.abs(found * np.median(depth[mask] / found[mask]) - depth)[mask]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "published_mm"), [("bear", 0.334), ("pot2", 0.220), ("goblet", 9.018)])
 def test_depth_from_true_normals_beats_what_is_published(data, name, published_mm):
     K_file, mask, n, depth = diligent(data(f"surface/diligent_depth/{name}"))

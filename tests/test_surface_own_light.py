@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
@@ -60,6 +61,7 @@ def shown(n: Array, lights: int = 1) -> normals.Estimate:
     return normals.Estimate(n, np.ones((lights, len(n)), bool), np.zeros((len(n), 3, 3)), none, none)
 
 
+@pytest.mark.slow
 def test_a_wall_behind_lights_what_is_turned_away_from_the_camera():
     tilt = np.radians(60.0)
     seen = sight_of(np.ones((40, 40), bool), np.zeros((1, 1600)))

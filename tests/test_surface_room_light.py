@@ -43,6 +43,7 @@ def test_a_background_that_the_lamps_do_not_reach_tells_nothing():
     assert room.wall_of(sight.grey(radiance, lights), rays_C, lights, 0.35) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
 def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
     _, rays_C, lights = maps
@@ -58,6 +59,7 @@ def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
     assert A.mean() == pytest.approx(true.mean(), rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_without():
     mask, depth, _ = truth(LIT)
     radiance = to_radiance(untold(LIT), Sensor())
@@ -75,6 +77,7 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
     assert more.components[0].scale_std == pytest.approx(np.hypot(piece.scale_std, np.log(1.024) / 2), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_dark_room_is_left_dark(maps):
     _, rays_C, lights = maps
     scene = Scene()

@@ -75,6 +75,7 @@ def test_colour_gives_the_same_shape_and_the_colours():
     assert colour / colour[0] == pytest.approx([1, 0.625, 0.25], rel=0.03)
 
 
+@pytest.mark.slow
 def test_gloss_is_told_from_shading():
     scene = Scene(gloss=0.6)
     radiance = to_radiance(draw(scene, calibration()), Sensor())
@@ -96,6 +97,7 @@ def sag_mm(found: Surface) -> float:
     return float(1e3 * np.std(centred @ np.linalg.svd(centred, full_matrices=False)[2][2]))
 
 
+@pytest.mark.slow
 def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones():
     radiance = to_radiance(draw(card(), calibration()), Sensor())
     middle = np.zeros((SIZE[1], SIZE[0]), bool)
@@ -107,6 +109,7 @@ def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones():
     assert np.median(near.depth[middle]) == pytest.approx(0.35, abs=0.002)
 
 
+@pytest.mark.slow
 def test_a_card_that_fills_the_image_is_the_object():
     found = reconstruct(to_radiance(draw(card(), calibration()), Sensor()), calibration(), Options())
     assert found.mask.mean() > 0.8
@@ -131,6 +134,7 @@ def test_without_a_camera_there_are_normals_and_a_depth_in_pixels():
     assert np.std(error) < 0.8  # pixels, of a dome 27 pixels high
 
 
+@pytest.mark.slow
 def test_a_known_distance_is_kept():
     radiance = to_radiance(draw(Scene(), calibration()), Sensor())
     found = reconstruct(radiance, calibration(), Options(mask=truth(Scene())[0], distance_m=0.5))

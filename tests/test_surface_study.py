@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import cv2
 import numpy as np
+import pytest
 
 from lpcal.pipeline.study import AMBIENT, PAPER, trial
 
@@ -57,6 +58,7 @@ def test_ambient_light_ruins_once_pixels_saturate():
     assert not burnt < 10 * dark
 
 
+@pytest.mark.slow
 def test_the_command_writes_table_plot_and_a_sentence(lpcal, tmp_path):
     code, told, wrong = lpcal("study", "ambient", "-o", tmp_path, "--json", cwd=tmp_path)
     assert code == 0, wrong

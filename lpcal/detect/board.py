@@ -25,7 +25,7 @@ from lpcal.detect.saddle import BLUR_PX, fit_saddles
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 6
+DETECTOR_VERSION = 7
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
@@ -43,8 +43,6 @@ SEARCH_S = 3.0
 """Processor time, in s an image, after which no further search is begun: on 12 megapixels one of OpenCV's takes about one second."""
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
-FINE_PX = 60
-"""Where a board that filled the image would have smaller squares, the classic detector's quads grow together: SB goes first."""
 SATURATED = 0.996
 """Of full scale: as bright as an image gets."""
 SMALL_SPACING_PX = 5.0
@@ -70,7 +68,7 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     seen = seen_grid(grey, board.corners)
     rough, ended = _as_asked(seen, board.corners), False
     if rough is None and seen is not None and _nearly(seen, board.corners):
-        rough, ended = _search(grey, board.corners, began + SEARCH_S)
+        rough, ended = _search(grey, board.corners, began + SEARCH_S, ragged=not np.isfinite(seen).all())
         if rough is not None and (whole := grown(grey, rough)).shape != rough.shape:
             rough, seen = None, whole if whole.shape[1] >= whole.shape[0] else np.swapaxes(whole, 0, 1)
     if rough is None:
@@ -110,15 +108,17 @@ def _stretched(image: Image | Labels) -> Labels:
     return np.clip((image.astype(np.float32) - low) * (255.0 / max(high - low, 1e-9)), 0, 255).astype(np.uint8)
 
 
-def _search(grey: Labels, corners: tuple[int, int], until_s: float) -> tuple[Array | None, bool]:
-    """Rough corners (ny, nx, 2) by whichever detector of OpenCV's finds them, at whichever size; and whether the time ended the search."""
+def _search(grey: Labels, corners: tuple[int, int], until_s: float, *, ragged: bool) -> tuple[Array | None, bool]:
+    """Rough corners (ny, nx, 2) by whichever detector of OpenCV's finds them, at whichever size; and whether the time ended the search.
+
+    The classic detector, which takes up to half a minute where there is no such board, is asked only of a grid with corners missing.
+    """
     import cv2
 
-    passes = [(1.0, _classic), (1.0, _sector_based)]
-    if np.sqrt(grey.size / np.prod(corners)) < FINE_PX:
-        passes.reverse()
+    detectors = [_sector_based, _classic] if ragged else [_sector_based]
+    passes = [(1.0, detector) for detector in detectors]
     if max(grey.shape) > LARGE_PX:
-        passes = [(0.5, _classic), (0.5, _sector_based), *passes]
+        passes = [*((0.5, detector) for detector in detectors), *passes]
     elif cv2.checkChessboard(grey, corners):
         passes.append((2.0, _sector_based))
     for size, detector in passes:
