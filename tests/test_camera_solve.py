@@ -144,7 +144,7 @@ def test_squares_that_are_not_square() -> None:
     pattern = Pattern(square_m=(0.0249, 0.0252))
     solution = k_camera.solve_camera(corner_views(pattern=pattern), Board((9, 6), (0.0249, 0.0252)), model="opencv4")
     assert solution.solver == "opencv"
-    assert any("unequal" in warning for warning in solution.warnings)
+    assert "unequal" in str(solution.evidence["solver_note"])
     np.testing.assert_allclose([solution.camera.K[0, 0], solution.camera.K[1, 1]], [K[0, 0], K[1, 1]], atol=0.6)
 
 

@@ -10,6 +10,7 @@ import pytest
 from lpcal.chain.h_op_body import body_of
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.marker_table import MarkerTable, markers_of
+from lpcal.formats.mocap import read_mocap
 from lpcal.formats.robot_poses import read_robot_poses
 from lpcal.formats.text import with_commas
 from lpcal.records.observations import MarkerStream
@@ -62,3 +63,13 @@ def test_poses_that_are_exactly_the_identity_are_lost_save_a_first_that_all_coun
     found = read_robot_poses(path)
     assert found.lost == lost
     assert any("are the identity: lost" in note for note in found.notes) == bool(lost)
+
+
+@pytest.mark.parametrize("nonsense", [(0, "1e20"), (0, "-3e99"), (0, "inf"), (2, "1e6"), (3, "-inf"), (5, "inf")])
+def test_numbers_that_no_recording_holds_are_refused_with_their_line(tmp_path, nonsense):
+    rows = [[f"{0.01 * k:.2f}", "0.1", f"{0.01 * k:.2f}", "1.5", "0", "0", "0", "1"] for k in range(50)]
+    rows[17][nonsense[0]] = nonsense[1]
+    path = tmp_path / "mocap.csv"
+    path.write_text("t,x,y,z,qx,qy,qz,qw\n" + "\n".join(",".join(row) for row in rows) + "\n")
+    with pytest.raises(InputError, match=r"mocap\.csv:19.*"):
+        read_mocap(path)

@@ -22,6 +22,8 @@ QUATERNION_TOLERANCE = 0.02
 """How far from 1 the length of a quaternion may be."""
 FARTHEST_M = 1e5
 """Metres beyond which no position is believed: a hundred kilometres."""
+LATEST_S = 1e10
+"""Seconds beyond which no time is believed: three hundred years from whatever a clock counts from."""
 EXACT = 1e-12
 """How far from the identity a rotation may be that was written as one."""
 FROZEN_ROWS, FROZEN_S, JUMP_STEPS = 5, 0.1, 5.0
@@ -94,7 +96,7 @@ def _refuse_beyond(table: PoseTable, path: Path) -> None:
     """Refuse numbers that no recording holds; an empty cell is NaN and a loss."""
     turn = np.asarray(table.quaternion_xyzw) if table.R is None else table.R.reshape(len(table.R), 9)
     x = METRES[table.units] * table.position
-    beyond = np.isinf(np.column_stack([table.t_s, turn])).any(axis=1) | (np.abs(x) > FARTHEST_M).any(axis=1) | np.isinf(x).any(axis=1)
+    beyond = np.isinf(turn).any(axis=1) | (np.abs(_seconds(table.t_s)[0]) > LATEST_S) | (np.abs(x) > FARTHEST_M).any(axis=1)
     if beyond.any():
         row = int(np.flatnonzero(beyond)[0])
         found = f"t {table.t_s[row]:g} s, position {', '.join(f'{value:g}' for value in x[row])} m"

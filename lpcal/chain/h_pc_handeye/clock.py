@@ -30,7 +30,8 @@ PAIR_STRIDES = (1, 2, 3, 5, 8, 13, 21, 34)
 ERROR_RAD = 0.01
 """Scale of the robust cost: angles of two views agree better than this at the right offset."""
 CANDIDATES, APART_S = 4, 0.15
-MOST_LAGS = 400_000
+MOST_LAGS = 300_000
+"""Offsets that are tried at most: two clocks of unlike epoch whose recordings last an hour and a half between them."""
 MOST_PAIRS, SOME_PAIRS = 600, 150
 """Pairs that are compared near a likely offset, and those that find it."""
 LEAST_INSIDE = 0.3
@@ -142,8 +143,7 @@ def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Arra
     """
     middle, length = float(np.mean(t_camera_s)), float(np.ptp(t_camera_s))
     count = int(MOST_RATE * length / RATE_STEP_S)
-    candidates = offset_candidates(track, t_camera_s, H_CB)
-    if count < 2 or not candidates:
+    if count < 2 or not (candidates := offset_candidates(track, t_camera_s, H_CB)):
         return t_camera_s, 0.0
     found = {0.0: candidates[0].cost}
     for rate in np.linspace(-MOST_RATE, MOST_RATE, 2 * count + 1):

@@ -33,9 +33,9 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.least_squares import POSE, Block, Model, Options, Solution, Term, compile_residual, matrix, prior, small_rotation, solve
 
-SCALE_SIGMA = 0.005
-"""One standard deviation of the board's size by the mocap over its stated size, before the data: printers miss by up to a percent, the
-wand that a mocap's metre comes from by a tenth to half of one."""
+SCALE_SIGMA = 0.002
+"""One standard deviation of the board's size by the mocap over its stated size, where the data show no more than that: a square measured
+over many with a ruler, and a mocap's metre by its wand, are each right to a tenth or two of a percent."""
 PRIORS = ("camera", "scale")
 """Kinds of terms that no view has a part in."""
 CAMERA_SIZE = 12
@@ -114,7 +114,7 @@ class Sigmas:
     """By noise class."""
     mocap_m: tuple[float, ...] = (2e-4, 2e-4)
     log_scale: float = SCALE_SIGMA
-    """Of the board's size: as wide as it is before the data, and as what was found, so that a board far off is not pulled back."""
+    """Of the board's size, before the data; wider where these show more than chance does, so that a board far off is not pulled back."""
 
 
 @dataclass(frozen=True)

@@ -132,7 +132,7 @@ def _settle(state: State, t_camera_s: Array | None) -> State:
         found = estimate(
             views, state.camera, state.sigmas, state.found or state.start, clock=state.clock, options=THEN if state.found else FIRST
         )
-        sigmas = variance.components(views, found, state.sigmas)
+        sigmas = variance.components(views, found, state.sigmas, None if t_camera_s is None else t_camera_s[state.inliers])
         moved, inliers = variance.change(state.sigmas, sigmas), state.inliers
         state = replace(state, found=found, sigmas=sigmas)
         if state.clock and _clock_unseen(found):

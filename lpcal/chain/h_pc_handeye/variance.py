@@ -33,12 +33,15 @@ BLOCKS = (10, 20)
 """Stretches of equally many views that the recording is cut into."""
 BEYOND_CHANCE = 3.0
 """Standard deviations of the jackknife's own scatter, beyond which it counts."""
+SCALE_DOUBTS = 3.0
+"""Standard deviations, with all that neighbouring views share, up to which a board of another size may be chance: of sound data one
+session in 400 goes beyond."""
 FLOOR_PX = 1e-3
 
 
-def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
-    """The sigmas that the residuals show, at the present weights."""
-    sigmas = replace(sigmas, log_scale=float(np.hypot(SCALE_SIGMA, np.log(found.scale))))
+def components(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array | None) -> Sigmas:
+    """The sigmas that the residuals show, at the present weights; t_s (N,) are the times of the views, where they are known."""
+    sigmas = replace(sigmas, log_scale=_scale_sigma(views, found, t_s))
     if (place := found.term("board")) >= 0:
         r, free = found.solution.residuals[place], 1 - found.solution.leverage(place)
         return replace(
@@ -60,6 +63,16 @@ def components(views: Views, found: Estimate, sigmas: Sigmas) -> Sigmas:
     absorbed = found.solution.parameters - float(leverage.sum())  # all leverages add up to the parameters; the prior's are the camera's
     px = np.sqrt(np.sum(corners**2) / max(corners.size - absorbed, LEAST_FREEDOM))
     return replace(sigmas, mocap_rad=tuple(rad), mocap_m=tuple(metre), px=max(float(px), SHRINK * sigmas.px, FLOOR_PX))
+
+
+def _scale_sigma(views: Views, found: Estimate, t_s: Array | None) -> float:
+    """The prior's sigma of the board's size: as wide as what was found beyond `SCALE_DOUBTS` of the data's own sigmas."""
+    size, information = abs(np.log(found.scale)), found.scale_std**-2 - found.sigmas.log_scale**-2
+    if not information > 0 or size < SCALE_DOUBTS * found.scale_std:
+        return SCALE_SIGMA
+    chance = SCALE_DOUBTS**2 * block_factor(views, found, t_s) / information
+    by_data = size / (information * found.scale_std**2)
+    return float(np.sqrt(SCALE_SIGMA**2 + max(by_data**2 - chance, 0.0)))
 
 
 def row_sigmas(views: Views, sigmas: Sigmas, kind: str) -> Array:
