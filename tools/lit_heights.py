@@ -6,7 +6,7 @@ vector (Blinn 1977), shadows by marching towards each light.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -48,7 +48,6 @@ class Drawn:
     mask: np.ndarray
     intensity: np.ndarray
     """(L,) true."""
-    stack: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
 def draw(recipe: Recipe, seed: int) -> Drawn:
@@ -63,7 +62,7 @@ def draw(recipe: Recipe, seed: int) -> Drawn:
     power /= power.mean()
     row, column = np.indices(z.shape)
     albedo = rng.uniform(0.5, 0.9) * (1 + 0.2 * np.sin(0.3 * row + rng.uniform(0, 6)) * np.sin(0.23 * column))
-    half = S + [0, 0, -1]
+    half = S + np.array([0, 0, -1])
     half /= np.linalg.norm(half, axis=1, keepdims=True)
     images = []
     for s, h, one in zip(S, half, power, strict=True):
@@ -82,7 +81,7 @@ def draw(recipe: Recipe, seed: int) -> Drawn:
     names = tuple(f"L{k}" for k in range(len(S)))
     raw = RawCapture("drawn", names, stored(stack + room), np.ones(len(S)), stored(room)[None], np.ones(1), mask=mask, step=1 / full)
     calibration = Calibration("drawn", tuple(Light(name, s, np.ones(1)) for name, s in zip(names, S, strict=True)))
-    return Drawn(raw, calibration, n, mask, power, stack)
+    return Drawn(raw, calibration, n, mask, power)
 
 
 def heights(recipe: Recipe, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:

@@ -43,6 +43,8 @@ NEEDED_GAIN = 2.0
 """The misfit must fall by this factor for a curve to be believed: drawn linear captures give 1.5 at most, with much gloss."""
 DOUBTFUL_GAIN, DOUBTFUL_GAMMA = 1.4, 1.4
 """A gain and an exponent from which a curve is worth a word: gloss and shadows bend linear numbers the other way."""
+CLAIM_GAIN = 1.2
+"""The misfit must fall by this factor under a claimed curve for the claim to be worth a word: linear captures come close to 1 by chance."""
 AGREES = 1.5
 """A curve that misses by less than this many times the best one's misfit explains the numbers as well."""
 
@@ -78,7 +80,7 @@ class Curve:
     @property
     def claim_is_better(self) -> bool:
         """Whether the claimed curve explains the numbers better than the one that is taken, and that one does not well."""
-        return self.misfit_taken > max(WORST_FIT, self.misfit_claimed)
+        return self.misfit_taken > max(WORST_FIT, CLAIM_GAIN * self.misfit_claimed)
 
 
 @dataclass(frozen=True)
