@@ -9,7 +9,8 @@ known      the same with the true powers
 worst      of lpcal over plain least squares, in any capture
 found      captures whose powers were estimated;  refused: captures that were refused for their gamma;  warned: those with a warning of it
 
-Faster with OPENBLAS_NUM_THREADS=1. A capture that is refused counts in none of the means; `curve stated` states the gamma that `curve` does not.
+Faster with OPENBLAS_NUM_THREADS=1.
+A capture that is refused counts in none of the means; `curve stated` states the gamma that `curve` does not.
 """
 
 from __future__ import annotations

@@ -29,6 +29,8 @@ NEEDED_GAIN = 1.2
 
 Drawn equal lights give 1.003 at most, whatever the gloss and the shadows; unequal ones 1.1 or more wherever what is found is nearer than
 equal ones."""
+TRIMS = 4
+"""Rounds in which the worse half of the pixels is left out: gloss then misleads two to four times less, and no less in further rounds."""
 ACCEPTED = (0.2, 5.0)
 
 
@@ -48,6 +50,10 @@ def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
     signal, weight, B = shown
     space = LightSpace.of(weight, B)
     h = space.factors(signal)
+    for _ in range(TRIMS):
+        left_out = space.misfits(h[:, None] * signal)
+        matte = left_out <= np.median(left_out)
+        h = space.at(matte).factors(signal[:, matte])
     found = (1 / h) / np.mean(1 / h) if np.all(h > 0) else np.zeros(len(h))
     if not (ACCEPTED[0] < found.min() and found.max() < ACCEPTED[1]):
         return None

@@ -48,12 +48,16 @@ class LightSpace:
         return LightSpace(self.weight[:, some], self.spanned[:, some])
 
     def misfit(self, signal: Array) -> float:
-        """Median over the pixels of their signals' (L, P) misfit, the lost freedom counted."""
+        """Median over the pixels of their signals' (L, P) misfit."""
+        return float(np.median(self.misfits(signal)))
+
+    def misfits(self, signal: Array) -> Array:
+        """Misfit (P,) of signals (L, P), the lost freedom counted."""
         whole = np.maximum(np.sum(self.weight * signal**2, axis=0), 1e-300)
         inside = np.sum(np.einsum("lpi,lp->pi", self.spanned, signal) ** 2, axis=1)
         count = self.weight.sum(axis=0)
         spare = np.maximum(count - self.spanned.shape[2], 1)
-        return float(np.median(np.sqrt(np.maximum(1 - inside / whole, 0) * count / spare)))
+        return np.asarray(np.sqrt(np.maximum(1 - inside / whole, 0) * count / spare))
 
     def factors(self, signal: Array) -> Array:
         """Factors h (L,) of mean 1 that suit the signals (L, P) best."""
