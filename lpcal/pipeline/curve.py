@@ -22,7 +22,7 @@ from lpcal.surface.sight import light_vectors, ray_map
 PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""
 LIT = 0.25
-"""Mean over the lights, of the brightest pixels' mean, over which a pixel counts as lit."""
+"""Mean over the lights, less the room's, of the brightest pixels' mean, over which a pixel counts as lit."""
 BY_CLAIM = "the images' own tag"
 BY_LARGEST = "the images' largest number"
 SRGB_AS_GOOD = 1.1
@@ -118,6 +118,8 @@ def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed:
     lights = [light for name in raw.lights for light in calibration.lights if light.name == name]
     channels = raw.images if raw.images.ndim == 4 else raw.images[..., None]
     mean = channels.mean(axis=(0, 3))
+    if raw.ambient is not None:
+        mean = mean - raw.ambient.reshape(len(raw.ambient), *mean.shape, -1).mean(axis=(0, 3))
     lit = mean > LIT * np.quantile(mean, 0.99)
     lit &= raw.mask if raw.mask is not None else True
     places = np.flatnonzero(lit)

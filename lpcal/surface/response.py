@@ -45,6 +45,8 @@ DOUBTFUL_GAIN, DOUBTFUL_GAMMA = 1.4, 1.4
 """A gain and an exponent from which a curve is worth a word: gloss and shadows bend linear numbers the other way."""
 CLAIM_GAIN = 1.2
 """The misfit must fall by this factor under a claimed curve for the claim to be worth a word: linear captures come close to 1 by chance."""
+EXACT = 0.002
+"""Misfit that no camera's noise falls short of: curves that miss by less explain the numbers equally well."""
 AGREES = 1.5
 """A curve that misses by less than this many times the best one's misfit explains the numbers as well."""
 
@@ -69,13 +71,14 @@ class Curve:
     @property
     def doubtful(self) -> bool:
         """Whether the numbers may be those of a photograph, if not clearly."""
-        lightened = self.gamma / exponent(self.taken) > DOUBTFUL_GAMMA and self.gamma < GAMMAS[-1]
-        return bool(lightened and self.misfit_taken > WORST_FIT and self.misfit_taken > DOUBTFUL_GAIN * self.misfit)
+        lightened = self.gamma / exponent(self.taken) > DOUBTFUL_GAMMA
+        better = self.misfit if self.gamma < GAMMAS[-1] else self.misfit_claimed
+        return bool(lightened and self.misfit_taken > WORST_FIT and self.misfit_taken > DOUBTFUL_GAIN * better)
 
     @property
     def claim_explains(self) -> bool:
         """Whether the claimed curve explains the numbers about as well as the best."""
-        return self.misfit_claimed < AGREES * max(self.misfit, WORST_FIT / NEEDED_GAIN)
+        return self.misfit_claimed < AGREES * max(self.misfit, EXACT)
 
     @property
     def claim_is_better(self) -> bool:
