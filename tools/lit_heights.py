@@ -34,6 +34,7 @@ class Recipe:
     noise: float = 0.002
     most_slant_deg: float = 60.0
     size: int = 80
+    """Side of the picture in pixels."""
 
 
 @dataclass(frozen=True)
