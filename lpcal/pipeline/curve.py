@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, fit_flat_field, over_white
+from lpcal.detect.radiometry import Sensor, over_white
 from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma, decode, worded
-from lpcal.pipeline.sensor import SensorInUse, sensor_in_use
+from lpcal.pipeline.sensor import SensorInUse, sensor_of_capture
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import StatedSensor
@@ -24,7 +24,6 @@ PIXELS = 1500
 LIT = 0.25
 """Mean over the lights, less the room's, of the brightest pixels' mean, over which a pixel counts as lit."""
 BY_CLAIM = "the images' own tag"
-BY_LARGEST = "the images' largest number"
 SRGB_AS_GOOD = 1.1
 """sRGB is named as the cure where it misses by less than this many times what the best power does."""
 
@@ -52,11 +51,7 @@ def settle_sensor(raw: RawCapture, calibration: Calibration, saying: Sequence[tu
     DegenerateError
         The flat field is dark or saturated.
     """
-    saying = [*saying, (BY_LARGEST, StatedSensor(white_level=raw.white_level))]
-    used = sensor_in_use(saying, f"{raw.name}, sensor")
-    if raw.flat is not None:
-        flat = StatedSensor(flat_field=fit_flat_field(raw.flat, used.sensor))
-        used = sensor_in_use([("capture.yaml", flat), *saying], f"{raw.name}, sensor")
+    used = sensor_of_capture(raw, saying)
     if "gamma" in used.said_by:
         return _stated_gamma_judged(raw, used, calibration)
     return _claim_judged(raw, used, calibration)

@@ -21,7 +21,7 @@ from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
 from lpcal.pipeline.curve import settle_sensor
-from lpcal.pipeline.sensor import SensorInUse, stated_in, stated_in_panel
+from lpcal.pipeline.sensor import BY_CAPTURE, SensorInUse, stated_in, stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress
@@ -149,7 +149,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if camera is not None and camera.size_guessed:
         camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
         calibration = replace(calibration, camera=camera)
-    saying = [("the command", wishes.sensor), ("capture.yaml", raw.sensor), (calibration_path.name, stated_in(calibration))]
+    saying = [("the command", wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
     settled = settle_sensor(raw, calibration, [*saying, ("panel.yaml", wishes.panel)])
     sensor = settled.used.sensor
     refuse_bright_ambient(raw, sensor)

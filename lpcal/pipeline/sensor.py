@@ -14,10 +14,15 @@ from lpcal.formats.images import read_image
 from lpcal.geometry.tone_curve import worded
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import StatedSensor
 
 PLAIN = Sensor()
 """A linear sensor that is black at 0 and white at full scale."""
+
+
+BY_CAPTURE, BY_LARGEST = "capture.yaml", "the images' largest number"
+"""Who says what a capture itself says of its sensor."""
 
 
 @dataclass(frozen=True)
@@ -58,10 +63,28 @@ def sensor_in_use(saying: Sequence[tuple[str, StatedSensor]], where: str) -> Sen
     return SensorInUse(sensor_with(PLAIN, stated, where), said_by)
 
 
+def sensor_of_capture(raw: RawCapture, saying: Sequence[tuple[str, StatedSensor]]) -> SensorInUse:
+    """The sensor of a capture by what is said of it, what counts more first, by capture.yaml's flat field and by what its numbers show.
+
+    Raises
+    ------
+    DisagreementError
+        Black is not below white.
+    DegenerateError
+        The flat field is dark or saturated.
+    """
+    saying = [*saying, (BY_LARGEST, StatedSensor(white_level=raw.white_level))]
+    used = sensor_in_use(saying, f"{raw.name}, sensor")
+    if raw.flat is None:
+        return used
+    flat = StatedSensor(flat_field=fit_flat_field(raw.flat, used.sensor))
+    return sensor_in_use([(BY_CAPTURE, flat), *saying], f"{raw.name}, sensor")
+
+
 def stated_in(calibration: Calibration) -> StatedSensor:
     """What a calibration says of the sensor: of its camera what is not plain, without one what is stated beside the lights."""
     camera = calibration.camera
-    return calibration.sensor if camera is None else _unlike_plain(camera)
+    return calibration.sensor if camera is None else unlike_plain(camera)
 
 
 def sensor_of_camera(camera: Camera) -> Sensor:
@@ -76,7 +99,7 @@ def stated_in_panel(workspace: Workspace) -> StatedSensor:
         return StatedSensor()
     levels = Sensor(section.black_level, section.white_level, section.gamma)
     path = flat_field_path(workspace)
-    return _unlike_plain(levels if path is None else replace(levels, flat_field=fit_flat_field(read_image(path).pixels, levels)))
+    return unlike_plain(levels if path is None else replace(levels, flat_field=fit_flat_field(read_image(path).pixels, levels)))
 
 
 def sensor_of_panel(workspace: Workspace) -> Sensor:
@@ -84,7 +107,8 @@ def sensor_of_panel(workspace: Workspace) -> Sensor:
     return replace(PLAIN, **stated_in_panel(workspace).said)
 
 
-def _unlike_plain(levels: Sensor | Camera) -> StatedSensor:
+def unlike_plain(levels: Sensor | Camera) -> StatedSensor:
+    """What is not plain of a sensor."""
     keys = ("gamma", "black_level", "white_level", "flat_field")
     return StatedSensor(**{key: value for key in keys if (value := getattr(levels, key)) != getattr(PLAIN, key)})
 
