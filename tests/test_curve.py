@@ -153,12 +153,18 @@ def test_a_tag_of_another_curve_than_the_objects_is_refused(seed):
         settle_sensor(replace(drawn.raw, claim=ToneClaim("carry a gAMA chunk of gamma 1.8", 1.8)), drawn.calibration, [])
 
 
-@pytest.mark.parametrize("claim", [TAG, ToneClaim("are a camera's JPEGs (Canon)", "srgb"), ToneClaim("are JPEGs", None)])
+@pytest.mark.parametrize("claim", [TAG, ToneClaim("carry an ICC profile of gamma 1.8", 1.8), ToneClaim("are JPEGs", None)])
 def test_a_tag_that_nothing_tells_of_is_said_with_the_cure(claim):
     drawn = draw(Recipe(lights=4), 0)
     settled = settle_sensor(replace(drawn.raw, claim=claim), drawn.calibration, [])
     assert claim.said in settled.notes[0]
     assert "--gamma srgb" in settled.notes[0]
+    assert settled.used.sensor == Sensor()
+    assert not settled.linear
+    photographs = ToneClaim("are a camera's JPEGs (Canon)", "srgb", photograph=True)
+    undone = settle_sensor(replace(drawn.raw, claim=photographs), drawn.calibration, [])
+    assert undone.used.sensor == Sensor(gamma="srgb")
+    assert "if they are linear, state gamma: 1" in undone.notes[0]
     linear = ToneClaim("carry a gAMA chunk of gamma 1", 1.0)
     assert settle_sensor(replace(drawn.raw, claim=linear), drawn.calibration, []).notes == ()
     assert settle_sensor(replace(drawn.raw, claim=claim), drawn.calibration, [("told", StatedSensor(1.0))]).notes == ()

@@ -59,7 +59,7 @@ def _of_jpeg(head: Any) -> ToneClaim | None:
         return None
     tags = head.getexif()
     camera = " ".join(str(tags[tag]).strip("\0 ") for tag in (MAKER, CAMERA) if tag in tags)
-    return ToneClaim(f"are a camera's JPEGs ({camera[:40]})", "srgb") if camera else ToneClaim("are JPEGs", None)
+    return ToneClaim(f"are a camera's JPEGs ({camera[:40]})", "srgb", photograph=True) if camera else ToneClaim("are JPEGs", None)
 
 
 def _of_profile(profile: bytes | None) -> ToneClaim | None:

@@ -14,7 +14,7 @@ from lpcal.geometry.tone_curve import Gamma, decode, worded
 from lpcal.pipeline.sensor import SensorInUse, sensor_of_capture
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
-from lpcal.records.sensor import StatedSensor
+from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.surface.gains import unmeasured
 from lpcal.surface.response import Curve, Shown, stored_curve
 from lpcal.surface.sight import light_vectors, ray_map
@@ -24,6 +24,7 @@ PIXELS = 1500
 LIT = 0.25
 """Mean over the lights, less the room's, of the brightest pixels' mean, over which a pixel counts as lit."""
 BY_CLAIM = "the images' own tag"
+CURE = "state gamma: srgb in capture.yaml, or --gamma srgb"
 SRGB_AS_GOOD = 1.1
 """sRGB is named as the cure where it misses by less than this many times what the best power does."""
 
@@ -75,23 +76,33 @@ def _claim_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) 
     claim = raw.claim if raw.claim is not None and raw.claim.gamma != 1.0 else None
     claimed = "srgb" if claim is None or claim.gamma is None else claim.gamma
     curve = curve_of(raw, used.sensor, calibration, claimed)
-    cure = "state gamma: srgb in capture.yaml, or --gamma srgb"
     if curve is None:
-        untold = "too few lights or pixels tell whether their numbers are linear; they are taken so"
-        return Settled(used, () if claim is None else (f"the images {claim.said}, and {untold}: if they are photographs, {cure}",))
+        return Settled(used) if claim is None else _untold(used, claim)
     figures = f"taken as linear they miss the lights by {100 * curve.misfit_taken:.1f} %"
-    if curve.believed:
-        if claim is None or claim.gamma is None or not curve.claim_explains:
-            raise _not_linear(raw, curve)
+    if claim is not None and claim.gamma is not None and curve.claim_explains and (curve.believed or curve.doubtful):
         note = f"the images {claim.said}; {figures}, so by {100 * curve.misfit_claimed:.1f} %: it is undone"
-        undone = replace(used.sensor, gamma=claim.gamma)
-        return Settled(SensorInUse(undone, used.said_by | {"gamma": BY_CLAIM}), (note,))
+        return Settled(_by_claim(used, claim.gamma), (note,))
+    if curve.believed:
+        raise _not_linear(raw, curve)
     if not curve.doubtful and (claim is None or not curve.claim_is_better):
         return Settled(used)
     who = f"the images {claim.said}" if claim is not None else "the stored numbers may not be linear"
     as_what = worded(claimed) if curve.misfit_claimed <= curve.misfit else f"{curve.gamma:.1f}"
     better = f"with gamma {as_what} by {100 * min(curve.misfit, curve.misfit_claimed):.1f} %"
-    return Settled(used, (f"{who}: {figures}, {better}: if they are photographs, {cure}",), linear=False)
+    return Settled(used, (f"{who}: {figures}, {better}: if they are photographs, {CURE}",), linear=False)
+
+
+def _untold(used: SensorInUse, claim: ToneClaim) -> Settled:
+    """Where the object does not tell, a camera's photographs are taken as such, other images as linear; both are said."""
+    untold = f"the images {claim.said}, and too few lights or pixels tell whether their numbers are linear"
+    if claim.photograph and claim.gamma is not None:
+        told = f"{untold}; sRGB's curve is undone: if they are linear, state gamma: 1 in capture.yaml, or --gamma 1"
+        return Settled(_by_claim(used, claim.gamma), (told,), linear=False)
+    return Settled(used, (f"{untold}; they are taken so: if they are photographs, {CURE}",), linear=False)
+
+
+def _by_claim(used: SensorInUse, gamma: Gamma) -> SensorInUse:
+    return SensorInUse(replace(used.sensor, gamma=gamma), used.said_by | {"gamma": BY_CLAIM})
 
 
 def _not_linear(raw: RawCapture, curve: Curve) -> DisagreementError:

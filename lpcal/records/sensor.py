@@ -67,3 +67,5 @@ class ToneClaim:
     """What images do, in words: ``carry an ICC profile of gamma 2.2``."""
     gamma: Gamma | None
     """None: a photograph of a curve that the files do not say."""
+    photograph: bool = False
+    """Whether a camera wrote the files as photographs, which are curved; programs write tags to linear numbers too."""
