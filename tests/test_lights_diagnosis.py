@@ -119,6 +119,21 @@ def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_foretold(tm
     assert 0 < evidence["foretold_shading_rms_albedo_free"] < 0.005
 
 
+@pytest.mark.parametrize("gamma", ["2.2", "1.6", "srgb"])
+def test_a_spheres_own_capture_yaml_is_heeded_and_said(tmp_path: Path, lpcal: Run, gamma: str) -> None:
+    from lights_planted import BLACK, alter
+    from lpcal.geometry.tone_curve import encode
+    from lpcal.records.quantities import parse_gamma
+
+    rig(tmp_path, ["matte_0"])
+    black = 255 * BLACK
+    alter(tmp_path, "matte_0", lambda stored: 255 * encode((stored - black) / (255 - black), parse_gamma(gamma)))
+    (tmp_path / "spheres/matte_0/capture.yaml").write_text(f"gamma: {gamma}\nblack_level: 0 %\n")
+    code, out, err = lpcal("refine", cwd=tmp_path)
+    assert code == 0, out + err
+    assert f"matte_0: sensor: gamma {gamma} (capture.yaml)" in err
+
+
 def _table() -> None:
     """The table of the closing note."""
     import contextlib

@@ -12,7 +12,7 @@ from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
     from lpcal.pipeline.workspace import Workspace
-    from lpcal.records.observations import StatedSensor
+    from lpcal.records.sensor import StatedSensor
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,9 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mask", default="auto", metavar="auto|none|FILE", help="which pixels are the object (default: auto)")
     parser.add_argument("--lights", choices=("near", "distant"), default="near", help="how lights act (default: near, where known)")
     parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object where it is known, such as 352mm")
-    parser.add_argument(
-        "--gamma", type=float, metavar="G", help="stored = linear^(1/G), where the calibration does not hold it: 2.2 for sRGB"
-    )
+    parser.add_argument("--gamma", metavar="G", help="stored = linear^(1/G), or srgb for photographs, where nothing else states it")
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
     parser.add_argument("--white-level", metavar="SHARE", help="the stored number at which the sensor saturates, of full scale")
     parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
@@ -46,26 +44,29 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     if not options.captures:
         workspace = open_workspace(options)
         tasks = rig_tasks(workspace, options.output)
-        return reconstruct_all(tasks, calibration_of(workspace, options.calibration), wishes, progress)
+        return reconstruct_all(tasks, calibration_of(workspace, options.calibration), wishes, progress, workspace)
     rig = _rig_if_any(options)
     tasks = capture_tasks(options.captures, rig, options.output)
-    return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress)
+    return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress, rig)
 
 
 def _sensor(options: argparse.Namespace) -> StatedSensor:
     """What the words say of the sensor."""
-    from lpcal.records.observations import StatedSensor
-    from lpcal.records.quantities import parse
+    from lpcal.records.quantities import parse, parse_gamma
+    from lpcal.records.sensor import StatedSensor
 
-    if options.gamma is not None and not 0.1 < options.gamma < 10:
-        raise UsageError(f"--gamma {options.gamma:g}", needed="an exponent between 0.1 and 10", todo="write for example 2.2")
+    try:
+        gamma = None if options.gamma is None else parse_gamma(options.gamma)
+    except ValueError as error:
+        found, _, needed = str(error).partition("; ")
+        raise UsageError(f"--gamma {found}", needed=needed, todo="write for example 2.2") from error
     levels = []
     for name, text in (("--black-level", options.black_level), ("--white-level", options.white_level)):
         try:
             levels.append(None if text is None else parse(text, "share"))
         except ValueError as error:
             raise UsageError(str(error), where=name, needed="a share of full scale such as 0.8%") from error
-    return StatedSensor(options.gamma, *levels)
+    return StatedSensor(gamma, levels[0], levels[1])
 
 
 def _rig_if_any(options: argparse.Namespace) -> Workspace | None:

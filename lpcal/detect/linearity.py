@@ -17,6 +17,7 @@ import numpy as np
 from lpcal.detect.radiometry import Sensor, noise_model
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.tone_curve import exponent, worded
 
 BLOCK_PX, MOST_BLOCKS = 8, 600
 FEWEST_IMAGES, FEWEST_BLOCKS, LEAST_SPAN = 3, 50, 2.0
@@ -96,9 +97,9 @@ def refuse_contradiction(found: SweepFit, sensor: Sensor) -> None:
             needed="stored numbers that are a power of the light",
             todo="switch the camera's tone curve off; did the scene or its light change during the sweep?",
         )
-    if abs(found.gamma / sensor.gamma - 1) > GAMMA_OFF:
+    if abs(found.gamma / exponent(sensor.gamma) - 1) > GAMMA_OFF:
         raise DisagreementError(
-            f"the sweep says that the camera stores with gamma {found.gamma:.2f}, not {sensor.gamma:g}",
+            f"the sweep says that the camera stores with gamma {found.gamma:.2f}, not {worded(sensor.gamma)}",
             where=where,
             needed="the camera's own gamma",
             todo=f"write gamma: {found.gamma:.2f} under camera: in panel.yaml, or switch the camera's gamma off",

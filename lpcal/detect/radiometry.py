@@ -1,7 +1,7 @@
 """From stored numbers to light.
 
-Symbols: stored number s (fraction of full scale), black b, white w, gamma g (stored = linear^(1/gamma)), flat field F(u, v),
-exposure t (times gain)::
+Symbols: stored number s (fraction of full scale), black b, white w, gamma g (stored = linear^(1/gamma), or sRGB's curve), flat field
+F(u, v), exposure t (times gain)::
 
     linear(s) = (s^g - b^g) / (w^g - b^g) / F / t            signal = linear(lit) - linear(ambient)
 
@@ -17,8 +17,9 @@ import numpy as np
 
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.records.calibration import FlatField
-from lpcal.records.observations import Radiance, RawCapture, StatedSensor
+from lpcal.geometry.tone_curve import Gamma, decode
+from lpcal.records.observations import Radiance, RawCapture
+from lpcal.records.sensor import FlatField, StatedSensor
 
 FLAT_DEGREE = 6
 FLAT_BLOCK_PX = 8
@@ -36,14 +37,13 @@ class Sensor:
 
     black_level: float = 0.0
     white_level: float = 1.0
-    gamma: float = 1.0
+    gamma: Gamma = 1.0
     flat_field: FlatField | None = None
 
     def linear(self, stored: Image) -> Image:
         """Linear numbers, 0 at black and 1 at white, the flat field not yet divided out."""
-        low, high = self.black_level**self.gamma, self.white_level**self.gamma
-        power = stored if self.gamma == 1.0 else np.maximum(stored, 0.0) ** np.float32(self.gamma)
-        return np.asarray((power - np.float32(low)) / np.float32(high - low), dtype=np.float32)
+        low, high = decode(np.array([self.black_level, self.white_level]), self.gamma)
+        return np.asarray((decode(stored, self.gamma) - np.float32(low)) / np.float32(high - low), dtype=np.float32)
 
     def response(self, shape: tuple[int, ...]) -> Image:
         """What lens and sensor make of even light, (H, W) or (H, W, 1), for images of a shape (L, H, W) or (L, H, W, 3)."""
@@ -59,8 +59,7 @@ def sensor_with(sensor: Sensor, stated: StatedSensor, where: str) -> Sensor:
     DisagreementError
         Black is not below white.
     """
-    said = {key: value for key in ("gamma", "black_level", "white_level") if (value := getattr(stated, key)) is not None}
-    found = replace(sensor, **said)
+    found = replace(sensor, **stated.said)
     if found.black_level >= found.white_level:
         raise DisagreementError(
             f"black level {100 * found.black_level:g} %, white level {100 * found.white_level:g} %", where=where, needed="black below white"

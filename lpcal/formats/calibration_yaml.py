@@ -1,7 +1,8 @@
 """calibration.yaml, the product: camera and lights in C, all that a reconstructor needs.
 
 Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
-see `records.calibration.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. A lobe is one of
+see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
+black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. A lobe is one of
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m
@@ -30,8 +31,10 @@ from lpcal.formats.document_numbers import rigid, sigma
 from lpcal.formats.documents import Provenance, read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
 from lpcal.formats.reading import reader
+from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_document
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import Calibration, LedCluster, Light, Lobe
+from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
+from lpcal.records.sensor import StatedSensor
 
 KIND = "calibration"
 
@@ -41,6 +44,8 @@ def write_calibration(path: Path, calibration: Calibration, provenance: Provenan
     body: dict[str, Any] = {"name": calibration.name}
     if calibration.camera is not None:
         body["camera"] = camera_document(calibration.camera)
+    elif calibration.sensor.said:
+        body["camera"] = sensor_document(calibration.sensor)
     if calibration.H_PC is not None:
         body["H_PC"] = calibration.H_PC
     body |= {
@@ -62,7 +67,7 @@ def read_calibration(path: Path) -> Calibration:
     """
     document = read_document(path, KIND)
     try:
-        camera = sane_camera(camera_from_document(document["camera"]), f"{path}, camera") if document.get("camera") else None
+        camera, sensor = _camera(document.get("camera"), path)
         lights = tuple(_light(path, entry) for entry in document["lights"])
         H_PC = rigid(document, "H_PC") if document.get("H_PC") else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
@@ -73,8 +78,17 @@ def read_calibration(path: Path) -> Calibration:
     distance_m = document.get("d_object_m")
     if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
         raise InputError(f"d_object_m: {distance_m}", where=str(path), needed="metres above zero", todo="correct it, or write null")
-    found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C)
+    found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C, sensor)
     return sane_lights(found, str(path))
+
+
+def _camera(entry: Any, path: Path) -> tuple[Camera | None, StatedSensor]:
+    """The camera, or what is said of the sensor where the section holds nothing else."""
+    if not entry:
+        return None, StatedSensor()
+    if isinstance(entry, dict) and set(entry) <= set(KEYS):
+        return None, sensor_from_document(entry)
+    return sane_camera(camera_from_document(entry), f"{path}, camera"), StatedSensor()
 
 
 def light_document(light: Light) -> dict[str, Any]:

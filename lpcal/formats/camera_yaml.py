@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from lpcal.formats.camera_coefficients import sane_camera
-from lpcal.formats.document_numbers import covariance, number, numbers, sigma
+from lpcal.formats.document_numbers import covariance, numbers, sigma
 from lpcal.formats.documents import Provenance, read_record, write_document
-from lpcal.records.calibration import Camera, CameraSolution, FlatField, ViewVerdict
+from lpcal.formats.sensor_document import sensor_from_document
+from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 
 KIND = "camera"
 COEFFICIENTS = {"opencv4": 4, "opencv5": 5, "opencv8": 8, "splined": -1}
@@ -82,21 +83,12 @@ def camera_from_document(document: dict[str, Any]) -> Camera:
     spline = document.get("spline")
     if document["model"] == "splined" and spline is None:
         raise KeyError("spline")
-    black, white, gamma = (
-        default if (found := number(document, key)) is None else found
-        for key, default in (("black_level", 0.0), ("white_level", 1.0), ("gamma", 1.0))
-    )
-    if not (0 <= black < white <= 1 and gamma > 0):
-        raise ValueError("black_level, white_level or gamma")
     return Camera(
         image_size=(width, height),
         model=document["model"],
         K=numbers(document, "K", 3, 3),
         distortion=numbers(document, "distortion", COEFFICIENTS[document["model"]]),
-        black_level=black,
-        white_level=white,
-        gamma=gamma,
-        flat_field=None if document.get("flat_field") is None else FlatField(numbers(document, "flat_field", -1, -1)),
+        **sensor_from_document(document).said,
         rms_px=sigma(document, "rms_px"),
         parameters=parameters,
         covariance=None if document.get("covariance") is None else covariance(document, "covariance", len(parameters)),

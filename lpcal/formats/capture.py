@@ -9,18 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.full_scale import full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import ENDINGS, StoredImage, read_image
-from lpcal.formats.named_files import exists, hidden, kind_of_other
+from lpcal.formats.named_files import exists, hidden, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.records.observations import RawCapture, StatedSensor
+from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
+from lpcal.records.sensor import StatedSensor, ToneClaim
 
 SHORT = "short_"
-OVER_ONE = 1.25
-"""Largest number of a float image whose full scale is 1: averaging and flat-fielding lift some pixels over it."""
-FULL_SCALES = (255.0, 1023.0, 4095.0, 16383.0, 65535.0)
-"""Full scales of cameras' counts of 8 to 16 bit."""
 
 
 def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None, use: Sequence[str] | None = None) -> RawCapture:
@@ -46,43 +44,55 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     _refuse_unknown(section, {*lights, *files, *(SHORT + light for light in lights)}, folder)
     reader = _SameSize()
     images = np.stack([reader.read(files[light]).pixels for light in chosen])
-    scale, notes = _float_scale(images, folder)
+    claim = _common_claim(reader.claims)
+    flat = _flat_field(section, folder)
     ambient_names = [stem for stem in files if stem == "ambient" or stem.startswith("ambient_")]
-    short = {light: reader.read(files[SHORT + light]).pixels / scale for light in chosen if SHORT + light in files}
-    known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights)}
+    ambient = [reader.read(files[stem]).pixels for stem in ambient_names]
+    short = {light: reader.read(files[SHORT + light]).pixels for light in chosen if SHORT + light in files}
+    full = full_scale(images, reader.step)
+    divisor = np.float32(full.divisor)
+    known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights), *([flat.stem] if flat else [])}
     return RawCapture(
         name=name or folder.resolve().name,
         lights=tuple(chosen),
-        images=images / scale,
+        images=images / divisor,
         exposure_s=np.array([_exposure(section, light) or 1.0 for light in chosen]),
-        ambient=np.stack([reader.read(files[stem]).pixels for stem in ambient_names]) / scale if ambient_names else None,
+        ambient=np.stack(ambient) / divisor if ambient else None,
         ambient_exposure_s=np.array([_exposure(section, stem) or 1.0 for stem in ambient_names]),
-        short=short,
+        short={light: pixels / divisor for light, pixels in short.items()},
         short_exposure_s={light: _exposure(section, SHORT + light, own=True) for light in short},
         mask=_read_mask(files["mask"], images.shape[1:3]) if "mask" in files else None,
         left_out=tuple(path.name for stem, path in files.items() if stem not in known),
-        step=reader.step,
+        step=full.step or reader.step,
         sensor=StatedSensor(section.gamma, section.black_level, section.white_level),
+        flat=None if flat is None else reader.read(flat).pixels / divisor,
+        claim=claim,
+        white_level=full.white_level,
         distance_m=section.distance,
-        notes=notes,
+        notes=(*full.notes, *negatives(reader.least, full.divisor)),
     )
 
 
-def _float_scale(images: Image, folder: Path) -> tuple[np.float32, tuple[str, ...]]:
-    """What images of floats are divided by, so that full scale is 1, and what is to be said of it.
+def _flat_field(section: CaptureSection, folder: Path) -> Path | None:
+    """The image that capture.yaml names as flat field.
 
     Raises
     ------
     InputError
-        A pixel is no finite number.
+        It is not there.
     """
-    most = float(images.max())
-    if not np.isfinite(most) or not np.isfinite(float(images.min())):
-        raise InputError("pixels that are no finite numbers", where=str(folder), needed="finite numbers", todo="write them anew")
-    if most <= OVER_ONE:
-        return np.float32(1), ()
-    full = next((full for full in FULL_SCALES if full >= most), most)
-    return np.float32(full), (f"float images up to {most:g}: {full:g} is taken as full scale; divide them by it, or store 16 bit",)
+    if section.flat_field is None:
+        return None
+    path = resolve_named(folder, section.flat_field)
+    if path is None:
+        where = f"{folder / 'capture.yaml'}, flat_field"
+        raise InputError(f"no such file: {section.flat_field}", where=where, needed="an image of an evenly lit target", todo="correct it")
+    return path
+
+
+def _common_claim(claims: Sequence[ToneClaim | None]) -> ToneClaim | None:
+    """What all images claim of their tone curve; None where one claims something else, or nothing."""
+    return claims[0] if claims and all(claim == claims[0] for claim in claims) else None
 
 
 def check_lights(folder: Path, lights: Sequence[str], *, use: Sequence[str] | None = None) -> None:
@@ -139,6 +149,8 @@ class _SameSize:
     def __init__(self) -> None:
         self.first: tuple[Path, StoredImage] | None = None
         self.step = 1 / 255
+        self.claims: list[ToneClaim | None] = []
+        self.least: dict[Path, float] = {}
 
     def read(self, path: Path) -> StoredImage:
         image = read_image(path)
@@ -151,6 +163,9 @@ class _SameSize:
                 needed="all images of a capture alike",
                 todo="take the capture anew, or remove the odd image",
             )
+        refuse_odd_floats(image.pixels, path)
+        self.claims.append(image.claim)
+        self.least[path] = float(image.pixels.min())
         return image
 
 

@@ -11,7 +11,9 @@ from lpcal.errors import InputError
 from lpcal.formats.image_checks import as_stored, orientation, refuse_cut, refuse_odd_head
 from lpcal.formats.named_files import exists, kind_of_other
 from lpcal.formats.reading import reader
+from lpcal.formats.tone_claims import tone_claim
 from lpcal.geometry.arrays import Image
+from lpcal.records.sensor import ToneClaim
 
 ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
 
@@ -22,6 +24,8 @@ class StoredImage:
 
     pixels: Image
     step: float
+    claim: ToneClaim | None = None
+    """What the file says of its tone curve."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -62,6 +66,5 @@ def read_image(path: Path) -> StoredImage:
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
-    return StoredImage(
-        np.ascontiguousarray(stored, dtype=np.float32) / np.float32(full_scale), 1.0 / full_scale if full_scale > 1 else 1e-6
-    )
+    pixels = np.ascontiguousarray(stored, dtype=np.float32) / np.float32(full_scale)
+    return StoredImage(pixels, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data))

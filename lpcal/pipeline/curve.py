@@ -1,67 +1,151 @@
-"""Whether a capture's stored numbers are linear, as its calibration or the user says they are."""
+"""The sensor that a capture is made linear by: what is stated, what its files claim of it, and whether the object bears that out."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lpcal.detect.radiometry import Sensor, over_white
 from lpcal.errors import DisagreementError
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.tone_curve import Gamma, decode, worded
+from lpcal.pipeline.sensor import SensorInUse, sensor_of_capture
 from lpcal.records.calibration import Calibration
-from lpcal.records.observations import RawCapture, StatedSensor
-from lpcal.surface.response import Curve, stored_curve
+from lpcal.records.observations import RawCapture
+from lpcal.records.sensor import StatedSensor, ToneClaim
+from lpcal.surface.gains import unmeasured
+from lpcal.surface.response import Curve, Shown, stored_curve
 from lpcal.surface.sight import light_vectors, ray_map
 
-PIXELS = 3000
+PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""
 LIT = 0.25
-"""Mean over the lights, of the brightest pixels' mean, over which a pixel counts as lit."""
+"""Mean over the lights, less the room's, of the brightest pixels' mean, over which a pixel counts as lit."""
+BY_CLAIM = "the images' own tag"
+CURE = "state gamma: srgb in capture.yaml, or --gamma srgb"
+SRGB_AS_GOOD = 1.1
+"""sRGB is named as the cure where it misses by less than this many times what the best power does."""
 
 
-def judge_curve(raw: RawCapture, sensor: Sensor, calibration: Calibration, stated: StatedSensor) -> list[str]:
-    """What is to be said of the numbers' curve.
+@dataclass(frozen=True)
+class Settled:
+    """A sensor, and what the object says against it."""
+
+    used: SensorInUse
+    notes: tuple[str, ...] = ()
+    linear: bool = True
+    """Whether the object takes the numbers so made for linear ones, as far as it tells."""
+
+
+def settle_sensor(raw: RawCapture, calibration: Calibration, saying: Sequence[tuple[str, StatedSensor]]) -> Settled:
+    """The sensor of a capture and what is to be said of it.
+
+    `saying` is what is said of it and who says it, what counts more first; capture.yaml's flat field and what the images themselves show
+    are added here.
 
     Raises
     ------
     DisagreementError
-        They are clearly not linear, and nobody has said by what curve they are stored.
+        Black is not below white; or the numbers are clearly not linear, and nobody has said by what curve they are stored.
+    DegenerateError
+        The flat field is dark or saturated.
     """
-    curve = curve_of(raw, sensor, calibration)
+    used = sensor_of_capture(raw, saying)
+    if "gamma" in used.said_by:
+        return _stated_gamma_judged(raw, used, calibration)
+    return _claim_judged(raw, used, calibration)
+
+
+def _stated_gamma_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) -> Settled:
+    """With a warning where the object contradicts the gamma that is stated."""
+    gamma = used.sensor.gamma
+    curve = curve_of(raw, used.sensor, calibration, "srgb" if gamma == 1.0 else 1.0)
     if curve is None or not curve.believed:
-        return []
-    gamma = sensor.gamma * curve.gamma
-    found = (
-        f"the stored numbers are not linear: taken so they miss the lights by {100 * curve.misfit_linear:.1f} %, "
-        f"with gamma {gamma:.1f} by {100 * curve.misfit:.1f} %"
+        return Settled(used)
+    note = (
+        f"gamma {worded(gamma)} ({used.said_by['gamma']}) does not suit the images: with it they miss the lights by "
+        f"{100 * curve.misfit_taken:.1f} %, with gamma {curve.gamma:.1f} by {100 * curve.misfit:.1f} %; is it right?"
     )
-    if stated.gamma is not None:
-        return [f"{found}; gamma {stated.gamma:g} is stated"]
-    raise DisagreementError(
-        found,
+    return Settled(used, (note,), linear=False)
+
+
+def _claim_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) -> Settled:
+    """With the gamma that the images claim where the object bears it out, and what is to be said where nobody states one."""
+    claim = raw.claim if raw.claim is not None and raw.claim.gamma != 1.0 else None
+    claimed = "srgb" if claim is None or claim.gamma is None else claim.gamma
+    curve = curve_of(raw, used.sensor, calibration, claimed)
+    if curve is None:
+        return Settled(used) if claim is None else _untold(used, claim)
+    figures = f"taken as linear they miss the lights by {100 * curve.misfit_taken:.1f} %"
+    if claim is not None and claim.gamma is not None and curve.claim_explains and (curve.believed or curve.doubtful):
+        note = f"the images {claim.said}; {figures}, so by {100 * curve.misfit_claimed:.1f} %: it is undone"
+        return Settled(_by_claim(used, claim.gamma), (note,))
+    if curve.believed:
+        raise _not_linear(raw, curve)
+    if not curve.doubtful and (claim is None or not curve.claim_is_better):
+        return Settled(used)
+    who = f"the images {claim.said}" if claim is not None else "the stored numbers may not be linear"
+    as_what = worded(claimed) if curve.misfit_claimed <= curve.misfit else f"{curve.gamma:.1f}"
+    better = f"with gamma {as_what} by {100 * min(curve.misfit, curve.misfit_claimed):.1f} %"
+    return Settled(used, (f"{who}: {figures}, {better}: if they are photographs, {CURE}",), linear=False)
+
+
+def _untold(used: SensorInUse, claim: ToneClaim) -> Settled:
+    """Where the object does not tell, a camera's photographs are taken as such, other images as linear; both are said."""
+    untold = f"the images {claim.said}, and too few lights or pixels tell whether their numbers are linear"
+    if claim.photograph and claim.gamma is not None:
+        told = f"{untold}; sRGB's curve is undone: if they are linear, state gamma: 1 in capture.yaml, or --gamma 1"
+        return Settled(_by_claim(used, claim.gamma), (told,), linear=False)
+    return Settled(used, (f"{untold}; they are taken so: if they are photographs, {CURE}",), linear=False)
+
+
+def _by_claim(used: SensorInUse, gamma: Gamma) -> SensorInUse:
+    return SensorInUse(replace(used.sensor, gamma=gamma), used.said_by | {"gamma": BY_CLAIM})
+
+
+def _not_linear(raw: RawCapture, curve: Curve) -> DisagreementError:
+    srgb = curve.misfit_claimed < SRGB_AS_GOOD * curve.misfit
+    cure = "srgb" if srgb else f"{curve.gamma:.1f}"
+    return DisagreementError(
+        f"the stored numbers are not linear: taken so they miss the lights by {100 * curve.misfit_taken:.1f} %, "
+        f"with gamma {curve.gamma:.1f} by {100 * curve.misfit:.1f} %",
         where=raw.name,
         needed="linear images, or their gamma",
-        todo=f"state gamma: {gamma:.1f} in capture.yaml, or --gamma {gamma:.1f} (2.2 for sRGB photographs), or develop raw files linearly",
+        todo=f"state gamma: {cure} in capture.yaml, or --gamma {cure}"
+        + ("" if srgb else " (srgb for photographs)")
+        + ", or develop raw files linearly",
     )
 
 
-def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration) -> Curve | None:
+def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed: Gamma) -> Curve | None:
     """The curve that explains a capture's numbers best; None where too few lights or pixels tell it."""
     lights = [light for name in raw.lights for light in calibration.lights if light.name == name]
-    grey = raw.images.mean(axis=3) if raw.images.ndim == 4 else raw.images
-    mean = grey.mean(axis=0)
+    channels = raw.images if raw.images.ndim == 4 else raw.images[..., None]
+    mean = channels.mean(axis=(0, 3))
+    if raw.ambient is not None:
+        mean = mean - raw.ambient.reshape(len(raw.ambient), *mean.shape, -1).mean(axis=(0, 3))
     lit = mean > LIT * np.quantile(mean, 0.99)
     lit &= raw.mask if raw.mask is not None else True
     places = np.flatnonzero(lit)
     if len(places) == 0:
         return None
     places = places[np.unique(np.linspace(0, len(places) - 1, PIXELS).astype(int))]
-    linear = sensor.linear(grey.reshape(len(grey), -1)[:, places])
-    if raw.ambient is not None:
-        room = raw.ambient.mean(axis=0)
-        linear = linear - sensor.linear((room.mean(axis=2) if room.ndim == 3 else room).ravel()[places])
-    usable = ~over_white(raw.images, sensor, raw.step).reshape(len(grey), -1)[:, places]
+    stored = channels.reshape(len(channels), -1, channels.shape[3])[:, places].astype(float)
+    room = None if raw.ambient is None else raw.ambient.reshape(len(raw.ambient), -1, channels.shape[3])[:, places].astype(float)
+
+    def light(curve: Gamma) -> Array:
+        dark = decode(np.array([sensor.black_level]), curve)
+        linear = (decode(stored, curve) - dark) / raw.exposure_s[:, None, None]
+        if room is not None:
+            linear = linear - np.mean((decode(room, curve) - dark) / raw.ambient_exposure_s[:, None, None], axis=0)
+        return np.clip(linear.mean(axis=2), 0, None)
+
+    usable = ~over_white(raw.images, sensor, raw.step).reshape(len(channels), -1)[:, places]
     rays_C = ray_map(mean.shape, calibration.camera).reshape(-1, 3)[places]
-    distance_m = calibration.d_object_m or 0.35
-    direction, irradiance = light_vectors(lights, distance_m * rays_C)
-    strength = irradiance * np.array([[light.intensity.mean()] for light in lights])
-    exposure = raw.exposure_s.reshape(-1, 1)
-    return stored_curve(np.clip(linear, 0, None) / exposure, usable, direction * strength[..., None])
+    direction, irradiance = light_vectors(lights, (calibration.d_object_m or 0.35) * rays_C)
+    strength = irradiance * np.array([[one.intensity.mean()] for one in lights])
+    B = direction * strength[..., None]
+    B = B if room is not None else np.concatenate([B, np.ones((*B.shape[:2], 1))], axis=2)
+    return stored_curve(Shown(light, usable, B, unmeasured(lights)), sensor.gamma, claimed)

@@ -15,10 +15,11 @@ from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import refine as refine_stage
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine import summary_of
-from lpcal.pipeline.sensor import has_lens
+from lpcal.pipeline.sensor import flat_field_path, has_lens, stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration, LightsSolution
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.sensor import StatedSensor
 
 FILE = "calibration.yaml"
 
@@ -32,13 +33,17 @@ def inputs(workspace: Workspace) -> list[Path]:
     """The stages' files."""
     found = [workspace.calib("camera.yaml")] if has_lens(workspace) else []
     found += [workspace.calib("handeye.yaml")] if wings_stage.tracks_panel(workspace) else []
+    flat = None if has_lens(workspace) else flat_field_path(workspace)
+    found += [flat] if flat is not None else []
     found.append(workspace.calib(refine_stage.FILE if refine_stage.wanted(workspace) else wings_stage.FILE))
     return found
 
 
 def settings(workspace: Workspace) -> dict[str, Any]:
-    """The rig's name and lights."""
-    return {"name": workspace.rig_file.rig.name, "lights": list(workspace.rig_file.rig.lights)}
+    """The rig's name, its lights, and the levels of a sensor that has no lens."""
+    rig = workspace.rig_file.rig
+    levels = rig.camera.model_dump(include={"black_level", "white_level", "gamma"}) if rig.camera and not has_lens(workspace) else {}
+    return {"name": rig.name, "lights": list(rig.lights), "levels": levels}
 
 
 def run(workspace: Workspace, progress: Progress) -> Outcome:
@@ -56,9 +61,9 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     H_PC = read_handeye(workspace.calib("handeye.yaml")).H_PC if wings_stage.tracks_panel(workspace) else None
     solution = _lights(workspace)
     camera, H_PC = solution.camera or camera, H_PC if solution.H_PC is None else solution.H_PC
-    calibration = Calibration(
-        rig.name, solution.lights, camera, H_PC, solution.d_object_m, solution.focus_C if camera is not None else None
-    )
+    focus_C = solution.focus_C if camera is not None else None
+    sensor = StatedSensor() if camera is not None else stated_in_panel(workspace)
+    calibration = Calibration(rig.name, solution.lights, camera, H_PC, solution.d_object_m, focus_C, sensor)
     write_calibration(workspace.calib(FILE), calibration, STAGE.provenance(workspace))
     progress("export", 1, 1)
     return Outcome(

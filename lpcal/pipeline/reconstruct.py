@@ -13,19 +13,19 @@ from typing import Any
 from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
-from lpcal.detect.radiometry import sensor_with, to_radiance
+from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
-from lpcal.pipeline.curve import judge_curve
-from lpcal.pipeline.sensor import sensor_of_camera
+from lpcal.pipeline.curve import settle_sensor
+from lpcal.pipeline.sensor import BY_CAPTURE, SensorInUse, stated_in, stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
-from lpcal.records.observations import StatedSensor
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface import mesh
@@ -59,6 +59,8 @@ class Wishes:
     use: tuple[str, ...] | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What the command's words say of the sensor."""
+    panel: StatedSensor = field(default_factory=StatedSensor)
+    """What the rig's panel.yaml says of it."""
 
 
 def rig_tasks(workspace: Workspace, folder: Path | None = None) -> list[Task]:
@@ -82,8 +84,12 @@ def capture_tasks(captures: list[Path], workspace: Workspace | None, folder: Pat
     return tasks
 
 
-def reconstruct_all(tasks: list[Task], calibration_path: Path, wishes: Wishes, progress: Progress) -> Outcome:
+def reconstruct_all(
+    tasks: list[Task], calibration_path: Path, wishes: Wishes, progress: Progress, workspace: Workspace | None = None
+) -> Outcome:
     """Reconstruct each capture; a bad one is named at the end and does not stop the others.
+
+    What the rig's panel.yaml says of the sensor counts for captures and calibrations that lie in its folder, where these say nothing.
 
     Raises
     ------
@@ -97,7 +103,8 @@ def reconstruct_all(tasks: list[Task], calibration_path: Path, wishes: Wishes, p
         if len(tasks) > 1:
             progress("captures", done, len(tasks))
         try:
-            document = reconstruct_one(task, calibration, calibration_path, wishes, progress)
+            panel = stated_in_panel(workspace) if workspace and _belongs(workspace, task, calibration_path) else StatedSensor()
+            document = reconstruct_one(task, calibration, calibration_path, replace(wishes, panel=panel), progress)
         except LpcalError as error:
             if len(tasks) == 1:
                 raise
@@ -142,16 +149,16 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if camera is not None and camera.size_guessed:
         camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
         calibration = replace(calibration, camera=camera)
-    stated = wishes.sensor.over(raw.sensor)
-    sensor = sensor_with(sensor_of_camera(camera), stated, f"{task.name}, --gamma or capture.yaml")
-    curved = judge_curve(raw, sensor, calibration, stated)
+    saying = [("the command", wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
+    settled = settle_sensor(raw, calibration, [*saying, ("panel.yaml", wishes.panel)])
+    sensor = settled.used.sensor
     refuse_bright_ambient(raw, sensor)
     plain = to_radiance(raw, sensor)
     radiance = with_short_exposures(plain, raw, sensor)
-    radiance = replace(radiance, notes=(*radiance.notes, *curved, *ambient_notes(plain, raw, sensor)))
+    radiance = replace(radiance, notes=(*radiance.notes, *settled.notes, *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
-    options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", ambient_known=raw.ambient is not None)
+    options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", raw.ambient is not None, settled.linear)
     if wishes.mask == "none":
         radiance = replace(radiance, mask=None)
     read = time.perf_counter()
@@ -160,12 +167,20 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         refuse_outside(surface, calibration)
     solved = time.perf_counter()
     notes = (*_with_ambient_said(radiance.notes, surface), *_intensities_said(surface))
-    document = document_of(surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read})
+    document = document_of(
+        surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read}, settled.used
+    )
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
         distant = reconstruct(radiance, calibration, replace(options, near=False, mask=surface.mask), progress)
         document["flatness_distant"] = flatness(distant)
     write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
     return document
+
+
+def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
+    """Whether a capture or its calibration lies in the rig's folder."""
+    folder = workspace.folder.resolve()
+    return any(path.resolve().is_relative_to(folder) for path in (task.capture, calibration_path))
 
 
 def refuse_outside(surface: Surface, calibration: Calibration) -> None:
@@ -212,7 +227,13 @@ def _intensities_said(surface: Surface) -> tuple[str, ...]:
 
 
 def document_of(
-    surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, notes: tuple[str, ...], times_s: dict[str, float]
+    surface: Surface,
+    task: Task,
+    calibration_path: Path,
+    wishes: Wishes,
+    notes: tuple[str, ...],
+    times_s: dict[str, float],
+    used: SensorInUse,
 ) -> dict[str, Any]:
     """What summary.json holds."""
     return {
@@ -226,7 +247,8 @@ def document_of(
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
-        "options": asdict(wishes),
+        "sensor": used.document(),
+        "options": asdict(replace(wishes, panel=StatedSensor())),
         "inputs": hashes(task, calibration_path),
         "notes": list(notes),
     }
@@ -258,6 +280,7 @@ def line_of(document: dict[str, Any], target: Path) -> str:
         f"{document['name']}: {figures['pixels']} px in {len(pieces)} piece{'s' * (len(pieces) != 1)}"
         + (f" at {where}" if document["units"] == "metres" else "")
         + f", {document['times_s']['solving']:.1f} s -> {from_here(target)}"
+        + (f"\n  sensor: {document['sensor']['in_words']}" if document["sensor"]["in_words"] else "")
         + _flat_said(document)
     )
 
@@ -302,7 +325,7 @@ def _stands(task: Task, calibration_path: Path) -> bool:
 
 
 def _run(workspace: Workspace, progress: Progress) -> Outcome:
-    return reconstruct_all(rig_tasks(workspace), workspace.calib(CALIBRATION), Wishes(), progress)
+    return reconstruct_all(rig_tasks(workspace), workspace.calib(CALIBRATION), Wishes(), progress, workspace)
 
 
 def _look_closer(workspace: Workspace) -> None:

@@ -21,7 +21,18 @@ from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
-from lpcal.pipeline.sensor import check_sweep, flat_field_path, has_lens, sensor_of_camera, sensor_of_panel, sweep_path
+from lpcal.pipeline.sensor import (
+    BY_CAPTURE,
+    BY_LARGEST,
+    check_sweep,
+    flat_field_path,
+    has_lens,
+    sensor_of_camera,
+    sensor_of_capture,
+    sensor_of_panel,
+    sweep_path,
+    unlike_plain,
+)
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
 from lpcal.records.digits import fine
@@ -83,8 +94,10 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         progress("spheres", done, len(spheres))
         raw = _images(workspace, name, section, lights, camera)
         try:
-            views.append(_view(raw, sensor, section, camera, distance_m))
-            notes += views[-1].notes
+            used = sensor_of_capture(raw, [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))])
+            views.append(_view(raw, used.sensor, section, camera, distance_m))
+            own = {BY_CAPTURE, BY_LARGEST} & {*used.said_by.values()}
+            notes += [*([f"{name}: sensor: {used.document()['in_words']}"] if own else []), *views[-1].notes]
         except (DegenerateError, DisagreementError) as error:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))

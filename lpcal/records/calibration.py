@@ -11,38 +11,12 @@ import numpy as np
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3, splined
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.tone_curve import Gamma
+from lpcal.records.sensor import FlatField, StatedSensor
 
 SIZE_DOUBT = 0.25
 """Share of a guessed image size by which images may differ from it: a principal point lies that close to the middle of a real image."""
-
-
-@dataclass(frozen=True)
-class FlatField:
-    """How lens and sensor weaken light over the image: exp of a polynomial of Chebyshev terms, 1 at the brightest place.
-
-    ``coefficients`` (n, n), row i the power along rows; both axes run from -1 to 1 over the image.
-    """
-
-    coefficients: Array
-
-    @staticmethod
-    def terms(rows: Array, columns: Array, shape: tuple[int, ...], degree: int) -> Array:
-        """Products of Chebyshev polynomials (R, C, n, n) at rows (R,) and columns (C,)."""
-        y = np.polynomial.chebyshev.chebvander(2 * np.asarray(rows) / max(shape[0] - 1, 1) - 1, degree)
-        x = np.polynomial.chebyshev.chebvander(2 * np.asarray(columns) / max(shape[1] - 1, 1) - 1, degree)
-        return np.asarray(y[:, None, :, None] * x[None, :, None, :])
-
-    @staticmethod
-    def kept(degree: int) -> Mask:
-        """Terms (n*n,) whose degrees add up to at most `degree`."""
-        i, j = np.indices((degree + 1, degree + 1))
-        return np.asarray((i + j <= degree).ravel())
-
-    def response(self, shape: tuple[int, ...]) -> Image:
-        """Response (H, W) of an image of shape (H, W)."""
-        y, x = np.linspace(-1, 1, shape[0]), np.linspace(-1, 1, shape[1])
-        return np.exp(np.polynomial.chebyshev.chebgrid2d(y, x, self.coefficients)).astype(np.float32)
 
 
 @dataclass(frozen=True)
@@ -58,7 +32,7 @@ class Camera:
     distortion: Array
     black_level: float = 0.0
     white_level: float = 1.0
-    gamma: float = 1.0
+    gamma: Gamma = 1.0
     flat_field: FlatField | None = None
     rms_px: float = float("nan")
     """Per coordinate."""
@@ -322,3 +296,5 @@ class Calibration:
     H_PC: Array | None = None
     d_object_m: float | None = None
     focus_C: Array | None = None
+    sensor: StatedSensor = field(default_factory=StatedSensor)
+    """What is stated of the sensor where there is no camera; else the camera holds it."""

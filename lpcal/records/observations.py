@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.sensor import StatedSensor, ToneClaim
 
 
 @dataclass(frozen=True)
@@ -132,20 +133,6 @@ class MarkerStream:
 
 
 @dataclass(frozen=True)
-class StatedSensor:
-    """What is said of a sensor beside its calibration; None where nothing is."""
-
-    gamma: float | None = None
-    black_level: float | None = None
-    white_level: float | None = None
-
-    def over(self, other: StatedSensor) -> StatedSensor:
-        """What is said here, and what the other says where nothing is."""
-        pairs = ((getattr(self, key), getattr(other, key)) for key in ("gamma", "black_level", "white_level"))
-        return StatedSensor(*(mine if mine is not None else theirs for mine, theirs in pairs))
-
-
-@dataclass(frozen=True)
 class RawCapture:
     """A capture folder as stored: numbers as fractions of full scale, not yet linear."""
 
@@ -170,7 +157,13 @@ class RawCapture:
     step: float = 1 / 255
     """One step of the stored numbers, as a fraction of full scale."""
     sensor: StatedSensor = field(default_factory=StatedSensor)
-    """What capture.yaml says of the sensor."""
+    """What capture.yaml says of the sensor, but for the flat field, which is fitted to `flat`."""
+    flat: Image | None = None
+    """(H, W[, 3]) of an evenly lit target, where capture.yaml names one."""
+    claim: ToneClaim | None = None
+    """What the lights' images say of their tone curve."""
+    white_level: float | None = None
+    """Where the sensor saturates, as the numbers themselves show it."""
     distance_m: float | None = None
     """The panel's distance from the object, as capture.yaml says it."""
     notes: tuple[str, ...] = ()

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from decimal import Decimal
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator
 
@@ -67,6 +67,29 @@ def _written(kind: str, *, positive: bool = False, least: float = -math.inf, mos
     return BeforeValidator(read)
 
 
+LEAST_GAMMA, MOST_GAMMA = 0.1, 10.0
+"""Exponents between which a tone curve can be meant."""
+
+
+def parse_gamma(text: object) -> float | Literal["srgb"]:
+    """A tone curve: an exponent such as 2.2, or the word srgb.
+
+    Raises
+    ------
+    ValueError
+        It is neither; the message says what was found; what was needed.
+    """
+    written = str(text).strip()
+    if written.lower().replace("-", "") == "srgb":
+        return "srgb"
+    needed = f"a number between {LEAST_GAMMA:g} and {MOST_GAMMA:g}, or srgb"
+    if not re.fullmatch(NUMBER, written) or not LEAST_GAMMA < float(written) < MOST_GAMMA:
+        msg = f"{written}; {needed}"
+        raise ValueError(msg)
+    return float(written)
+
+
+type Curve = Annotated[float | Literal["srgb"], BeforeValidator(parse_gamma)]
 type Length = Annotated[float, _written("length")]
 type Size = Annotated[float, _written("length", positive=True)]
 type Angle = Annotated[float, _written("angle")]

@@ -13,7 +13,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
-from lpcal.records.quantities import Angle, Duration, Length, Pixels, Share, Size, Turn, parse
+from lpcal.records.quantities import Angle, Curve, Duration, Length, Pixels, Share, Size, Turn, parse
 
 type Names = list[str]
 type Count = Annotated[int, Field(ge=2)]
@@ -106,7 +106,7 @@ class CameraSection(Section):
     model: Literal["auto", "opencv4", "opencv5", "opencv8", "splined"] = "auto"
     black_level: Share = 0.0
     white_level: Share = 1.0
-    gamma: float = Field(default=1.0, gt=0.1, lt=10)
+    gamma: Curve = 1.0
     flat_field: str | None = None
     exposure_sweep: str | None = None
     cameramodel: str | None = None
@@ -306,9 +306,11 @@ class CaptureSection(Section):
 
     distance: Size | None = None
     """The panel's distance from the object, where a sensor says it."""
-    gamma: float | None = Field(default=None, gt=0.1, lt=10)
+    gamma: Curve | None = None
     black_level: Share | None = None
     white_level: Share | None = None
+    flat_field: str | None = None
+    """An image of an evenly lit target, relative to the capture folder."""
     exposure: Duration | None = None
     gain: Factor = 1.0
     exposures: dict[str, Duration] = {}

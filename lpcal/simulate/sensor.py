@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.tone_curve import Gamma, decode, encode
 from lpcal.simulate.recipe import Sensor
 
 type Stored = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
@@ -29,16 +30,16 @@ class Response:
     vignetting: Array
     black: float = 0.0
     white: float = 1.0
-    gamma: float = 1.0
+    gamma: Gamma = 1.0
 
     def __call__(self, light: Array, rng: np.random.Generator) -> Stored:
         """The stored image (H, W) of light (H, W), already blurred, as a fraction of the full well before vignetting."""
         well = self.sensor.full_well_e
         electrons = rng.poisson(np.maximum(light * self.vignetting, 0) * well) + self.sensor.read_noise_e * rng.standard_normal(light.shape)
-        low, high = self.black**self.gamma, self.white**self.gamma
+        low, high = decode(np.array([self.black, self.white]), self.gamma)
         linear = low + (high - low) * np.minimum(electrons / well, 1)
         scale = 2**self.sensor.bits - 1
-        stored = np.clip(np.rint(scale * np.maximum(linear, 0) ** (1 / self.gamma)), 0, scale)
+        stored = np.clip(np.rint(scale * encode(linear, self.gamma)), 0, scale)
         return stored.astype(np.uint8 if self.sensor.bits <= 8 else np.uint16)
 
 

@@ -58,6 +58,8 @@ class Options:
     """Whether the object is to be found where no mask is given; else every pixel counts."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
+    linear: bool = True
+    """Whether nothing speaks against the signals being linear; else powers of lights that nobody measured are held, not estimated."""
 
 
 def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
@@ -91,7 +93,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if wanted or near else None
     object_mask = _object(background if wanted else None, radiance, options)
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
-    gain = gains.intensities(seen, lights) if gains.unmeasured(lights) else None
+    gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
