@@ -23,7 +23,7 @@ import numpy as np
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
 from lpcal.chain.refine_lights.led_fit import DOME_M, POWER_SD, TILT_SD_RAD
-from lpcal.chain.refine_lights.measure import LATERAL_PX, OWN_BIAS_PX, SCATTER_FACTOR
+from lpcal.chain.refine_lights.measure import SCATTER_FACTOR, outline_errors
 from lpcal.chain.refine_lights.shading import MODEL_SD, TEXTURE_SD
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
@@ -265,9 +265,10 @@ def _outline(camera: Camera, kind: str, centre_C: np.ndarray, radius_m: float, b
     points = camera.project(sphere.outline(centre_C, radius_m, np.linspace(0, 2 * np.pi, 360, endpoint=False)))
     outward = points - points.mean(axis=0)
     outward /= np.linalg.norm(outward, axis=1, keepdims=True)
-    own = bias_px + rng.normal() * OWN_BIAS_PX[kind]
+    errors = outline_errors(kind, float(np.linalg.norm(points - points.mean(axis=0), axis=1).mean()), 0.05)
+    own = bias_px + errors.bias_px + rng.normal() * errors.bias_sd_px
     scatter = rng.normal(size=(360, 1)) * 0.05 * SCATTER_FACTOR
-    return np.asarray(points + (own + scatter) * outward + rng.normal(size=2) * LATERAL_PX[kind])
+    return np.asarray(points + (own + scatter) * outward + rng.normal(size=2) * errors.shift_sd_px)
 
 
 def _highlight(camera: Camera, light: LedLight, centre_C: np.ndarray, radius_m: float) -> np.ndarray:

@@ -25,6 +25,8 @@ SCATTER_PX, SCATTER_AND_FAINT = 1.2, (0.5, 15.0)
 """An outline whose points scatter so far (of a large one further), or so far with so little contrast, is none."""
 SECOND_RAYS, SECOND_CONTRAST, SECOND_SCATTER_PX = 0.75, 14.0, 0.7
 SECOND_SIZE, SECOND_SUPPORT, SECOND_TRIED = (0.5, 2.0), 0.1, 2
+HINT = "hint: [x px, y px, r px]"
+"""How panel.yaml states where the outline is."""
 POSSIBLE_M = (0.02, 20.0)
 """Nearer or farther than this no sphere stands."""
 SHARP_EDGE = 0.15
@@ -70,12 +72,15 @@ def why_none(image: Image, radius_px: tuple[float, float] | None) -> DegenerateE
     return _no_outline(image)
 
 
-def refuse_second(first: Outline, starts: Sequence[Array], refines: Sequence[Callable[[Array, str], Outline]]) -> None:
-    """Refuse a picture in which another outline of either kind, apart from the first, is about as clear.
+def refuse_second(
+    first: Outline, starts: Sequence[Array], refines: Sequence[Callable[[Array, str], Outline]], is_like: Callable[[Outline], bool]
+) -> None:
+    """Refuse a picture in which another outline, apart from the first, is about as clear and holds a sphere too.
 
     Parameters
     ----------
     refines : how a start becomes an outline, under some of the lights each; a shadow is not there under all of them
+    is_like : whether what an outline holds may be a sphere of the kind that is looked for
 
     Raises
     ------
@@ -90,7 +95,7 @@ def refuse_second(first: Outline, starts: Sequence[Array], refines: Sequence[Cal
                 if other is None:
                     break
                 others.append(other)
-            if len(others) == len(refines):
+            if len(others) == len(refines) and is_like(others[0]):
                 places = [_place(one.centre_px, one.radius_px) for one in (first, others[0])]
                 raise DegenerateError(
                     f"two spheres in the picture: {', and '.join(places)}",
@@ -164,7 +169,21 @@ def _no_outline(image: Image) -> DegenerateError:
     return DegenerateError(
         "no round outline is found",
         needed="one sphere, whole and sharp in the picture",
-        todo="look at the images; give its place as hint: [x, y, radius] in panel.yaml",
+        todo=f"look at the images; state its place as {HINT} in panel.yaml",
+    )
+
+
+def not_a_sphere(outline: Outline, kind: str, likeness: float) -> DegenerateError:
+    """What is said where the roundest thing in a picture is no sphere."""
+    why = (
+        f"what the lights change in it is not what they change in a ball (likeness {likeness:.2f})"
+        if kind == "matte"
+        else f"it mirrors only {100 * likeness:.0f} % of the lights as one spot each"
+    )
+    return DegenerateError(
+        f"what is roundest, {_place(outline.centre_px, outline.radius_px)}, is no {kind} sphere: {why}",
+        needed="the sphere whole and sharp in the picture, and not hidden",
+        todo=f"take the other thing away, or state the sphere's place as {HINT} in panel.yaml",
     )
 
 

@@ -103,7 +103,7 @@ def refine_outline(image: Image, kind: str, start_px: Array, curve: Curve) -> Ou
                 raise DegenerateError(
                     f"only {good.sum()} of {RAYS} rays find an edge",
                     needed="a sharp outline, whole in the picture",
-                    todo="give its place as hint: [x, y, radius]",
+                    todo="state its place as hint: [x px, y px, r px] in panel.yaml",
                 )
             parameters = curve.fit(moved[good])
             distance = _distance(curve.draw(parameters), moved)

@@ -10,6 +10,7 @@ import numpy as np
 
 from lpcal.detect import sphere_checks, sphere_outline, sphere_start
 from lpcal.detect.sphere_highlights import Highlight, find_highlight, without_lamps
+from lpcal.detect.sphere_likeness import chrome_likeness, matte_likeness
 from lpcal.detect.sphere_outline import Outline
 from lpcal.detect.sphere_response import refuse_curved
 from lpcal.errors import DegenerateError, DisagreementError
@@ -21,6 +22,11 @@ from lpcal.records.observations import Radiance, SphereView
 REFINED_STARTS = 3
 CLEAR_RAYS, CLEAR_CONTRAST, CLEAR_SCATTER_PX = 0.9, 20.0, 0.5
 """An outline that so many rays see so clearly and evenly needs no rival."""
+TRIED_STARTS, SAME = 6, 0.25
+"""So many other outlines are tried where the clearest holds no sphere, those that differ from it by this share of its radius."""
+LIKE, UNLIKE = {"matte": 0.9, "chrome": 0.5}, 0.5
+"""What is no less like a sphere than the first is taken in the clearest outline's stead; what is less than the second is none: real balls
+have 0.98 and more, a vase 0.8, flat things 0; a chrome ball may miss lights that its rod or the camera hides."""
 MATTE_DISC, LIT_SIGMAS, LIT_SHARE = 0.9, 5.0, 0.02
 """Inside this share of a matte outline's radius a light must lift this share of the pixels by so many sigmas, unsaturated."""
 
@@ -47,11 +53,20 @@ def observe_sphere(radiance: Radiance, expected: Expected, camera: Camera | None
     DisagreementError
         Its radius cannot be right.
     """
+    where, todo = f"sphere {radiance.name}", ""
     try:
         outline = _outline_of(mean_image(radiance), radiance, expected, camera)
+        if not _is_told(radiance, expected):
+            where += f" at ({outline.centre_px[0]:.0f}, {outline.centre_px[1]:.0f}) px, radius {outline.radius_px:.0f} px"
+            todo = f"; is it elsewhere? Then state {sphere_checks.HINT} in panel.yaml"
         return _with_lights(_view_of(radiance, expected, outline), radiance, outline)
     except (DegenerateError, DisagreementError) as error:
-        raise type(error)(error.found, where=f"sphere {radiance.name}", needed=error.needed, todo=error.todo) from error
+        raise type(error)(error.found, where=where, needed=error.needed, todo=error.todo + todo) from error
+
+
+def _is_told(radiance: Radiance, expected: Expected) -> bool:
+    """Whether the outline's place is stated."""
+    return expected.hint_px is not None or radiance.mask is not None
 
 
 def _view_of(radiance: Radiance, expected: Expected, outline: Outline) -> SphereView:
@@ -83,7 +98,7 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     def refine(start: Array, kind: str = expected.kind, shown: Image = image) -> Outline:
         return sphere_outline.refine_outline(shown, kind, start, curve)
 
-    told = expected.hint_px is not None or radiance.mask is not None
+    told = _is_told(radiance, expected)
     radius_px = _radius_range(expected, camera)
     if expected.hint_px is not None:
         starts = [expected.hint_px]
@@ -98,15 +113,53 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
         outline = outline if outline is not None and _is_clear(outline) else None
     if outline is None or sphere_checks.is_vague(outline):
         raise sphere_checks.why_none(image, radius_px)
+    if not told and len(radiance.lights) > 1:
+        outline = _most_like(outline, starts, radiance, expected.kind, refine)
     sphere_checks.refuse_bad_outline(outline, image)
     rivals = sphere_checks.rivals(outline, starts, image) if not told and len(radiance.lights) > 1 else []
     if rivals:
         parts = [_shown(radiance, np.arange(len(radiance.lights)) % 3 != third) for third in range(3)]
-        sphere_checks.refuse_second(outline, rivals, [partial(refine, shown=shown) for shown in parts])
+        refines = [partial(refine, shown=shown) for shown in parts]
+        unsure = np.isnan(_likeness(radiance, expected.kind, outline))
+        sphere_checks.refuse_second(outline, rivals, refines, lambda o: bool(unsure or _likeness(radiance, expected.kind, o) > UNLIKE))
     if camera is not None and expected.radius_m is not None:
         centre_C = sphere.from_outline(camera.unproject(outline.points_px), expected.radius_m)
         sphere_checks.refuse_far(float(np.linalg.norm(centre_C)), expected.radius_m, expected.distance_m)
     return outline
+
+
+def _most_like(first: Outline, starts: Sequence[Array], radiance: Radiance, kind: str, refine: Callable[[Array], Outline]) -> Outline:
+    """The clearest outline where what it holds is a sphere of this kind; else the first of the others that does; else the clearest.
+
+    Raises
+    ------
+    DegenerateError
+        None of them does, and the clearest holds something else.
+    """
+    likeness = _likeness(radiance, kind, first)
+    if likeness > UNLIKE:
+        return first
+    for start in starts[:TRIED_STARTS]:
+        if np.linalg.norm(start[:2] - first.centre_px) < SAME * first.radius_px and abs(start[2] / first.radius_px - 1) < SAME:
+            continue
+        try:
+            other = refine(start)
+        except DegenerateError:
+            continue
+        if not sphere_checks.is_vague(other) and _likeness(radiance, kind, other) > LIKE[kind]:
+            return other
+    if np.isnan(likeness):
+        return first
+    raise sphere_checks.not_a_sphere(first, kind, likeness)
+
+
+def _likeness(radiance: Radiance, kind: str, outline: Outline) -> float:
+    """From 0 to 1; NaN where no light tells."""
+    lit = [light for light in radiance.lights if light not in radiance.dark]
+    if kind == "matte":
+        return matte_likeness(radiance, lit, outline)
+    images = {light: _grey(radiance.short.get(light, radiance.signal[radiance.lights.index(light)])) for light in lit}
+    return chrome_likeness(without_lamps({light: _spots(radiance, light, outline) for light in lit}, outline.radius_px), images, outline)
 
 
 def _radius_range(expected: Expected, camera: Camera | None) -> tuple[float, float] | None:

@@ -9,9 +9,10 @@ import numpy as np
 
 from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit
 from lpcal.chain.refine_lights.joint_fit import JointFit
+from lpcal.chain.refine_lights.samples import Samples
 from lpcal.chain.refine_lights.shading import ShadingFit, lobe_of_leds
-from lpcal.chain.refine_lights.volume import direction_std, volume_points
-from lpcal.geometry import se3
+from lpcal.chain.refine_lights.volume import direction_std, level_std, volume_points
+from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
 
@@ -82,15 +83,23 @@ def near_lights(
     return found, warnings
 
 
-def with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
-    """The lights with the intensities and round lobes of the shading."""
+def with_shading(
+    lights: Sequence[Light], shading: ShadingFit, fit: GeometryFit, samples: Samples, radii_m: Sequence[float], focus_C: Array
+) -> list[Light]:
+    """The lights with the intensities and round lobes of the shading; `radii_m` (S,) of the spheres."""
     misfit = rms(list(shading.residual.values()))
+    places, normals = np.zeros((2, samples.light.size, 3))
+    for s in np.unique(samples.sphere):
+        own = samples.sphere == s
+        places[own], normals[own] = sphere.meet(samples.ray_C[own], fit.centres_C[s], radii_m[s])
+    seen = [(places[samples.light == k], normals[samples.light == k]) for k in range(len(lights))]
+    by_place = level_std(fit.source_C, fit.source_covariance, seen, volume_points(focus_C))
     return [
         replace(
             light,
             intensity=shading.intensity[k],
             lobe=replace(shading.lobes[k], seen_rad=float(shading.seen_rad[k])),
-            intensity_std=float(np.hypot(shading.intensity_std[k], misfit)),
+            intensity_std=float(np.hypot(np.hypot(shading.intensity_std[k], misfit), by_place[k])),
         )
         for k, light in enumerate(lights)
     ]

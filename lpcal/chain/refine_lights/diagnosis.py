@@ -17,7 +17,7 @@ import numpy as np
 
 from lpcal.chain.refine_lights.explain import SCALE, fitted, scaled
 from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
-from lpcal.chain.refine_lights.samples import Samples, sample_blocks
+from lpcal.chain.refine_lights.samples import FACING_LIGHT, Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import lobe_of_leds
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import led_cluster, sphere
@@ -32,8 +32,9 @@ OTHER_LOBE, UNFIT = 0.25, 0.03
 RADIUS_OFF, OTHER_RADIUS = 0.03, 0.4
 """Another radius, off by more than this share, is named when it leaves this share of the squares."""
 GATE_PX, GATE_SHADING = 0.05, 0.015
-EXPECTED_GATES = 2.5
-"""Where the lights or the highlights are less certain than the gate, a miss of so many of its own sigmas is let pass."""
+EXPECTED_GATES, SHADING_SD = 2.5, 0.003
+"""Where the lights or the highlights are less certain than the gate, a miss of so many of its own sigmas is let pass; shading that
+fits has the second, relative."""
 CENTRE_STEPS = 4
 
 
@@ -144,7 +145,7 @@ def _lobe_misfit(samples: Samples, own: Array, leds: int) -> float:
 
 
 def refuse_matte_radius(solution: LightsSolution, used: Measured, camera: Camera) -> None:
-    """Refuse a matte sphere whose shading fits many times better at the distance that another radius gives.
+    """Refuse a matte sphere whose shading misses by more than its lights leave, and fits many times better under another radius.
 
     Raises
     ------
@@ -165,6 +166,8 @@ def refuse_matte_radius(solution: LightsSolution, used: Measured, camera: Camera
                 return float("inf")
             return float("inf") if shaded is None else float(np.mean(_levelled(shaded) ** 2))
 
+        if misfit(0.0) < EXPECTED_GATES**2 * _expected_misfit(view, measured.centre_C, solution.lights, camera):
+            continue
         best = minimize_scalar(misfit, bounds=(-np.log(SCALE), np.log(SCALE)), method="bounded", options={"xatol": 0.005, "maxiter": 14})
         if abs(best.x) > RADIUS_OFF and best.fun < OTHER_RADIUS * misfit(0.0):
             raise DisagreementError(
@@ -173,6 +176,18 @@ def refuse_matte_radius(solution: LightsSolution, used: Measured, camera: Camera
                 needed="the radius as the calipers have it",
                 todo=f"correct spheres.{view.name}.radius in panel.yaml",
             )
+
+
+def _expected_misfit(view: SphereView, centre_C: Array, lights: Sequence[Light], camera: Camera) -> float:
+    """Mean square of a matte sphere's log shading that the lights' own uncertain directions leave, and what any shading does."""
+    samples = sample_blocks([view], centre_C[None], camera, lights)
+    P, n = sphere.meet(samples.ray_C, centre_C, view.radius_m)
+    expected = np.full(samples.light.size, SHADING_SD**2)
+    for k, light in enumerate(lights):
+        own = samples.light == k
+        cosine = np.sum(n[own] * light.field(P[own])[0], axis=-1)
+        expected[own] += light.direction_std_rad**2 * (1 / np.maximum(cosine, FACING_LIGHT) ** 2 - 1)
+    return float(expected.mean())
 
 
 def _levelled(shaded: Shaded) -> Array:

@@ -5,8 +5,9 @@ direction from x_0 and w one over its distance (0: distant)::
 
     r_s = d - w (x_s - x_0)   across r_s      d and w by weighted least squares, with what is known of each r_s
 
-One sphere leaves w open. A light whose w is not 2 sigma over 0 is taken as distant: its direction is the mean of the r_s. One that no
-chrome sphere shows takes its direction from a matte one's shading, data = g . n. Intensities are the |g| of the matte spheres.
+One sphere leaves w open: 0 +- 1 / |x_0|, the light as far from it as the camera is or farther, which sigma over the volume holds. A light
+whose w is not 2 sigma over 0 is taken as distant: its direction is the mean of the r_s. One that no chrome sphere shows takes its direction
+from a matte one's shading, data = g . n. Intensities are the |g| of the matte spheres.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 
 from lpcal.chain.refine_lights.distant import FACING_CAMERA, matte_direction
 from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
+from lpcal.chain.refine_lights.volume import volume_points
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, SphereFinding
@@ -34,7 +36,18 @@ class FarLight:
 
     direction_C: Array
     direction_std_rad: float
+    """As seen from `seen_from_C`."""
     beyond_m: float | None
+    seen_from_C: Array
+    """(3,)."""
+    nearness_rms: float
+    """Of 1 / distance, per metre: where nothing tells it, the light is about as far from the sphere as the camera is, or farther."""
+
+    def std_over(self, points_C: Array) -> float:
+        """Standard deviation a tangent axis (rad), rms over points (N, 3), what the unknown distance turns it by included."""
+        away = points_C - self.seen_from_C
+        across2 = np.sum(away**2, axis=1) - (away @ self.direction_C) ** 2
+        return float(np.hypot(self.direction_std_rad, self.nearness_rms * np.sqrt(across2.mean() / 2)))
 
 
 def far_lights(free: Sequence[str], used: Measured, camera: Camera) -> dict[str, FarLight]:
@@ -57,12 +70,13 @@ def with_far(
 ) -> LightsSolution:
     """The near lights' solution, or none, with the far lights added; intensities by the matte spheres, mean 1."""
     known = {light.name: light for light in near.lights} if near else {}
+    centre_C = np.mean([m.centre_C for _, m in used], axis=0)
+    points_C = volume_points(near.focus_C if near else centre_C)
     level = _levels([*known.values()], [*far], used, camera)
     for name, one in far.items():
         intensity = level.get(name, np.ones(1))
-        known[name] = Light(name, one.direction_C, intensity, direction_std_rad=one.direction_std_rad, intensity_std=float("nan"))
+        known[name] = Light(name, one.direction_C, intensity, direction_std_rad=one.std_over(points_C), intensity_std=float("nan"))
     mean = float(np.mean([known[name].intensity.mean() for name in lights]))
-    centre_C = np.mean([m.centre_C for _, m in used], axis=0)
     told = _words(far, used)
     if near is not None:
         return replace(
@@ -95,9 +109,9 @@ def _chrome(light: str, used: Measured, camera: Camera) -> FarLight | None:
     weight = 1 / np.square(sigmas)
     mean = np.average(rays, axis=0, weights=weight)
     d = mean / np.linalg.norm(mean)
-    if len(rays) == 1:
-        return FarLight(d, sigmas[0], None)
     x_0, across = np.average(places, axis=0, weights=weight), np.eye(3) - np.outer(d, d)
+    if len(rays) == 1:
+        return FarLight(d, sigmas[0], None, x_0, 1 / float(np.linalg.norm(x_0)))
     shift = [across @ (place - x_0) for place in places]
     # d and w part: the shifts have mean 0 about x_0
     information = sum(w * s @ s for w, s in zip(weight, shift, strict=True))
@@ -105,7 +119,8 @@ def _chrome(light: str, used: Measured, camera: Camera) -> FarLight | None:
     sigma = 1 / np.sqrt(max(information, 1e-30))
     if nearness > SURE_SIGMAS * sigma:
         return None
-    return FarLight(d, float(1 / np.sqrt(weight.sum())), float(1 / (max(nearness, 0.0) + SURE_SIGMAS * sigma)))
+    own, near = float(1 / np.sqrt(weight.sum())), max(float(nearness), 0.0)
+    return FarLight(d, own, float(1 / (near + SURE_SIGMAS * sigma)), x_0, float(np.hypot(near, sigma)))
 
 
 def _matte(light: str, used: Measured, camera: Camera) -> FarLight | None:
@@ -117,7 +132,8 @@ def _matte(light: str, used: Measured, camera: Camera) -> FarLight | None:
     if not found:
         return None
     mean = np.mean(found, axis=0)
-    return FarLight(mean / np.linalg.norm(mean), SHADING_SIGMA_RAD / np.sqrt(len(found)), None)
+    x_0 = np.mean([m.centre_C for view, m in used if view.shading], axis=0)
+    return FarLight(mean / np.linalg.norm(mean), SHADING_SIGMA_RAD / np.sqrt(len(found)), None, x_0, 1 / float(np.linalg.norm(x_0)))
 
 
 def _mirrored(view: SphereView, measured: CentreMeasurement, camera: Camera, light: str) -> tuple[Array, Array]:

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from lpcal.chain.refine_lights.diagnosis import diagnose, refuse_matte_radius
 from lpcal.chain.refine_lights.explain import refuse_at_sight, refuse_other_orders, refuse_what_explains
 from lpcal.chain.refine_lights.far import far_lights, with_far
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
-from lpcal.chain.refine_lights.measure import measured_spheres
+from lpcal.chain.refine_lights.measure import Measured, measured_spheres
 from lpcal.chain.refine_lights.refine import DOUBTED_PX, DOUBTED_SIGMAS, refine
 from lpcal.errors import ConvergenceError
 from lpcal.records.calibration import Camera, LightsSolution, Lobe, Wings
@@ -21,6 +23,9 @@ from lpcal.records.observations import SphereView
 
 DOUBTED_SHADING = 0.01
 """Shading that agrees no better is worth a look for a mistake, as are highlights and outlines that `refine` doubts."""
+
+STRAINED = 3.0
+"""A sphere so many standard deviations from where its outline puts it is worth a look too."""
 
 
 def refine_judged(
@@ -60,7 +65,7 @@ def refine_judged(
     except ConvergenceError:
         refuse_what_explains(near, used, camera, wings)
         raise
-    if _doubtful(solution):
+    if _doubtful(solution) or _strained(solution, used):
         refuse_what_explains(near, used, camera, wings)
         chrome = [view for view in views if view.highlights_px]
         if len(chrome) < len(views) and chrome:
@@ -78,3 +83,18 @@ def _doubtful(solution: LightsSolution) -> bool:
         return True
     biased = bias_px if isinstance(bias_px, dict) else {}
     return any(abs(biased[kind] - mean) > DOUBTED_SIGMAS * sigma for kind, (mean, sigma) in BIAS_PX.items() if kind in biased)
+
+
+def _strained(solution: LightsSolution, used: Measured) -> bool:
+    """Whether a sphere lies farther from where its outline puts it than the outline's own uncertainty leaves."""
+    biased = solution.evidence.get("outline_bias_px")
+    bias_px = biased if isinstance(biased, dict) else {}
+    centres = {finding.name: finding.centre_C for finding in solution.spheres if finding.used}
+    for view, measured in used:
+        centre_C = centres.get(view.name)
+        if centre_C is None:
+            continue
+        off = centre_C - measured.centre_C - bias_px.get(view.kind, 0.0) * measured.by_bias
+        if off @ np.linalg.solve(measured.covariance, off) > STRAINED**2:
+            return True
+    return False

@@ -1,9 +1,13 @@
-"""What a sphere's outline says of its centre, and how sure that is; what a pixel's residual is in any lens.
+r"""What a sphere's outline says of its centre, and how sure that is; what a pixel's residual is in any lens.
 
-Symbols: outline points with scatter sigma a point; a common radial bias b (px, outwards) moves the centre by ``by_bias * b``. To the
-formal covariance come systematic parts that the scatter does not show: the whole outline shifted, and its bias. How large they are the
-outline itself tells: what mirrors or hides it unevenly also bends it, and the bends of two to six waves round it (which no sphere has) are
-about as large as the shift, of one wave, that cannot be told from the sphere's place.
+Symbols: outline points with scatter s a point (px), radius r (px); a common radial bias b (px, outwards) moves the centre by
+``by_bias * b``. To the formal covariance come systematic parts, measured on drawn spheres of known place (`tools/outline_errors.py`)::
+
+    shift an axis   sigma^2 = floor^2 + (slope s^2)^2
+    bias            mean small q, sigma^2 = floor^2 + (slope s^2)^2 + (small' q)^2,   q = min(1, (25 / r)^3)
+
+Scatter shows what the edge met besides the sphere's rim: squared, as it takes part of the rays along and is itself seen only in the rest.
+A small outline's model of the limb does not hold within the blur, which moves it outwards.
 """
 
 from __future__ import annotations
@@ -20,11 +24,24 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import SphereView
 
-LATERAL_PX = {"chrome": 0.05, "matte": 0.03}
-OWN_BIAS_PX = {"chrome": 0.015, "matte": 0.02}
+LATERAL_PX, LATERAL_SLOPE = {"chrome": 0.045, "matte": 0.010}, {"chrome": 1.3, "matte": 3.8}
+"""How far the whole outline is shifted, a standard deviation an axis in pixels: without scatter, and more by the scatter's square."""
+OWN_BIAS_PX, OWN_BIAS_SLOPE = {"chrome": 0.010, "matte": 0.005}, {"chrome": 1.5, "matte": 1.4}
+"""How far a sphere's radial bias departs from that of its kind, a standard deviation in pixels, likewise."""
+SMALL_PX, SMALL_BIAS_PX, SMALL_OWN_PX = 25.0, {"chrome": 0.22, "matte": 0.21}, {"chrome": 0.03, "matte": 0.07}
+"""Outlines of this radius and less are seen larger by the second figures (pixels), give or take the third; larger ones by the cube less."""
 SCATTER_FACTOR = 2.0
-WAVES = (2, 3, 4, 5, 6)
+"""Neighbouring rays share their errors: so many times the error that points apart would leave."""
 STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class OutlineErrors:
+    """What an outline is known to be off by, in pixels: mean radial bias, its standard deviation, and that of a shift an axis."""
+
+    bias_px: float
+    bias_sd_px: float
+    shift_sd_px: float
 
 
 @dataclass(frozen=True)
@@ -64,27 +81,22 @@ def measure_centre(view: SphereView, camera: Camera, *, free_core: bool = False)
     by_bias = (centre_of(points + STEP * outward) - centre_of(points - STEP * outward)) / (-2 * STEP)
     by_shift = np.stack([(centre_of(points + step) - centre_of(points - step)) / (2 * STEP) for step in STEP * np.eye(2)], axis=1)
     J = normal_offset_jacobian(centre_C, view.radius_m, camera)
-    bend_px = _bend(points, camera.project(sphere.outline(centre_C, view.radius_m, np.linspace(0, 2 * np.pi, 720, endpoint=False))))
-    lateral_px, bias_px = max(LATERAL_PX[view.kind], bend_px), max(OWN_BIAS_PX[view.kind], bend_px / 2)
+    errors = outline_errors(view.kind, float(np.linalg.norm(points - middle, axis=1).mean()), view.outline_sigma_px)
     formal = view.outline_sigma_px**2 * np.linalg.inv(J.T @ J * len(points) / len(J))
-    covariance = SCATTER_FACTOR**2 * formal + lateral_px**2 * by_shift @ by_shift.T + bias_px**2 * np.outer(by_bias, by_bias)
+    covariance = SCATTER_FACTOR**2 * formal + errors.shift_sd_px**2 * by_shift @ by_shift.T
+    covariance += errors.bias_sd_px**2 * np.outer(by_bias, by_bias)
     by_core = np.zeros((3, 0))
     if free_core and core_size(camera):
         ahead, behind = ([centre_of(points, with_core(camera, sign * step)) for step in steps(camera)] for sign in (1, -1))
         by_core = np.subtract(ahead, behind).T / (2 * steps(camera).sum(axis=1))
-    return CentreMeasurement(centre_C, covariance, by_bias, by_core)
+    return CentreMeasurement(centre_C + errors.bias_px * by_bias, covariance, by_bias, by_core)
 
 
-def _bend(points: Array, drawn: Array) -> float:
-    """Amplitude (px, rms of a sine) of the outline's departure from the drawn one, over waves that no sphere has."""
-    middle = drawn.mean(axis=0)
-    seen, true = points - middle, drawn - middle
-    around, true_around = np.arctan2(seen[:, 1], seen[:, 0]), np.arctan2(true[:, 1], true[:, 0])
-    offset = np.linalg.norm(seen, axis=1) - np.interp(around, true_around, np.linalg.norm(true, axis=1), period=2 * np.pi)
-    low = np.column_stack([np.ones_like(around), np.cos(around), np.sin(around)])
-    bends = np.column_stack([wave(k * around) for k in WAVES for wave in (np.cos, np.sin)])
-    found = np.linalg.lstsq(np.hstack([low, bends]), offset, rcond=None)[0][3:]
-    return float(np.sqrt(np.mean(found**2)))
+def outline_errors(kind: str, radius_px: float, scatter_px: float) -> OutlineErrors:
+    """What an outline of this kind, radius and scatter is off by, besides the bias that all of a kind share."""
+    small, s2 = min(1.0, (SMALL_PX / radius_px) ** 3), scatter_px**2
+    own = np.sqrt(OWN_BIAS_PX[kind] ** 2 + (OWN_BIAS_SLOPE[kind] * s2) ** 2 + (SMALL_OWN_PX[kind] * small) ** 2)
+    return OutlineErrors(SMALL_BIAS_PX[kind] * small, float(own), float(np.hypot(LATERAL_PX[kind], LATERAL_SLOPE[kind] * s2)))
 
 
 def normal_offset_jacobian(centre_C: Array, radius_m: float, camera: Camera) -> Array:

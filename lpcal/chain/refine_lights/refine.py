@@ -86,7 +86,7 @@ def refine(
     if wings is None or not can_fit(kept, wings, lights):
         samples = sample_blocks(kept, fit.centres_C, camera, found)
         shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd)
-        found = with_shading(found, shading)
+        found = with_shading(found, shading, fit, samples, [view.radius_m for view in kept], focus_C)
         return _solution(found, focus_C, fit, shading, views, kept, refused, [*told, *warnings], camera, wings)
     joint, late = _joint(fit, used, known, camera, wings, intensity_sd)
     told += [click.message() for click in late]
