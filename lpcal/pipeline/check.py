@@ -208,8 +208,8 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     if off:
         more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
-    size = congruence.board_size_warning(*park.board_scale(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3]), agreed.H_PC)
-    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
+    size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC)
+    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB) if fixed is None else None
     advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
     findings.say("expected", f"by the scatter of these views H_PC is known {advised.words()}")
     findings.warnings += [each for each in (size, roles) if each is not None]
