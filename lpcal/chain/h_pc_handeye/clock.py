@@ -138,7 +138,7 @@ def fits_as_well(track: PoseTrack, t_camera_s: Array, H_CB: Array, offset_s: flo
 
 def as_good(track: PoseTrack, t_camera_s: Array, H_CB: Array, best: OffsetCandidate) -> tuple[float, float]:
     """The least and the largest offset of the stretch about the best one over which the angles agree as well, within what is chance."""
-    lags = best.offset_s + STEP_S * np.arange(-REACH_STEPS, REACH_STEPS + 1)
+    lags = np.asarray(best.offset_s + STEP_S * np.arange(-REACH_STEPS, REACH_STEPS + 1), dtype=float)
     fits = _Scan.of(track, t_camera_s, H_CB).costs(lags, MOST_PAIRS) < best.cost + AS_WELL
     fits[REACH_STEPS] = True
     below, above = np.flatnonzero(~fits[:REACH_STEPS]), np.flatnonzero(~fits[REACH_STEPS:])
