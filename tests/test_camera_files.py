@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -158,3 +159,24 @@ def test_a_camera_comes_back_from_its_own_file_whole(tmp_path: Path) -> None:
     found = read_camera(tmp_path / "camera.yaml")
     assert (found.black_level, found.white_level, found.gamma, found.rms_px, found.parameters) == (0.008, 0.9, 2.2, 0.05, names)
     np.testing.assert_array_equal(found.covariance, meant.covariance)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        f"    'optimization_inputs': b'{base64.b85encode(bytes.fromhex('fdce53b1') * 400).decode()}',\n",
+        "    'note': '" + "{" * 200 + "',\n",
+        '    "it\'s": "' + "[" * 200 + '",\n',
+        "    # don't count these: " + "{[" * 100 + "\n",
+    ],
+    ids=["mrcal's inputs", "a string", "a string in double quotes", "a comment"],
+)
+def test_strings_of_a_cameramodel_open_no_sections(tmp_path: Path, more: str) -> None:
+    text = cameramodel_text(camera("opencv4"))
+    path = tmp_path / "c.cameramodel"
+    path.write_text(text.replace("{\n", "{\n" + more, 1))
+    assert max(path.read_text().count(sign) for sign in "{[") > 64
+    np.testing.assert_allclose(read_camera_file(path).K, K)
+    path.write_text(text.replace("{\n", "{\n" + more + "    'deep': '' " + "[" * 200 + "]" * 200 + ",\n", 1))
+    with pytest.raises(InputError, match="sections within sections"):
+        read_camera_file(path)

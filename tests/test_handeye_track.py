@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from handeye_scene import Noise, moving_session, stop_and_shoot
+from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye.clock import as_good, offset_candidates
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import clean, poses_at
 
@@ -103,3 +106,25 @@ def test_a_resting_body_rests_and_has_no_speed():
     found = poses_at(clean(session.stream.t_s, session.stream.H_OP, session.stream.error_m), session.boards.t_camera_s - session.offset_s)
     assert found.steady.mean() > 0.9
     assert np.mean(np.any(found.velocity != 0, axis=1)) < 0.1
+
+
+@pytest.mark.parametrize(("seed", "dwell_s"), [(1, 0.8), (2, 1.2), (3, 1.0), (4, 0.6)])
+def test_the_offsets_between_which_all_views_fall_into_rests(seed, dwell_s):
+    session, _ = stop_and_shoot(np.random.default_rng(seed), 20, noise=Noise(drift=0.3), dwell_s=dwell_s)
+    track = track_of(session.stream)
+    best = offset_candidates(track, session.boards.t_camera_s, session.boards.H_CB)[0]
+    low, high = as_good(track, session.boards.t_camera_s, session.boards.H_CB, best)
+    assert low < session.offset_s < high
+    assert 0.5 * dwell_s < high - low < 1.8 * dwell_s
+    middle = poses_at(track, session.boards.t_camera_s - (low + high) / 2)
+    assert middle.steady[middle.trusted].all()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_panel_that_moves_leaves_no_such_stretch(seed):
+    session = moving_session(np.random.default_rng(seed), 40)
+    track = track_of(session.stream)
+    best = offset_candidates(track, session.boards.t_camera_s, session.boards.H_CB)[0]
+    low, high = as_good(track, session.boards.t_camera_s, session.boards.H_CB, best)
+    assert high - low < 0.1
+    assert low - 0.02 < session.offset_s < high + 0.02

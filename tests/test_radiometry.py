@@ -145,3 +145,35 @@ def test_all_dark_and_all_saturated_are_refused(level, words):
     images = np.clip(level + 0.002 * rng.standard_normal((6, *SHAPE)) * (level < 1), 0, 1)
     with pytest.raises(DegenerateError, match=words):
         to_radiance(capture(images), Sensor())
+
+
+def ball(lights: int, bits: int, seed: int) -> np.ndarray:
+    """Noisy images of a matte ball, the brightest number near full scale."""
+    rng, full = np.random.default_rng(seed), 2**bits - 1
+    y, x = np.mgrid[-1:1:96j, -1:1:96j]
+    z = np.sqrt(np.maximum(1 - x**2 - y**2, 0))
+    turn = 2 * np.pi * np.arange(lights) / lights
+    lit = np.stack([np.maximum(0.4 * np.cos(a) * x + 0.4 * np.sin(a) * y + 0.82 * z, 0) * (z > 0) for a in turn])
+    return np.rint(np.clip(0.85 * lit + 0.04 + 0.004 * rng.standard_normal(lit.shape), 0, 1) * full) / full
+
+
+@pytest.mark.parametrize(("bits", "level"), [(8, 0.5), (8, 0.7), (12, 0.45), (16, 0.6)])
+@pytest.mark.parametrize("channels", [1, 3])
+def test_numbers_that_pile_up_below_white_are_saturated_and_said(bits: int, level: float, channels: int) -> None:
+    images, step = ball(4, bits, 3), 1 / (2**bits - 1)
+    images = images if channels == 1 else np.stack([0.6 * images, images, 0.5 * images], axis=-1)
+    sound = to_radiance(capture(images, step=step), Sensor())
+    assert not sound.saturated.any()
+    assert not [note for note in sound.notes if "pile up" in note]
+    clipped = np.minimum(images, np.rint(level / step) * step)
+    found = to_radiance(capture(clipped, step=step), Sensor())
+    assert [note for note in found.notes if f"pile up at {100 * np.rint(level / step) * step:.1f} %" in note]
+    lost = images > level if channels == 1 else (images > level).any(axis=-1)
+    assert np.array_equal(found.saturated | lost, found.saturated)
+    assert found.saturated.sum() < lost.sum() + 0.02 * lost.size
+
+
+def test_light_that_is_not_clipped_does_not_pile_up() -> None:
+    flat = np.full(SHAPE, 0.6)[None] * np.array([0.9, 1.0])[:, None, None]
+    for images in (flat, ball(3, 8, 5) * np.array([1.0, 0.6, 0.3])[:, None, None], np.stack([ramp(0.1, 0.7), ramp(0.7, 0.1)])):
+        assert not to_radiance(capture(np.rint(255 * images) / 255), Sensor()).saturated.any()

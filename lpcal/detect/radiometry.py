@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lpcal.detect.piled import piled_level, piled_words
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.geometry.tone_curve import Gamma, decode
@@ -80,6 +81,9 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
         raise DegenerateError(
             "every pixel of every image is saturated", where=raw.name, needed="images below the white level", todo="shorten the exposure"
         )
+    piled = piled_level(raw.images, sensor.white_level, raw.step)
+    if piled is not None:
+        saturated |= over_white(raw.images, replace(sensor, white_level=piled), raw.step)
     linear = sensor.linear(raw.images)
     ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
     noise = noise_model(linear, saturated, raw.step)
@@ -87,6 +91,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
     ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
+    notes += [] if piled is None else [piled_words(piled)]
     if ambient_linear is None:
         notes.append("no ambient image: what lights the scene beside the lights is not taken away")
     else:

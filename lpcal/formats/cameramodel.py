@@ -7,6 +7,7 @@ Source: mrcal's documentation, "cameramodel".
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ from lpcal.records.calibration import Camera
 
 PLAIN = {"LENSMODEL_PINHOLE": "opencv4", "LENSMODEL_OPENCV4": "opencv4", "LENSMODEL_OPENCV5": "opencv5", "LENSMODEL_OPENCV8": "opencv8"}
 MARK = "# written by lpcal\n"
+OPAQUE = re.compile(r"""#[^\n]*|'[^'\\\n]*(?:\\.[^'\\\n]*)*'|"[^"\\\n]*(?:\\.[^"\\\n]*)*\"""")
+"""Comments and strings: mrcal writes what it solved from as one string of 85 signs, brackets among them."""
 MODEL_FILE = marked("a cameramodel", MARK)
 """A .cameramodel, as an output: only one that lpcal wrote is replaced, never a user's own."""
 
@@ -35,7 +38,7 @@ def read_cameramodel(path: Path) -> Camera:
     """
     try:
         text = path.read_text(encoding="utf-8")
-        refuse_bombs(text, path)
+        refuse_bombs(text, path, OPAQUE)
         document: dict[str, Any] = ast.literal_eval(text)
         lensmodel = str(document["lensmodel"])
         vector = np.array(document["intrinsics"], dtype=float)

@@ -52,8 +52,8 @@ def load_yaml(text: str, path: Path, loader: Any = None, look: Callable[[yaml.No
         loading.dispose()
 
 
-def refuse_bombs(text: str, path: Path) -> None:
-    """Refuse a text that would be too deep or too large.
+def refuse_bombs(text: str, path: Path, opaque: re.Pattern[str] | None = None) -> None:
+    """Refuse a text that would be too deep or too large; what `opaque` matches (strings, comments, within a line) opens no section.
 
     Raises
     ------
@@ -63,6 +63,7 @@ def refuse_bombs(text: str, path: Path) -> None:
     needed = f"a document of at most {MOST_BYTES >> 20} MB, {DEEPEST} sections deep"
     if len(text) > MOST_BYTES:
         raise InputError(f"{len(text) / 1e6:.0f} MB of YAML", where=str(path), needed=needed)
+    text = opaque.sub("", text) if opaque else text
     signs = np.frombuffer(text.encode("utf-32-le", errors="replace"), np.uint32)
     turns = np.isin(signs, [ord("["), ord("{")]).astype(np.int8) - np.isin(signs, [ord("]"), ord("}")])
     deep = np.cumsum(turns, dtype=np.int64)

@@ -25,6 +25,8 @@ ALL_PAIRS_UP_TO = 80
 ROUNDS = 10
 INLIER_SIGMAS = 4.0
 ROTATION_FLOOR = 0.02
+STRETCHES = 12
+"""Of a session, left out one at a time for the doubt of the board's scale: enough that their spread is known within a quarter."""
 FLOOR_M = 2e-4
 """The least scatter that counts as one, so that perfect data have inliers."""
 
@@ -87,8 +89,8 @@ def consensus_of_rotations(H_OP: Array, H_CB: Array, seed: int = 0) -> tuple[Arr
     return _rotations(R_OP[inliers], R_CB[inliers]), inliers
 
 
-def board_scale(H_OP: Array, H_CB: Array, R_PC: Array) -> tuple[float, float]:
-    """How large the board is by the mocap, over how large it was said to be, and one standard deviation of it.
+def board_scale(H_OP: Array, H_CB: Array, R_PC: Array) -> float:
+    """How large the board is by the mocap, over how large it was said to be.
 
     The translation part with the boards' distances scaled: ``R_OP,k (s R_PC t_CB,k + t_PC) + t_OP,k = t_OB``, robust.
     """
@@ -103,10 +105,22 @@ def board_scale(H_OP: Array, H_CB: Array, R_PC: Array) -> tuple[float, float]:
         miss = np.linalg.norm((A @ x - b).reshape(-1, 3), axis=1)
         spread = max(1.4826 * float(np.median(miss)) / 1.5, 1e-9)
         weight = 1 / (1 + (miss / (3 * spread)) ** 2)
-    N = (A * np.repeat(weight, 3)[:, None]).T @ A
-    scale = 1 / np.sqrt(np.maximum(np.diag(N), 1e-300))
-    covariance = spread**2 * np.linalg.pinv(N * np.outer(scale, scale), hermitian=True) * np.outer(scale, scale)
-    return float(x[0]), float(np.sqrt(covariance[0, 0]))
+    return float(x[0])
+
+
+def board_scale_sigma(H_OP: Array, H_CB: Array) -> float:
+    """One standard deviation of `board_scale`, by leaving out stretches of the session, one after another.
+
+    Unlike the spread of the residuals it knows of errors that neighbours share and of those of R_PC, which every stretch's absence gives
+    anew. Source: the delete-d jackknife, Efron & Tibshirani, An introduction to the bootstrap (1993).
+    """
+    views = np.arange(len(H_OP))
+    parts = np.array_split(views, min(STRETCHES, len(views)))
+    found = []
+    for part in parts:
+        rest = np.setdiff1d(views, part)
+        found.append(board_scale(H_OP[rest], H_CB[rest], _rotations(H_OP[rest, :3, :3], H_CB[rest, :3, :3])))
+    return float(np.sqrt((len(parts) - 1) * np.var(found)))
 
 
 def residuals(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> tuple[Array, Array]:

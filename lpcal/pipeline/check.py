@@ -139,10 +139,13 @@ def _clock(workspace: Workspace, track: PoseTrack, t_camera_s: Array, H_CB: Arra
             "no clock offset at which a third of the views fall into the recording", needed="recordings of the same minutes"
         )
     best = candidates[0]
-    panel = poses_at(track, t_camera_s - best.offset_s)
     precision = f", no better than +- {0.5 * best.width_s:.2f} s: the panel stood still" if best.width_s > WIDE_S else ""
-    if panel.trusted.any() and panel.steady[panel.trusted].all():
-        precision = ", anywhere within the rests: the panel stood still in every view, and the data do not show the offset"
+    if rests := _rests(track, t_camera_s, H_CB, best):
+        low, high = rests
+        precision = (
+            f", anywhere from {1e3 * low:+.0f} to {1e3 * high:+.0f} ms: the panel stood still in every view, the offset does not show"
+        )
+        best = replace(best, offset_s=(low + high) / 2, width_s=max(best.width_s, high - low))
     findings.say("clock", f"t_camera = t_mocap {1e3 * best.offset_s:+.0f} ms by relative angles{precision}")
     findings.figures |= {"clock_offset_s": best.offset_s, "clock_offset_width_s": best.width_s}
     if stated == "estimate":
@@ -159,6 +162,13 @@ def _clock(workspace: Workspace, track: PoseTrack, t_camera_s: Array, H_CB: Arra
         )
         return best.offset_s
     return float(stated)
+
+
+def _rests(track: PoseTrack, t_camera_s: Array, H_CB: Array, best: clock.OffsetCandidate) -> tuple[float, float] | None:
+    """The offsets between which all views fall into rests of the panel, so that none is better than another; None where it moved."""
+    low, high = clock.as_good(track, t_camera_s, H_CB, best)
+    panel = poses_at(track, t_camera_s - (low + high) / 2)
+    return (low, high) if panel.trusted.any() and panel.steady[panel.trusted].all() else None
 
 
 def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) -> None:
@@ -208,8 +218,8 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     if off:
         more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
-    size = congruence.board_size_warning(*park.board_scale(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3]), agreed.H_PC)
-    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
+    size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC)
+    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB) if fixed is None else None
     advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
     findings.say("expected", f"by the scatter of these views H_PC is known {advised.words()}")
     findings.warnings += [each for each in (size, roles) if each is not None]

@@ -10,6 +10,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
@@ -29,12 +31,15 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface import mesh
+from lpcal.surface.convention import mirrored
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
 """What --mask takes beside a file."""
+VAGUE_DEG = 6.0
+"""Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so ill known serves nobody."""
 OUTSIDE = (0.5, 2.0)
 """Of the working distance: beyond, nothing is known of the lights."""
 
@@ -166,7 +171,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if wishes.near and wishes.distance_m is None:
         refuse_outside(surface, calibration)
     solved = time.perf_counter()
-    notes = (*_with_ambient_said(radiance.notes, surface), *_intensities_said(surface))
+    notes = (*_with_ambient_said(radiance.notes, surface), *_intensities_said(surface), *_misfit_said(surface))
     document = document_of(
         surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read}, settled.used
     )
@@ -224,6 +229,23 @@ def _intensities_said(surface: Surface) -> tuple[str, ...]:
         return ()
     least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
     return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
+
+
+def _misfit_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said where the normals are hardly known, or are those of a surface only with one axis turned over."""
+    said = []
+    doubt_deg = float(np.median(surface.normal_std_deg[surface.mask])) if surface.mask.any() else 0.0
+    if doubt_deg > VAGUE_DEG:
+        said.append(
+            f"the normals are known to {doubt_deg:.0f} deg only (median, an axis): the images do not fit the lights; are their names, "
+            "order and axes those of the images?"
+        )
+    if mirrored(surface.normals, surface.mask, surface.rays_C):
+        said.append(
+            "the normals are of a surface only with x or y turned over: an axis of the light list seems flipped "
+            "(lpcal takes x right, y up), the images mirrored, or the lights in backward order"
+        )
+    return tuple(said)
 
 
 def document_of(

@@ -96,6 +96,14 @@ def settled(name: str, normals_C: Image, mask: Mask, camera: Camera | None, stat
     return Convention(normals_C, False, as_is, flipped, note)
 
 
+def mirrored(normals_C: Image, mask: Mask, rays_C: Array) -> bool:
+    """Whether normals (H, W, 3) along rays (H, W, 3) are clearly those of a surface with one axis turned over, and not as they are."""
+    if not mask.any():
+        return False
+    as_is, turned = (curl(one, mask, rays_C) for one in (normals_C, normals_C * np.array([1, -1, 1], np.float32)))
+    return _tells(turned) and not _tells(as_is) and as_is.likeness < -CLEAR
+
+
 def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
     """What the curl of normals (H, W, 3) says along rays (H, W, 3)."""
     n = normals_C.astype(float)

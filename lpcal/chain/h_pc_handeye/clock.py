@@ -39,6 +39,8 @@ LEAST_INSIDE = 0.3
 PLATEAU = 1.3
 AS_WELL = 0.5
 """Difference of costs, in logarithms of squares, up to which two offsets explain the angles alike."""
+REACH_STEPS = 150
+"""Steps to either side over which a plateau is followed: three seconds, as long as anybody rests for a photograph."""
 MOST_RATE, RATE_STEP_S = 2e-3, 0.1
 """Largest difference of two clocks' rates that is looked for (29.97 frames counted as 30 is half of it), and the step of the search."""
 RATE_GAIN = 1.0
@@ -133,6 +135,17 @@ def fits_as_well(track: PoseTrack, t_camera_s: Array, H_CB: Array, offset_s: flo
     """Whether the angles agree at an offset as they do at the best one, within what chance lets them differ by."""
     cost = float(_Scan.of(track, t_camera_s, H_CB).costs(np.array([offset_s]), MOST_PAIRS)[0])
     return bool(cost < best.cost + AS_WELL)
+
+
+def as_good(track: PoseTrack, t_camera_s: Array, H_CB: Array, best: OffsetCandidate) -> tuple[float, float]:
+    """The least and the largest offset of the stretch about the best one over which the angles agree as well, within what is chance."""
+    lags = np.asarray(best.offset_s + STEP_S * np.arange(-REACH_STEPS, REACH_STEPS + 1), dtype=float)
+    fits = _Scan.of(track, t_camera_s, H_CB).costs(lags, MOST_PAIRS) < best.cost + AS_WELL
+    fits[REACH_STEPS] = True
+    below, above = np.flatnonzero(~fits[:REACH_STEPS]), np.flatnonzero(~fits[REACH_STEPS:])
+    first = below[-1] + 1 if below.size else 0
+    last = REACH_STEPS + above[0] - 1 if above.size else 2 * REACH_STEPS
+    return float(lags[first]), float(lags[last])
 
 
 def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Array, float]:

@@ -33,6 +33,8 @@ BOARD_OFF = 0.004
 """Share by which the board's size must differ from the mocap's metre to be worth a word: a tenth of a millimetre in a square of 25."""
 BOARD_SIGMAS = 3.0
 """Standard deviations by which it must differ: of sound data one session in 400 does."""
+STUDENT = 1.28
+"""Widens a sigma that comes from a dozen stretches of a session so that three of it are passed as rarely as three of a known one."""
 FAR_M = 1.0
 ON_BODY_M = 0.6
 """Metres from the body's origin within which a board that it carries lies."""
@@ -75,7 +77,7 @@ def misplacement(H_OP: Array, H_CB: Array) -> tuple[float, park.Consensus]:
 def fits(H_OP: Array, H_CB: Array, agreed: park.Consensus) -> bool:
     """Whether a closed form explains most views."""
     distance = float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1)))
-    scale, _ = park.board_scale(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
+    scale = park.board_scale(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC[:3, :3])
     right_size = len(H_OP) < 8 or abs(np.log(max(abs(scale), 1e-9))) < SCALE_TOLERANCE
     return agreed.scatter_m < FITS * distance and right_size
 
@@ -156,6 +158,12 @@ def board_size_warning(scale: float, sigma: float, H_PC: Array) -> str | None:
     )
 
 
+def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array) -> str | None:
+    """`board_size_warning` before any solve; None where the closed form cannot tell the board's size as well as that."""
+    sigma = STUDENT * park.board_scale_sigma(H_OP, H_CB)
+    return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC)
+
+
 def fixed_camera(H_PC: Array, H_OB: Array, *, inverted: bool) -> DisagreementError | None:
     """The error for a camera that stands in the room and a board that rides on the tracked body; None for a camera on the body.
 
@@ -194,7 +202,7 @@ def _scale(H_OP: Array, H_CB: Array) -> float:
     if agreed is None:
         return float("nan")
     R_PC, inliers = agreed
-    scale, _ = park.board_scale(H_OP[inliers], H_CB[inliers], R_PC)
+    scale = park.board_scale(H_OP[inliers], H_CB[inliers], R_PC)
     return scale if scale > 1e-5 else float("nan")
 
 

@@ -1,0 +1,60 @@
+"""A light list that is not that of the images: said in words where it leaves the normals hardly known, and never of the right one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from lpcal.simulate.study_sphere import Conditions, capture, ring
+
+
+def write(folder: Path, order: list[int], signs: tuple[int, int, int] = (1, 1, 1)) -> None:
+    """Twelve lights on two rings, and an .lp in which light k has the direction of light order[k], its axes times `signs`."""
+    (folder / "cap").mkdir()
+    vectors, mask = [], np.zeros(0)
+    for number, phase in enumerate((25.0, 45.0)):
+        conditions = Conditions(phase_deg=phase, noise=0.004, ambient=0.05, peak=0.75, pixels=64)
+        raw, _, mask = capture(conditions, number)
+        for k, (image, light) in enumerate(zip(raw.images, ring(conditions), strict=True)):
+            cv2.imwrite(str(folder / f"cap/L{6 * number + k}.png"), np.rint(255 * image).astype(np.uint8))
+            vectors.append(light.direction_C * [1, -1, -1] * np.array(signs))
+        cv2.imwrite(str(folder / "cap/ambient.png"), np.rint(255 * np.asarray(raw.ambient)[0]).astype(np.uint8))
+    cv2.imwrite(str(folder / "cap/mask.png"), 255 * mask.astype(np.uint8))
+    rows = [f"L{k}.png " + " ".join(f"{v:.6f}" for v in vectors[other]) for k, other in enumerate(order)]
+    (folder / "dome.lp").write_text("\n".join([str(len(rows)), *rows]) + "\n")
+
+
+def said(lpcal, folder: Path) -> str:
+    """What `reconstruct` says with the .lp of a folder; it ends with 0."""
+    assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=folder)[0] == 0
+    code, _, err = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out", cwd=folder)
+    assert code == 0, err
+    return str(err)
+
+
+def test_the_right_list_is_not_doubted(lpcal, tmp_path: Path) -> None:
+    write(tmp_path, list(range(12)))
+    assert "warning" not in said(lpcal, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "order",
+    [[*range(1, 12), 0], [*range(2, 12), 0, 1], [5, 11, 3, 9, 1, 7, 0, 6, 2, 8, 4, 10]],
+    ids=["shifted by one", "shifted by two", "mixed"],
+)
+def test_lights_in_another_order(lpcal, tmp_path: Path, order: list[int]) -> None:
+    write(tmp_path, order)
+    assert "do not fit the lights" in said(lpcal, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("order", "signs"),
+    [(range(12), (1, -1, 1)), (range(12), (-1, 1, 1)), ([0, 5, 4, 3, 2, 1, 6, 11, 10, 9, 8, 7], (1, 1, 1))],
+    ids=["y down", "x left", "rings the other way round"],
+)
+def test_mirrored_lists(lpcal, tmp_path: Path, order: list[int], signs: tuple[int, int, int]) -> None:
+    write(tmp_path, list(order), signs)
+    assert "x or y turned over" in said(lpcal, tmp_path)
