@@ -41,21 +41,13 @@ def read_colmap_camera(path: Path) -> Camera:
         if len(cameras) != 1:
             raise InputError(f"{len(cameras)} cameras", where=str(path), needed="one camera", todo="keep one of them, in a file of its own")
         model, width, height, params = cameras[0]
+        _refuse_model(model if isinstance(model, str) else model.name, params, path)
         camera = pycolmap.Camera(model=model, width=width, height=height, params=params)
     except (struct.error, UnicodeDecodeError, ValueError, IndexError, AttributeError, TypeError) as error:
         raise InputError(
             f"cannot be read as COLMAP's cameras: {error}", where=str(path), needed="a whole file", todo="is it cut off?"
         ) from error
-    wanted = PARAMETERS.get(camera.model.name, len(params))
-    if len(params) != wanted:
-        raise InputError(f"{len(params)} parameters", where=str(path), needed=f"{wanted} of {camera.model.name}", todo="is it cut off?")
-    core = (
-        (camera.focal_length_x, camera.focal_length_y, camera.principal_point_x - HALF_PIXEL, camera.principal_point_y - HALF_PIXEL)
-        if (camera.model.name in DISTORTION_FIRST)
-        else None
-    )
-    if core is None:
-        raise refuse_lens(camera.model.name, str(path))
+    core = (camera.focal_length_x, camera.focal_length_y, camera.principal_point_x - HALF_PIXEL, camera.principal_point_y - HALF_PIXEL)
     return central_camera((width, height), core, params[DISTORTION_FIRST[camera.model.name] :], str(path))
 
 
@@ -63,6 +55,14 @@ PARAMETERS = {"SIMPLE_PINHOLE": 3, "PINHOLE": 4, "SIMPLE_RADIAL": 4, "RADIAL": 5
 """How many parameters a model has."""
 DISTORTION_FIRST = {"SIMPLE_PINHOLE": 3, "PINHOLE": 4, "SIMPLE_RADIAL": 3, "RADIAL": 3, "OPENCV": 4, "FULL_OPENCV": 4}
 """Where the distortion begins among a model's parameters; what it holds is the beginning of OpenCV's vector."""
+
+
+def _refuse_model(name: str, params: list[float], path: Path) -> None:
+    """Refuse what is no model that lpcal projects with, or lacks parameters."""
+    if name not in PARAMETERS:
+        raise refuse_lens(name, str(path))
+    if len(params) != PARAMETERS[name]:
+        raise InputError(f"{len(params)} parameters", where=str(path), needed=f"{PARAMETERS[name]} of {name}", todo="is it cut off?")
 
 
 def _text(text: str) -> list[tuple[str, int, int, list[float]]]:
