@@ -6,7 +6,7 @@ projected through the true lens and drop out, images are stamped with jitter, th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -61,6 +61,21 @@ def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0) -> Se
     H_OP[flipped] = H_OP[flipped] @ se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
     camera, boards = _seen(rng, H_CB, noise, None)
     return Session(boards, camera, H_OP, None, H_PC, H_OB, 0.0, flipped)
+
+
+def robot_session(rng, turn_deg=0.03, shift_mm=0.3) -> Session:
+    """Thirty views whose panel poses are off by a random linear function of the pose, of these rms sizes (a length of three axes)."""
+    session = static_session(rng, 30, 25.0)
+    H = session.H_OP
+    clue = np.hstack([se3.rotation_vector(H[0, :3, :3].T @ H[:, :3, :3]), H[:, :3, 3]])
+    clue = (clue - clue.mean(axis=0)) / clue.std(axis=0)
+    off = clue @ rng.normal(size=(6, 6))
+    off[:, :3] *= np.radians(turn_deg) / np.sqrt(np.mean(np.sum(off[:, :3] ** 2, axis=1)))
+    off[:, 3:] *= 1e-3 * shift_mm / np.sqrt(np.mean(np.sum(off[:, 3:] ** 2, axis=1)))
+    moved = H.copy()
+    moved[:, :3, :3] = se3.exp(np.hstack([off[:, :3], np.zeros_like(off[:, :3])]))[:, :3, :3] @ H[:, :3, :3]
+    moved[:, :3, 3] += off[:, 3:]
+    return replace(session, H_OP=moved)
 
 
 def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every_s=1 / FRAME_HZ) -> Session:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, static_session
+from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, robot_session, static_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.advice import _turned, advise
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
@@ -85,6 +85,16 @@ def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
     depth_P = found.H_PC[:3, 2]
     sigma = np.sqrt(depth_P @ se3.origin_covariance(found.H_PC, found.H_PC_covariance) @ depth_P)
     assert sigma > 0.5e-3
+
+
+@pytest.mark.parametrize("size", [(0.0, 0.0), (0.03, 0.3), (0.1, 0.5)])
+def test_the_covariance_holds_errors_that_hang_on_the_pose(size):
+    nees = []
+    for seed in range(3):
+        session = robot_session(np.random.default_rng(seed), *size)
+        found = _static(session)
+        nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
+    assert np.mean(nees) < 6.0 + 3 * np.sqrt(12 / 3)
 
 
 def test_moving_finds_the_offset_and_is_honest():
@@ -274,6 +284,7 @@ def test_a_clock_that_runs_fast_is_found(ppm, every_s):
     assert all(view.used for view in found.handeye.views)
 
 
+@pytest.mark.slow
 def test_no_drift_is_seen_where_there_is_none():
     rates = [_moving(moving_session(np.random.default_rng(seed), 60)).clock_drift for seed in range(3)]
     assert rates == [0.0] * 3

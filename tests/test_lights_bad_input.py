@@ -74,9 +74,11 @@ REFUSED: dict[str, tuple[Plant, int, str, str]] = {
     "radius ten times too large": (
         lambda f: rig(f, ["chrome_0", "matte_0"], wings=True, radius="250 mm"), 6, "it would be 3.6", "a radius of about 2"),
 }  # fmt: skip
+SOON = {"sphere cut by the frame", "auto-exposure", "radius in mm for m"}
+"""Those that take seconds."""
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name not in SOON)) for name in REFUSED])
 def test_refused(tmp_path: Path, lpcal: Run, name: str) -> None:
     plant, code, words, todo = REFUSED[name]
     plant(tmp_path)
@@ -154,6 +156,7 @@ def test_done_and_said(tmp_path: Path, lpcal: Run, name: str) -> None:
         assert any(words in warning for warning in lights.warnings)
 
 
+@pytest.mark.slow
 def test_a_bad_sphere_stands_in_the_file_with_its_reason(tmp_path: Path, lpcal: Run) -> None:
     one_bad_of_three(tmp_path)
     lpcal("refine", cwd=tmp_path)

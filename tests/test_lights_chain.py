@@ -202,6 +202,7 @@ def test_an_all_black_capture_is_refused(dome: Path, lpcal: Run, tmp_path: Path)
     assert not (rig / "surfaces").exists()
 
 
+@pytest.mark.slow
 def test_half_a_calibration_is_refused(dome: Path, lpcal: Run, tmp_path: Path) -> None:
     lpcal("export", cwd=dome)
     whole = (dome / "calib" / "calibration.yaml").read_text()

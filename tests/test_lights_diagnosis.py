@@ -86,7 +86,9 @@ PLANTED = {
     "two cables swapped": Planted(swapped_cables, 6, "L1 where L4 should be, L4 where L1 should be"),
     "a wing one click off": Planted(clicked, 0, "L5: joint at 30 deg, not 40", slow=True),
     "a blob with its outer ring off": Planted(ring_off, 0, "L5: falls off as 7 LEDs do, not 19: is its outer ring off", slow=True),
-    "a chrome sphere of another radius": Planted(another_radius, 6, "sphere chrome_1: its highlights fit as if its radius were 2"),
+    "a chrome sphere of another radius": Planted(
+        another_radius, 6, "sphere chrome_1: its highlights fit as if its radius were 2", slow=True
+    ),
     "a matte sphere of another radius": Planted(
         lambda f: another_radius(f, "matte_0"), 6, "sphere matte_0: its shading fits as if its radius were 2", slow=True
     ),
@@ -119,6 +121,7 @@ def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_foretold(tm
     assert 0 < evidence["foretold_shading_rms_albedo_free"] < 0.005
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gamma", ["2.2", "1.6", "srgb"])
 def test_a_spheres_own_capture_yaml_is_heeded_and_said(tmp_path: Path, lpcal: Run, gamma: str) -> None:
     from lights_planted import BLACK, alter

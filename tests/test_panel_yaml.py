@@ -168,7 +168,10 @@ MESSAGES = {
         "panel.yaml:2, board.corners: 3 values\n  needed: 2 values",
     ),
     "too small a count": ("lpcal: 1\nboard: {corners: [9, 1], square: 25 mm}\n", "panel.yaml:2, board.corners.1: 1\n  needed: at least 2"),
-    "not a number": ("lpcal: 1\ncamera: {gamma: high}\n", "panel.yaml:2, camera.gamma: high\n  needed: a number"),
+    "not a number": (
+        "lpcal: 1\ncamera: {gamma: high}\n",
+        "panel.yaml:2, camera.gamma: high\n  needed: a number between 0.1 and 10, or srgb",
+    ),
     "not whole": ("lpcal: 1\nlights: {L0: {leds: 19.5}}\n", "panel.yaml:2, lights.L0.leds: 19.5\n  needed: a whole number"),
     "not one of": (
         "lpcal: 1\ncamera: {model: opencv12}\n",

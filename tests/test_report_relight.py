@@ -271,6 +271,7 @@ def test_the_browser_lights_the_surface_as_the_light_did(browse: Any, before: st
     assert np.corrcoef((green[inner] / 255.0) ** 2.2, expected[inner])[0, 1] > 0.98
 
 
+@pytest.mark.slow
 def test_the_browser_turns_an_orthographic_surface(browse: Any) -> None:
     found = browse(
         render(ball(perspective=False, colour=True), lights(near=False)), view="#does=turn&yaw=0.7&pitch=0.2&gloss=0.6&light=all"

@@ -49,12 +49,14 @@ def test_the_ball_is_found_beside(thing: str, kind: str) -> None:
     np.testing.assert_allclose(place_of(observe_sphere(seen, Expected(kind, None), None)), BALL, atol=1.2)
 
 
+@pytest.mark.slow
 def test_a_chrome_ball_is_told_from_a_matte_one() -> None:
     seen = picture([matte(265, 120, 50)], BALL)
     np.testing.assert_allclose(place_of(observe_sphere(seen, Expected("chrome", None), None)), BALL, atol=1.2)
     np.testing.assert_allclose(place_of(observe_sphere(seen, Expected("matte", None), None)), (265, 120, 50), atol=1.2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", [(265, 120, 50), (265, 100, 33), (240, 150, 42)])
 def test_two_balls_of_a_kind_are_refused_and_a_hint_says_which(other: tuple[float, float, float]) -> None:
     seen = picture([matte(*BALL), matte(*other)])
@@ -74,7 +76,7 @@ def test_a_ball_cut_by_the_border_is_not_replaced_by_another_thing(thing: str) -
         assert "border" in str(refused.value) or "hint: [x px, y px, r px]" in str(refused.value)
 
 
-@pytest.mark.parametrize("thing", ["round picture", pytest.param("larger round picture", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("thing", [pytest.param(name, marks=pytest.mark.slow) for name in ("round picture", "larger round picture")])
 def test_a_ball_partly_hidden_is_not_replaced_and_a_hint_solves_it(thing: str) -> None:
     seen = picture([BESIDE[thing], matte(*BALL), before(140, 165, 60, 180)])
     found, refused = attempt(seen, "matte")
@@ -86,7 +88,7 @@ def test_a_ball_partly_hidden_is_not_replaced_and_a_hint_solves_it(thing: str) -
 
 
 @pytest.mark.parametrize(
-    "thing", ["round picture", "mug", *(pytest.param(name, marks=pytest.mark.slow) for name in ("picture frame", "can"))]
+    "thing", ["round picture", *(pytest.param(name, marks=pytest.mark.slow) for name in ("mug", "picture frame", "can"))]
 )
 def test_without_a_ball_what_is_round_is_refused_with_its_place_and_the_cure(thing: str) -> None:
     for kind in ("matte", "chrome"):

@@ -31,6 +31,7 @@ def overexposed():
     )
 
 
+@pytest.mark.slow
 def test_saturated_samples_come_from_shorter_exposures():
     raw, mask = overexposed(), truth(Scene())[0]
     plain = to_radiance(raw, Sensor())

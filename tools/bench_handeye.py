@@ -12,6 +12,10 @@ A scenario a row, trial n from the seed n: rms error of H_PC over the trials, de
 NEES is 6 where a covariance is honest: of lpcal, which estimates the noise, and of the likelihood given the true noise; behind them the
 95 % band of a mean over so many trials. The scenes are those of tests/handeye_scene.py.
 
+``python tools/bench_handeye.py robot [TRIALS]``: a robot whose poses are off by a smooth function of the pose, as joint offsets and link
+lengths make them, on top of the white noise: errors of lpcal, of Park's closed form, and of a robust fit of every pose's misplacement in
+the room at three weightings of turn against shift; what lpcal states; and its NEES.
+
 ``speed`` prints processor seconds of `lpcal handeye` on a fresh rig folder (boards found, camera solved, hand-eye solved), of reading the
 recording and detecting the boards alone, and of their parts.
 """
@@ -27,10 +31,11 @@ import time
 from pathlib import Path
 
 import numpy as np
+import scipy.optimize
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, Session, moving_session, static_session, stop_and_shoot
+from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, Session, moving_session, robot_session, static_session, stop_and_shoot
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock
 from lpcal.chain.h_pc_handeye.camera_part import camera_prior
@@ -155,6 +160,45 @@ def row(name: str, make, trials: int) -> str:
     )
 
 
+WEIGHTINGS = ((0.05, 0.3), (0.1, 0.1), (0.02, 1.0))
+"""Degrees and millimetres at which the robust fits weigh turns against shifts."""
+
+
+def robust_fit(session: Session, turn_deg: float, shift_mm: float) -> np.ndarray:
+    """H_PC of least Huber cost of the board's misplacement in the room, every pose counted alike."""
+    A, B = session.H_OP, session.boards.H_CB
+    X, Y = park.park(A, B)
+
+    def misplacement(p: np.ndarray) -> np.ndarray:
+        E = se3.inv(se3.exp(p[6:]) @ Y) @ A @ (se3.exp(p[:6]) @ X) @ B
+        return np.hstack([se3.rotation_vector(E[:, :3, :3]) / np.radians(turn_deg), E[:, :3, 3] / (1e-3 * shift_mm)]).ravel()
+
+    found = scipy.optimize.least_squares(misplacement, np.zeros(12), loss="huber", x_scale=1e-3)
+    return np.asarray(se3.exp(found.x[:6]) @ X)
+
+
+def robot(trials: int) -> None:
+    """The table of a robot with errors that hang on its pose."""
+    for turn_deg, shift_mm in ((0.0, 0.0), (0.03, 0.3), (0.1, 0.5)):
+        errors: dict[str, list[tuple[float, float]]] = {}
+        stated, honest = [], []
+        for seed in range(trials):
+            session = robot_session(np.random.default_rng(seed), turn_deg, shift_mm)
+            found = solve(session)
+            errors.setdefault("lpcal", []).append(spread(error_of(found.H_PC, session)))
+            errors.setdefault("Park", []).append(spread(error_of(closed_forms(session)[0], session)))
+            for weights in WEIGHTINGS:
+                name = f"robust, {weights[0]} deg to {weights[1]} mm"
+                errors.setdefault(name, []).append(spread(error_of(robust_fit(session, *weights), session)))
+            J = se3.turn_and_origin_jacobian(found.H_PC)
+            stated.append(spread(J @ found.H_PC_covariance @ J.T))
+            honest.append(nees(found.H_PC, found.H_PC_covariance, session))
+        print(f"{turn_deg} deg, {shift_mm} mm by the pose: lpcal's NEES {np.mean(honest):.2f} of 6, median {np.median(honest):.2f}")
+        for name, each in (*errors.items(), ("lpcal states", stated)):
+            deg, mm = np.sqrt(np.mean(each, axis=0))
+            print(f"  {name:28s} {deg:.4f} deg {mm:.3f} mm")
+
+
 FINER = 3
 """Samples of a pixel, a side."""
 PANEL_YAML = """lpcal: 1
@@ -237,6 +281,9 @@ def main() -> None:
     if sys.argv[1:2] == ["speed"]:
         with tempfile.TemporaryDirectory() as scratch:
             speed(Path(sys.argv[2] if len(sys.argv) > 2 else scratch))
+        return
+    if sys.argv[1:2] == ["robot"]:
+        robot(int(sys.argv[2]) if len(sys.argv) > 2 else 40)
         return
     trials = int(sys.argv[1]) if len(sys.argv) > 1 else 50
     print(

@@ -12,6 +12,7 @@ from lpcal.chain.h_pc_handeye.drift import Drift
 from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
 from lpcal.chain.h_pc_handeye.moved import find_step
+from lpcal.chain.h_pc_handeye.pose_errors import covariance_of_pose_errors
 from lpcal.chain.h_pc_handeye.state import State
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
@@ -62,7 +63,7 @@ def finding_of(
     found, views = state.estimate(), state.views()
     spread, more = observability.refuse_what_cannot_show_it(views.H_OP)
     factor = variance.block_factor(views, found, None if t_camera_s is None else t_camera_s[state.inliers])
-    covariance = found.covariance() * factor
+    covariance = _with_pose_errors(found.covariance(), covariance_of_pose_errors(views, found), factor)
     bad = float(np.mean(~state.inliers[state.panel.trusted]))
     if bad > MOST_BAD:
         raise ConvergenceError(
@@ -132,6 +133,14 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
             )
         )
     return tuple(verdicts)
+
+
+def _with_pose_errors(covariance: Array, added: Array, factor: float) -> Array:
+    """The covariance (13, 13) with what errors that hang on the pose add (12, 12), at least a factor more than by white noise."""
+    whole = covariance.copy()
+    whole[:12, :12] += added
+    grown = float(np.trace(np.linalg.solve(covariance[:6, :6], whole[:6, :6]))) / 6
+    return np.asarray(whole * max(1.0, factor / grown))
 
 
 def _evidence(state: State, found: Estimate, spread: observability.Spread, factor: float) -> dict[str, object]:

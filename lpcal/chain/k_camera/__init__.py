@@ -139,10 +139,12 @@ def refuse_degenerate(fit: CameraFit, alike: str | None = None) -> list[str]:
     camera = fit.camera
     if camera.covariance is None:
         return [f"{alike}; {TODO}"] if alike else []
-    sigma = np.sqrt(np.diag(camera.covariance))[:4]
+    variance = np.diag(camera.covariance)[:4]  # negative where an information matrix without a rank was inverted
+    sigma = np.where(variance >= 0, np.sqrt(np.abs(variance)), np.inf)
     shares = sigma / [camera.K[0, 0], camera.K[1, 1], camera.image_size[0], camera.image_size[0]]
     worst = {"focal length": float(shares[:2].max()), "principal point": float(shares[2:].max())}
-    said = {name: f"{name} to {100 * share:.1g} %" for name, share in worst.items() if not share < WEAK_SHARE}
+    how = {name: f"to {100 * share:.1g} %" if np.isfinite(share) else "not at all" for name, share in worst.items()}
+    said = {name: f"{name} {how[name]}" for name, share in worst.items() if not share < WEAK_SHARE}
     lost = [name for name, share in worst.items() if not share < DEGENERATE_SHARE]
     why = alike or "the board seems to face the camera, or to fill little of the image"
     if lost:
