@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from lpcal.errors import InputError
 from lpcal.formats.documents import Provenance
 from lpcal.formats.lights_yaml import read_lights, write_lights
 from lpcal.formats.wings_yaml import read_wings, write_wings
-from lpcal.records.calibration import Wing, Wings
+from lpcal.records.calibration import SphereFinding, Wing, Wings
 
 
 @pytest.fixture
@@ -40,6 +41,19 @@ def test_lights_survive_their_file(wings: Wings, tmp_path: Path) -> None:
     for before, after in zip(solution.lights, again.lights, strict=True):
         np.testing.assert_allclose(after.field(points_C)[1], before.field(points_C)[1], rtol=1e-4)
     assert again.warnings == solution.warnings
+
+
+def test_what_was_seen_of_spheres_survives_the_file(wings: Wings, tmp_path: Path) -> None:
+    outline_px, highlight_px = np.array([[10.0, 20.0], [30.0, 22.0], [19.0, 41.5]]), np.array([21.25, 27.5])
+    seen = SphereFinding("a", "chrome", np.array([0, 0, 0.3]), 0.025, True, None, {}, 0.02, outline_px, {"L0": highlight_px}, (640, 480))
+    unseen = SphereFinding("b", "matte", None, 0.025, False, "black")
+    write_lights(tmp_path / "lights.yaml", replace(as_designed(wings, ["L0"], 0.1), spheres=(seen, unseen)), Provenance())
+    first, second = read_lights(tmp_path / "lights.yaml").spheres
+    np.testing.assert_allclose(first.outline_px, outline_px)
+    np.testing.assert_allclose(first.highlights_px["L0"], highlight_px)
+    assert first.image_size == (640, 480)
+    assert second.outline_px.shape == (0, 2)
+    assert second.image_size is None
 
 
 @pytest.mark.parametrize(("name", "key", "command"), [("wings", "setting_std", "lpcal wings"), ("lights", "focus_m", "lpcal refine")])

@@ -10,7 +10,7 @@ import pytest
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
-from lpcal.report import chain_sections
+from lpcal.report import chain_sections, charts
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.light_sections import lights_section, sphere_disagreement, spheres_section
 from lpcal.report.page import render
@@ -369,6 +369,27 @@ def test_a_sphere_that_agrees_and_one_that_does_not() -> None:
     section = spheres_section(RigReport("r", documents()))
     assert section is not None
     assert section["largest"] == "0.00°"
+
+
+@pytest.mark.parametrize(("kind", "spots", "used"), [("chrome", {"L0": [300.0, 200.0]}, True), ("matte", {}, True), ("chrome", {}, False)])
+def test_a_sphere_is_drawn_where_it_was_found(kind: str, spots: dict[str, list[float]], used: bool) -> None:
+    around = np.radians(np.arange(0, 360, 8))
+    outline = np.stack([320 + 60 * np.cos(around), 240 + 60 * np.sin(around)], axis=1).tolist()
+    entry = {"name": "ball", "kind": kind, "used": used, "image_size": [640, 480], "outline_px": outline, "highlights_px": spots}
+    section = spheres_section(RigReport("r", {"lights": {"lights": [light(0)], "spheres": [entry]}}))
+    assert section is not None
+    (svg,) = section["outlines"]
+    drawn = np.array([pair.split() for pair in svg.split(' d="M')[-1].split("Z")[0].split("L")], float)
+    np.testing.assert_allclose((drawn - 2) * 640 / (charts.WIDTH - 4), outline, atol=0.1)
+    assert svg.count("<circle") == len(spots)
+    assert ("gate" in svg) != used
+    assert ">ball<" in svg
+
+
+def test_spheres_of_which_nothing_is_kept_are_not_drawn() -> None:
+    section = spheres_section(RigReport("r", documents()))
+    assert section is not None
+    assert section["outlines"] == []
 
 
 def test_what_is_left_over_by_place_finds_a_planted_shift() -> None:

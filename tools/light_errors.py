@@ -92,8 +92,9 @@ def _real(light: LedLight, points_C: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def rms(values: np.ndarray) -> float:
-    """Root of the mean square of what is a number."""
-    return float(np.sqrt(np.nanmean(np.square(values))))
+    """Root of the mean square of what is a number; NaN where nothing is."""
+    known = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(np.square(known)))) if known.size else float("nan")
 
 
 def table_row(name: str, errors: Sequence[Errors]) -> str:

@@ -89,40 +89,52 @@ def drawn_as(one: Plan) -> Drawn:
     return Drawn(built, camera, tuple(in_frame(view, corner, camera.image_size) for view, corner in windows), designed)
 
 
-def judged(seen: Drawn, *, with_wings: bool) -> tuple[LightsSolution, Errors] | None:
-    """The lights of a drawn rig and their errors; None where the tool refuses, which is said."""
-    try:
-        found = refine_judged(list(seen.views), seen.names, seen.camera, seen.wings if with_wings else None)
-    except LpcalError as error:
-        print(f"refused: {error}", flush=True)
-        return None
+def judged(seen: Drawn, *, with_wings: bool) -> tuple[LightsSolution, Errors]:
+    """The lights of a drawn rig and their errors.
+
+    Raises
+    ------
+    LpcalError
+        Whatever the tool refuses.
+    """
+    found = refine_judged(list(seen.views), seen.names, seen.camera, seen.wings if with_wings else None)
     return found, errors_of(found, seen.built.lights, seen.built.points_C)
 
 
 def main(count: int, first: int) -> None:
     """Draw, solve, and say by class what the sigmas are worth."""
     rows: dict[str, list[Errors]] = defaultdict(list)
+    refused: list[str] = []
     for seed in range(first, first + count):
         one = plan(seed)
-        seen = drawn_as(one)
-        for with_wings in (True, False):
-            result = judged(seen, with_wings=with_wings)
-            if result is None:
+        try:
+            seen = drawn_as(one)
+        except LpcalError as error:
+            refused.append(f"{seed:4d} seen   {error}")
+            print(refused[-1], flush=True)
+            continue
+        for under in ("wings", "free"):
+            try:
+                _, errors = judged(seen, with_wings=under == "wings")
+            except LpcalError as error:
+                refused.append(f"{seed:4d} {under:<6} {error}")
+                print(refused[-1], flush=True)
                 continue
-            errors = result[1]
-            under = "wings" if with_wings else "free"
-            figures = "".join(f"{name} {errors.nees[name]:8.2f}  " for name in MEASURES)
-            print(
-                f"{seed:4d} {under:<6}{one.lights:3d} lights {one.chrome} chrome {one.matte} matte"
-                f"  joint {np.degrees(one.joint_rad):.0f} deg  NEES {figures}"
-                f" {np.degrees(rms(errors.direction)):.3f} deg {1e3 * rms(errors.position):.2f} mm {100 * rms(errors.irradiance):.2f} %",
-                flush=True,
-            )
+            print(f"{seed:4d} {under:<6}{_line(one, errors)}", flush=True)
             for row in ("all", f"{one.lights} lights", f"{one.chrome} chrome", f"{one.matte} matte"):
                 rows[f"{under}: {row}"].append(errors)
     print(f"\nNEES over {count} drawn rigs, wanted {WANTED[0]} to {WANTED[1]}   rigs" + "".join(f"{name:>13}" for name in MEASURES))
     for row in sorted(rows):
         print(f"{row:<48}{len(rows[row]):5d}" + "".join(f"{_mean(rows[row], name):13.2f}" for name in MEASURES))
+    print(f"refused: {len(refused)}", *refused, sep="\n")
+
+
+def _line(one: Plan, errors: Errors) -> str:
+    figures = "".join(f"{name} {errors.nees[name]:8.2f}  " for name in MEASURES)
+    return (
+        f"{one.lights:3d} lights {one.chrome} chrome {one.matte} matte  joint {np.degrees(one.joint_rad):.0f} deg  NEES {figures}"
+        f" {np.degrees(rms(errors.direction)):.3f} deg {1e3 * rms(errors.position):.2f} mm {100 * rms(errors.irradiance):.2f} %"
+    )
 
 
 def _mean(errors: Sequence[Errors], name: str) -> float:

@@ -1,7 +1,8 @@
 """lights.yaml: the refined lights, as in calibration.yaml, and what they rest on.
 
-``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual}],
-warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte).
+``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual,
+image_size, outline_px, highlights_px: {L0: [..]}}], warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome)
+or of its shading as a fraction (matte); outline and highlights are those found in the images.
 With covariances of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked and no markers say it;
 with ``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; left out otherwise.
 """
@@ -10,6 +11,8 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from lpcal.formats.calibration_yaml import light_document, light_from_document
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
@@ -40,6 +43,9 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
                 "why": sphere.why,
                 "directions": sphere.directions_C,
                 "residual": sphere.residual,
+                "image_size": sphere.image_size,
+                "outline_px": sphere.outline_px,
+                "highlights_px": sphere.highlights_px,
             }
             for sphere in solution.spheres
         ],
@@ -69,6 +75,11 @@ def read_lights(path: Path) -> LightsSolution:
     return found
 
 
+def _size(entry: dict[str, Any]) -> tuple[int, int]:
+    width, height = numbers(entry, "image_size", 2)
+    return int(width), int(height)
+
+
 def _record_of(document: dict[str, Any]) -> LightsSolution:
     def matrix(key: str) -> Array | None:
         if document.get(key) is None:
@@ -96,6 +107,9 @@ def _record_of(document: dict[str, Any]) -> LightsSolution:
                 why=entry["why"],
                 directions_C={light: numbers(entry["directions"], light, 3) for light in entry["directions"]},
                 residual=sigma(entry, "residual"),
+                outline_px=numbers(entry, "outline_px", -1, 2) if entry.get("outline_px") else np.zeros((0, 2)),
+                highlights_px={light: numbers(entry["highlights_px"], light, 2) for light in entry.get("highlights_px") or {}},
+                image_size=None if entry.get("image_size") is None else _size(entry),
             )
             for entry in document["spheres"]
         ),

@@ -43,6 +43,8 @@ from lpcal.records.rig import SphereSection
 FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5
 """Spheres are looked for between these multiples of d_object."""
+OUTLINE_POINTS = 45
+"""About so many points of an outline are kept for the report's drawing: one in 8 degrees."""
 
 
 def wanted(workspace: Workspace) -> bool:
@@ -88,11 +90,13 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     swept = check_sweep(workspace, sensor)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
     views: list[SphereView] = []
+    sizes: dict[str, tuple[int, int]] = {}
     notes: list[str] = []
     bad: dict[str, LpcalError] = {}
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
         raw = _images(workspace, name, section, lights, camera)
+        sizes[name] = (raw.images.shape[2], raw.images.shape[1])
         try:
             used = sensor_of_capture(raw, [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))])
             views.append(_view(raw, used.sensor, section, camera, distance_m))
@@ -117,7 +121,8 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
     evidence = solution.evidence | ({"exposure_sweep": swept} if swept else {})
-    solution = replace(solution, spheres=(*solution.spheres, *left_out), warnings=(*notes, *solution.warnings), evidence=evidence)
+    found = tuple(_with_outline(sphere, views, sizes[sphere.name]) for sphere in solution.spheres)
+    solution = replace(solution, spheres=(*found, *left_out), warnings=(*notes, *solution.warnings), evidence=evidence)
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
         summary=[*summary_of(solution), *summary_of_handeye(workspace, solution), *_advice(solution)],
@@ -130,6 +135,13 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         next_command="lpcal export",
         exit_code=next((error.exit_code for error in bad.values()), 0),
     )
+
+
+def _with_outline(finding: SphereFinding, views: list[SphereView], size: tuple[int, int]) -> SphereFinding:
+    """A finding with what was seen of its sphere, as the report draws it."""
+    view = next(view for view in views if view.name == finding.name)
+    every = max(1, len(view.outline_px) // OUTLINE_POINTS)
+    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=size)
 
 
 def summary_of(solution: LightsSolution) -> list[str]:

@@ -262,6 +262,12 @@ class SphereFinding:
     """Chrome: unit vector from the sphere's highlight towards each light."""
     residual: float = float("nan")
     """Chrome: highlight rms in px; matte: shading rms as a fraction."""
+    outline_px: Array = field(default_factory=lambda: np.zeros((0, 2)))
+    """(K, 2) points of the outline as it was found in the images."""
+    highlights_px: dict[str, Array] = field(default_factory=dict)
+    """Chrome: where (2,) each light's mirror image was found."""
+    image_size: tuple[int, int] | None = None
+    """Of its images."""
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,31 @@ def histogram(values: Array, *, unit: str, sigma: float, height: int = 190) -> s
     return plot.svg([*parts, plot.x_line(), *plot.x_ticks(unit)], f"histogram, {unit}")
 
 
+@dataclass(frozen=True)
+class Ring:
+    """A closed line (K, 2) in an image, spots (M, 2) in it, what it is, and whether it is to be doubted."""
+
+    points_px: Array
+    spots_px: Array
+    label: str
+    doubted: bool = False
+
+
+def rings(found: Sequence[Ring], image_size: tuple[int, int]) -> str:
+    """Closed lines over the image's frame, each with its name and its spots."""
+    w, h = image_size
+    scale = (WIDTH - 4) / w
+    height = round(h * scale) + 4
+    parts = [f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>']
+    for ring in found:
+        path = "L".join(f"{u:.1f} {v:.1f}" for u, v in ring.points_px * scale + 2)
+        parts.append(f'<path class="{"gate" if ring.doubted else "curve"}" d="M{path}Z"><title>{escape(ring.label)}</title></path>')
+        parts += [f'<circle class="fill-warm" cx="{u:.1f}" cy="{v:.1f}" r="1.5"/>' for u, v in ring.spots_px * scale + 2]
+        u, v = ring.points_px.mean(axis=0)[0] * scale + 2, ring.points_px[:, 1].max() * scale + 15
+        parts.append(f'<text class="middle" x="{u:.1f}" y="{min(v, height - 4):.1f}">{escape(ring.label)}</text>')
+    return _svg(height, parts, "where the spheres' outlines were found in the image")
+
+
 def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array | None = None) -> str:
     """Points (N, 2) over the image's frame with a 6 by 4 grid; arrows (M, 4) start at x, y and go by dx, dy."""
     w, h = image_size

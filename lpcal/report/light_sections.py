@@ -63,8 +63,21 @@ def spheres_section(report: RigReport) -> Section | None:
         "directions": charts.dot_rows(rows, unit="degrees from the refined light; amber: spheres not used")
         if any(dots for _, dots in rows)
         else None,
+        "outlines": _outlines(spheres),
         "used": f"{sum(bool(sphere.get('used')) for sphere in spheres)} of {plural(len(spheres), 'sphere')}",
     }
+
+
+def _outlines(spheres: list[dict[str, Any]]) -> list[str]:
+    """Where the spheres were found in their images: a drawing for each size of image."""
+    drawn: dict[tuple[int, int], list[charts.Ring]] = {}
+    for sphere in spheres:
+        if sphere.get("outline_px") and sphere.get("image_size"):
+            width, height = sphere["image_size"]
+            spots = array([*(sphere.get("highlights_px") or {}).values()]).reshape(-1, 2)
+            ring = charts.Ring(array(sphere["outline_px"]), spots, str(sphere.get("name")), doubted=not sphere.get("used"))
+            drawn.setdefault((int(width), int(height)), []).append(ring)
+    return [charts.rings(found, size) for size, found in drawn.items()]
 
 
 def sphere_disagreement(sphere: dict[str, Any], light: dict[str, Any]) -> float | None:

@@ -10,9 +10,9 @@ import numpy as np
 from lpcal.chain.refine_lights.geometry_fit import SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M, GeometryFit
 from lpcal.chain.refine_lights.joint_fit import JointFit
 from lpcal.chain.refine_lights.samples import Samples
-from lpcal.chain.refine_lights.shading import ShadingFit, lobe_of_leds
-from lpcal.chain.refine_lights.volume import direction_std, level_std, volume_points
-from lpcal.geometry import se3, sphere
+from lpcal.chain.refine_lights.shading import ShadingFit, Volume, lobe_of_leds
+from lpcal.chain.refine_lights.volume import direction_std, level_by_source, shading_by_source, volume_points
+from lpcal.geometry import light_field, se3, sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
 
@@ -83,23 +83,38 @@ def near_lights(
     return found, warnings
 
 
-def with_shading(
-    lights: Sequence[Light], shading: ShadingFit, fit: GeometryFit, samples: Samples, radii_m: Sequence[float], focus_C: Array
-) -> list[Light]:
-    """The lights with the intensities and round lobes of the shading; `radii_m` (S,) of the spheres."""
-    misfit = rms(list(shading.residual.values()))
+def shading_volume(lights: Sequence[Light], fit: GeometryFit, samples: Samples, radii_m: Sequence[float], focus_C: Array) -> Volume:
+    """The working volume as the near lights see it; `radii_m` (S,) of the spheres."""
+    points_C, angles, arounds = volume_points(focus_C), [], []
+    for light in lights:
+        assert light.source_C is not None
+        assert light.axis_C is not None
+        assert light.H_CL is not None
+        x_L = se3.apply(se3.inv(light.H_CL), points_C)
+        angles.append(light_field.near_light(points_C, light.source_C, light.axis_C)[2])
+        arounds.append(np.arctan2(x_L[:, 1], x_L[:, 0]))
     places, normals = np.zeros((2, samples.light.size, 3))
     for s in np.unique(samples.sphere):
         own = samples.sphere == s
         places[own], normals[own] = sphere.meet(samples.ray_C[own], fit.centres_C[s], radii_m[s])
-    seen = [(places[samples.light == k], normals[samples.light == k]) for k in range(len(lights))]
-    by_place = level_std(fit.source_C, fit.source_covariance, seen, volume_points(focus_C))
+    return Volume(
+        angle_rad=np.array(angles),
+        around_rad=np.array(arounds),
+        by_source=level_by_source(fit.source_C[:, None], points_C),
+        samples_by_source=shading_by_source(fit.source_C[samples.light], places, normals),
+        covariance=fit.source_covariance,
+    )
+
+
+def with_shading(lights: Sequence[Light], shading: ShadingFit) -> list[Light]:
+    """The lights with the intensities and lobes of the shading."""
+    misfit, std = rms(list(shading.residual.values())), shading.intensity_std if shading.volume_std is None else shading.volume_std
     return [
         replace(
             light,
             intensity=shading.intensity[k],
             lobe=replace(shading.lobes[k], seen_rad=float(shading.seen_rad[k])),
-            intensity_std=float(np.hypot(np.hypot(shading.intensity_std[k], misfit), by_place[k])),
+            intensity_std=float(np.hypot(std[k], misfit)),
         )
         for k, light in enumerate(lights)
     ]

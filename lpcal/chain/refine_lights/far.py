@@ -42,12 +42,22 @@ class FarLight:
     """(3,)."""
     nearness_rms: float
     """Of 1 / distance, per metre: where nothing tells it, the light is about as far from the sphere as the camera is, or farther."""
+    spheres: int
+    """How many spheres show it."""
 
     def std_over(self, points_C: Array) -> float:
-        """Standard deviation a tangent axis (rad), rms over points (N, 3), what the unknown distance turns it by included."""
+        """Standard deviation a tangent axis (rad), rms over points (N, 3) about the spheres, with what the unknown distance turns it by.
+
+        The spheres stand somewhere in the volume: their middle is off its own by the volume's spread over the root of their number.
+        """
         away = points_C - self.seen_from_C
         across2 = np.sum(away**2, axis=1) - (away @ self.direction_C) ** 2
-        return float(np.hypot(self.direction_std_rad, self.nearness_rms * np.sqrt(across2.mean() / 2)))
+        return float(np.hypot(self.direction_std_rad, self.nearness_rms * np.sqrt((1 + 1 / self.spheres) * across2.mean() / 2)))
+
+    def level_std_over(self, points_C: Array) -> float:
+        """Standard deviation of the log irradiance likewise, which falls by the distance's square."""
+        along2 = ((points_C - self.seen_from_C) @ self.direction_C) ** 2
+        return float(2 * self.nearness_rms * np.sqrt((1 + 1 / self.spheres) * along2.mean()))
 
 
 def far_lights(free: Sequence[str], used: Measured, camera: Camera) -> dict[str, FarLight]:
@@ -75,7 +85,8 @@ def with_far(
     level = _levels([*known.values()], [*far], used, camera)
     for name, one in far.items():
         intensity = level.get(name, np.ones(1))
-        known[name] = Light(name, one.direction_C, intensity, direction_std_rad=one.std_over(points_C), intensity_std=float("nan"))
+        level_std = one.level_std_over(points_C) if name in level else float("nan")
+        known[name] = Light(name, one.direction_C, intensity, direction_std_rad=one.std_over(points_C), intensity_std=level_std)
     mean = float(np.mean([known[name].intensity.mean() for name in lights]))
     told = _words(far, used)
     if near is not None:
@@ -111,7 +122,7 @@ def _chrome(light: str, used: Measured, camera: Camera) -> FarLight | None:
     d = mean / np.linalg.norm(mean)
     x_0, across = np.average(places, axis=0, weights=weight), np.eye(3) - np.outer(d, d)
     if len(rays) == 1:
-        return FarLight(d, sigmas[0], None, x_0, 1 / float(np.linalg.norm(x_0)))
+        return FarLight(d, sigmas[0], None, x_0, 1 / float(np.linalg.norm(x_0)), len(rays))
     shift = [across @ (place - x_0) for place in places]
     # d and w part: the shifts have mean 0 about x_0
     information = sum(w * s @ s for w, s in zip(weight, shift, strict=True))
@@ -120,7 +131,7 @@ def _chrome(light: str, used: Measured, camera: Camera) -> FarLight | None:
     if nearness > SURE_SIGMAS * sigma:
         return None
     own, near = float(1 / np.sqrt(weight.sum())), max(float(nearness), 0.0)
-    return FarLight(d, own, float(1 / (near + SURE_SIGMAS * sigma)), x_0, float(np.hypot(near, sigma)))
+    return FarLight(d, own, float(1 / (near + SURE_SIGMAS * sigma)), x_0, float(np.hypot(near, sigma)), len(rays))
 
 
 def _matte(light: str, used: Measured, camera: Camera) -> FarLight | None:
@@ -133,7 +144,9 @@ def _matte(light: str, used: Measured, camera: Camera) -> FarLight | None:
         return None
     mean = np.mean(found, axis=0)
     x_0 = np.mean([m.centre_C for view, m in used if view.shading], axis=0)
-    return FarLight(mean / np.linalg.norm(mean), SHADING_SIGMA_RAD / np.sqrt(len(found)), None, x_0, 1 / float(np.linalg.norm(x_0)))
+    return FarLight(
+        mean / np.linalg.norm(mean), SHADING_SIGMA_RAD / np.sqrt(len(found)), None, x_0, 1 / float(np.linalg.norm(x_0)), len(found)
+    )
 
 
 def _mirrored(view: SphereView, measured: CentreMeasurement, camera: Camera, light: str) -> tuple[Array, Array]:

@@ -28,6 +28,8 @@ from lpcal.records.observations import SphereView
 FIRST_SHARE = 3
 """One block of so many is used in the rough solve."""
 ALBEDO_SD = 3.0
+SCATTER_WEIGHT = 20.0
+"""What is stated of the LEDs' scatter counts as much as so many powers or tilts that were measured."""
 STEP = 1e-6
 
 
@@ -80,14 +82,17 @@ def fit_jointly(
     focus_C: Array,
     intensity_sd: float,
 ) -> JointFit:
-    """Solve, twice: roughly, from some of the blocks; then with all of them, their curvature under the lights that were found so."""
+    """Solve roughly, from some of the blocks; with all, curved as under the lights found so; with the LEDs' scatter that this shows."""
     problem = _Problem(tuple(start.lights), tuple(views), tuple(measured), camera, wings, intensity_sd)
     few = samples.some(samples.block % FIRST_SHARE == 0)
     blocks = problem.start(start, first, samples) | {"delta": _deltas(few)}
     rough = solve(blocks, problem.terms(blocks, few), eliminate="delta", options=Options(iterations=100, tolerance=1e-3))
     samples = sample_blocks(views, rough["centre"], camera, problem.lights_of(dict(rough.blocks)))
     blocks = dict(rough.blocks) | {"delta": _deltas(samples)}
-    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=Options(iterations=100, tolerance=1e-5))
+    options = Options(iterations=100, tolerance=1e-5)
+    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)
+    problem, blocks = replace(problem, scatter=problem.scatter_seen(solution)), dict(solution.blocks)
+    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)
     return problem.result(solution, focus_C)
 
 
@@ -99,6 +104,8 @@ class _Problem:
     camera: Camera
     wings: Wings
     intensity_sd: float
+    scatter: tuple[float, float] = (1.0, 1.0)
+    """The LEDs' powers and tilts scatter so many times as much as `led_fit` states."""
 
     @property
     def wing(self) -> Index:
@@ -168,10 +175,24 @@ class _Problem:
             terms.append(prior("core", blocks["core"], np.zeros(self.core), self.camera.covariance))
         for mode in self.modes:
             cluster, rows = Cluster(mode), [k for k, leds in enumerate(self.leds) if leds == mode]
-            mean, covariance = led_fit.led_prior(count, mode)
+            mean, covariance = led_fit.led_prior(count, mode, self.scatter)
             terms.append(independent_prior(f"led{mode}", mean, np.sqrt(np.diag(covariance))))
             terms += [term for term in (self._highlights(cluster, rows), self._shading(cluster, rows, samples)) if term is not None]
         return terms
+
+    def scatter_seen(self, solution: Solution) -> tuple[float, float]:
+        """The scatter that the LEDs show, by the evidence: their squares over how many of them the data determine."""
+        found = []
+        for places in ([0], [1, 2]):
+            squares, known = SCATTER_WEIGHT, SCATTER_WEIGHT
+            for mode in self.modes:
+                sd = np.sqrt(np.diag(led_fit.led_prior(1, mode)[1]))
+                z = solution[f"led{mode}"] / sd
+                variance = np.diag(solution.covariance(f"led{mode}")).reshape(z.shape) / sd**2
+                squares += float(np.sum(z.reshape(-1, 3)[:, places] ** 2))
+                known += float(np.sum(1 - variance.reshape(-1, 3)[:, places]))
+            found.append(float(np.sqrt(squares / known)))
+        return found[0], found[1]
 
     def _highlights(self, cluster: Cluster, rows: list[int]) -> Term | None:
         seen = [

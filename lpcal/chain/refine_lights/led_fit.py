@@ -149,9 +149,10 @@ def wing_frame(setting: Any) -> Any:
     )
 
 
-def led_prior(count: int, leds: int) -> tuple[Array, Array]:
-    """Mean (3 n,) and covariance (3 n, 3 n) of the LEDs' log powers and tilts."""
-    sd = np.tile([POWER_SD, TILT_SD_RAD, TILT_SD_RAD], leds)
+def led_prior(count: int, leds: int, scatter: tuple[float, float] = (1.0, 1.0)) -> tuple[Array, Array]:
+    """Mean (3 n,) and covariance (3 n, 3 n) of the LEDs' log powers and tilts, whose deviations are `scatter` times what is stated."""
+    power_sd, tilt_sd = POWER_SD * scatter[0], TILT_SD_RAD * scatter[1]
+    sd = np.tile([power_sd, tilt_sd, tilt_sd], leds)
     return np.zeros((count, 3 * leds)), np.diag(sd**2)
 
 

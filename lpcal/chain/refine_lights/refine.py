@@ -14,6 +14,7 @@ from lpcal.chain.refine_lights.assemble import (
     near_lights,
     nearest_to_axes,
     rms,
+    shading_volume,
     unit,
     with_leds,
     with_shading,
@@ -85,8 +86,10 @@ def refine(
         return _solution(found, focus_C, fit, None, views, kept, refused, [*told, *warnings], camera, wings)
     if wings is None or not can_fit(kept, wings, lights):
         samples = sample_blocks(kept, fit.centres_C, camera, found)
-        shading = fit_shading(samples, known, [view.name for view in kept], intensity_sd)
-        found = with_shading(found, shading, fit, samples, [view.radius_m for view in kept], focus_C)
+        volume = shading_volume(found, fit, samples, [view.radius_m for view in kept], focus_C)
+        names, axis_known = [view.name for view in kept], [row is not None for row in fit.wing_of]
+        shading = fit_shading(samples, known, names, intensity_sd, axis_known=axis_known, volume=volume)
+        found = with_shading(found, shading)
         return _solution(found, focus_C, fit, shading, views, kept, refused, [*told, *warnings], camera, wings)
     joint, late = _joint(fit, used, known, camera, wings, intensity_sd)
     told += [click.message() for click in late]

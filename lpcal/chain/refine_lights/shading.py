@@ -28,6 +28,11 @@ KNOTS_RAD = np.radians(np.arange(0, 91, 2.5))
 LOBE_SD, LOBE_LENGTH_RAD = 0.10, float(np.radians(8))
 UNKNOWN_LOBE_SD, EXPONENT_SD = 0.15, 20.0
 MAP_SD, MAP_LENGTH_RAD, MAP_SPACING_RAD, MAP_LEAST = 0.03, float(np.radians(5)), float(np.radians(2.5)), 1e-3
+FREE_AXIS_SD, KNOWN_AXIS_SD = 1.5, 1e-3
+"""How a lobe's logarithm may slope, a radian, for an axis that is only taken to face the focus: 20 degrees off a lobe of half power at 30
+degrees; and for one that a wing states, whose map holds what is left."""
+PLACE_FLOOR_M = 1e-5
+"""No source is known better."""
 DARKEST = 1e-6
 """A known lobe is not darker: its logarithm is used."""
 ROBUST = 3.0
@@ -55,10 +60,19 @@ class ShadingFit:
     """By sphere."""
     seen_rad: Array
     """(L,) largest angle from each light's axis that the spheres saw, NaN for a light that they did not."""
+    volume_std: Array | None = None
+    """(L,) of the log irradiance that intensity and lobe make, rms over the places asked for; NaN for a light that no sphere shows."""
 
 
 def fit_shading(
-    samples: Samples, known: Sequence[Lobe | None], names: Sequence[str], intensity_sd: float, *, with_maps: bool = True
+    samples: Samples,
+    known: Sequence[Lobe | None],
+    names: Sequence[str],
+    intensity_sd: float,
+    *,
+    with_maps: bool = True,
+    axis_known: Sequence[bool] = (),
+    volume: Volume | None = None,
 ) -> ShadingFit:
     """Intensities, lobes and albedos from block means.
 
@@ -68,9 +82,11 @@ def fit_shading(
     names : the spheres' names
     intensity_sd : prior of the relative intensity of a light
     with_maps : whether a light may be other than round; not needed where its LEDs are found one by one after
+    axis_known : of each light, whether its axis is; one that is not may slope any way; none: all are
+    volume : where the irradiance is to be right, and what is known of the sources' places, which are solved for with the rest
     """
     count = len(known)
-    layout = _Layout(samples, known, intensity_sd, with_maps)
+    layout = _Layout(samples, known, intensity_sd, with_maps, axis_known or [True] * count, volume)
     target = samples.log_data - samples.log_geometry - layout.known
     block = np.unique(samples.block, return_inverse=True)[1]
     sigma = np.hypot(samples.relative_sigma, MODEL_SD)
@@ -87,7 +103,24 @@ def fit_shading(
         log_intensity=found[:count],
         log_albedo={int(s): float(found[count + k]) for k, s in enumerate(layout.spheres)},
         seen_rad=np.array([max(samples.angle_rad[samples.light == k], default=np.nan) for k in range(count)]),
+        volume_std=None if volume is None else layout.volume_std(volume, covariance),
     )
+
+
+@dataclass(frozen=True)
+class Volume:
+    """Places at which each light's irradiance is to be right, and how uncertain sources change that and the shading."""
+
+    angle_rad: Array
+    """(L, N) from each light's axis."""
+    around_rad: Array
+    """(L, N) about it."""
+    by_source: Array
+    """(L, N, 3) derivative of the log irradiance by the source's place."""
+    samples_by_source: Array
+    """(M, 3) likewise of the samples' log shading."""
+    covariance: Array
+    """(3 L, 3 L) of the sources' places."""
 
 
 @dataclass(frozen=True)
@@ -105,8 +138,16 @@ class _Layout:
     In order: log intensity a light, log albedo a sphere, deviations a shape of lobe, the exponent of an unknown shape, map's modes a light.
     """
 
-    def __init__(self, samples: Samples, known: Sequence[Lobe | None], intensity_sd: float, with_maps: bool) -> None:
-        self.samples, self.count = samples, len(known)
+    def __init__(
+        self,
+        samples: Samples,
+        known: Sequence[Lobe | None],
+        intensity_sd: float,
+        with_maps: bool,
+        axis_known: Sequence[bool],
+        volume: Volume | None,
+    ) -> None:
+        self.samples, self.count, self.volume = samples, len(known), volume
         self.shapes = list({id(lobe): lobe for lobe in known}.values())
         self.unknown = [m for m, lobe in enumerate(self.shapes) if lobe is None]
         self.shape_of_light = np.array([next(m for m, lobe in enumerate(self.shapes) if lobe is own) for own in known])
@@ -122,26 +163,53 @@ class _Layout:
         self.node_rad, self.modes = np.zeros(0), np.zeros((0, 0))
         if with_maps:
             self.node_rad = lobe_map.nodes(float(samples.angle_rad.max()) + MAP_SPACING_RAD, MAP_SPACING_RAD)
-            self.modes = lobe_map.modes(self.node_rad, MAP_SD, MAP_LENGTH_RAD, MAP_LEAST)
+            slopes = np.stack(np.meshgrid(self.node_rad, self.node_rad), axis=-1).reshape(-1, 2)
+            self.modes = np.hstack([lobe_map.modes(self.node_rad, MAP_SD, MAP_LENGTH_RAD, MAP_LEAST), slopes])
+        self.axis_sd = np.where(axis_known, KNOWN_AXIS_SD, FREE_AXIS_SD)
+        self.source_start = self.map_start + self.count * self.modes.shape[1]
         self.parts = [self._part(k) for k in range(self.count)]
         self.prior = self._prior(intensity_sd)
 
     def _part(self, k: int) -> _Part:
-        own, m, size = np.flatnonzero(self.samples.light == k), int(self.shape_of_light[k]), self.modes.shape[1]
-        angle_rad = self.samples.angle_rad[own]
+        own = np.flatnonzero(self.samples.light == k)
+        columns, design = self._of_light(k, self.samples.angle_rad[own], self.samples.around_rad[own])
+        more, by_more = np.arange(self.count, self.lobe_start), (self.samples.sphere[own, None] == self.spheres).astype(float)
+        if self.volume is not None:
+            more = np.concatenate([more, self._source(k)])
+            by_more = np.hstack([by_more, self.volume.samples_by_source[own]])
+        return _Part(own, np.concatenate([columns, more]), np.hstack([design, by_more]))
+
+    def _source(self, k: int) -> Index:
+        return np.arange(self.source_start + 3 * k, self.source_start + 3 * k + 3)
+
+    def _of_light(self, k: int, angle_rad: Array, around_rad: Array) -> tuple[Index, Array]:
+        """Which unknowns (c,) make a light's intensity and lobe in directions (n,), and the derivatives (n, c) of its logarithm."""
+        m, size = int(self.shape_of_light[k]), self.modes.shape[1]
         lobe, exponent = self._lobe_rows(m), [self.exponent_start + self.unknown.index(m)] if m in self.unknown else []
         around = np.arange(self.map_start + k * size, self.map_start + (k + 1) * size)
-        columns = np.concatenate([[k], np.arange(self.count, self.lobe_start), np.arange(lobe.start, lobe.stop), exponent, around])
-        design = [np.ones((own.size, 1)), (self.samples.sphere[own, None] == self.spheres).astype(float), _interpolation(angle_rad)[:, 1:]]
+        columns = np.concatenate([[k], np.arange(lobe.start, lobe.stop), exponent, around])
+        design = [np.ones((angle_rad.size, 1)), _interpolation(angle_rad)[:, 1:]]
         if exponent:
             design.append(np.log(np.maximum(np.cos(angle_rad), 1e-3))[:, None])
         if size:
-            index, weight = lobe_map.corners(angle_rad, self.samples.around_rad[own], self.node_rad)
+            index, weight = lobe_map.corners(angle_rad, around_rad, self.node_rad)
             design.append(np.einsum("nc,ncm->nm", weight, self.modes[index]))
-        return _Part(own, columns.astype(np.intp), np.hstack(design))
+        return columns.astype(np.intp), np.hstack(design)
+
+    def volume_std(self, volume: Volume, covariance: Array) -> Array:
+        """Standard deviation (L,) of each light's log irradiance less the mean of all, rms over the places."""
+        change = np.zeros((*volume.angle_rad.shape, len(covariance)))
+        for k in range(self.count):
+            columns, design = self._of_light(k, volume.angle_rad[k], volume.around_rad[k])
+            change[k][:, columns] = design
+            change[k][:, self._source(k)] = volume.by_source[k]
+        seen = np.isin(np.arange(self.count), self.samples.light)
+        change -= change[seen].mean(axis=(0, 1))
+        variance = np.einsum("knp,knp->kn", change @ covariance, change).mean(axis=1)
+        return np.where(seen, np.sqrt(variance), np.nan)
 
     def _prior(self, intensity_sd: float) -> Array:
-        prior = np.eye(self.map_start + self.count * self.modes.shape[1])
+        prior = np.eye(self.source_start + (0 if self.volume is None else 3 * self.count))
         prior[: self.map_start] = 0.0
         prior[: self.count, : self.count] = np.eye(self.count) / intensity_sd**2
         for m, lobe in enumerate(self.shapes):
@@ -149,6 +217,13 @@ class _Layout:
             prior[self._lobe_rows(m), self._lobe_rows(m)] = np.linalg.inv(_smooth_covariance(sd))
         for row in range(self.exponent_start, self.map_start):
             prior[row, row] = 1 / EXPONENT_SD**2
+        size = self.modes.shape[1]
+        for k in range(self.count if size else 0):
+            last = self.map_start + (k + 1) * size
+            prior[last - 2 : last, last - 2 : last] = np.eye(2) / self.axis_sd[k] ** 2
+        if self.volume is not None:
+            covariance = self.volume.covariance + PLACE_FLOOR_M**2 * np.eye(3 * self.count)
+            prior[self.source_start :, self.source_start :] = np.linalg.inv(covariance)
         return prior
 
     def with_map(self, lobe: Lobe, k: int, found: Array) -> Lobe:

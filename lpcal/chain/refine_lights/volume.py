@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from lpcal.geometry.arrays import Array
@@ -29,33 +27,20 @@ def direction_std(source_C: Array, covariance: Array, points_C: Array) -> float:
     return float(np.sqrt(variance.mean()))
 
 
-def level_std(source_C: Array, covariance: Array, seen: Sequence[tuple[Array, Array]], points_C: Array) -> Array:
-    """Standard deviation (L,) of each light's log irradiance, rms over points (N, 3), that its source's place leaves.
+def level_by_source(source_C: Array, points_C: Array) -> Array:
+    """Derivative (..., 3) of a light's log irradiance at points (..., 3), on a plane that faces it, by its source's place (..., 3)."""
+    d, r = _towards(source_C, points_C)
+    return np.asarray(-2 * d / r)
 
-    A light's level is what makes its shading fit at the blocks that it lights, so a source that is off by e shifts it by minus the mean
-    of the shading's change there; what all lights share is the albedo's.
 
-    Parameters
-    ----------
-    source_C : (L, 3)
-    covariance : (3 L, 3 L), joint
-    seen : of each light places (M, 3) and unit normals (M, 3) of its blocks; none: its level is not measured
-    """
-    count = len(source_C)
-    change = np.zeros((count, len(points_C), 3 * count))
-    for k, (P, n) in enumerate(seen):
-        own = slice(3 * k, 3 * k + 3)
-        if len(P):
-            d, r = _towards(source_C[k], P)
-            change[k, :, own] -= np.mean((n / np.sum(n * d, axis=1, keepdims=True) - 3 * d) / r, axis=0)
-        d, r = _towards(source_C[k], points_C)
-        change[k, :, own] -= 2 * d / r
-    change -= change.mean(axis=(0, 1))
-    return np.sqrt(np.einsum("knj,ji,kni->kn", change, covariance, change).mean(axis=1))
+def shading_by_source(source_C: Array, places_C: Array, normals_C: Array) -> Array:
+    """Derivative (..., 3) of the log shading at places of unit normals (..., 3), ``n . d / r^2``, by the source's place."""
+    d, r = _towards(source_C, places_C)
+    return np.asarray((normals_C / np.sum(normals_C * d, axis=-1, keepdims=True) - 3 * d) / r)
 
 
 def _towards(source_C: Array, P_C: Array) -> tuple[Array, Array]:
-    """Unit vectors (N, 3) from places to a source, and distances (N, 1)."""
+    """Unit vectors (..., 3) from places to sources, and distances (..., 1)."""
     away = source_C - P_C
-    r = np.linalg.norm(away, axis=1, keepdims=True)
+    r = np.linalg.norm(away, axis=-1, keepdims=True)
     return away / r, r
