@@ -14,7 +14,7 @@ from lpcal.chain.h_pc_handeye import congruence, observability
 from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior
 from lpcal.chain.h_pc_handeye.ends import found_by_other_end, settled_ends, with_turned
 from lpcal.chain.h_pc_handeye.state import Options, State
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import park
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
@@ -56,8 +56,28 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
-    _refuse(best[1], best[2])
+    try:
+        _refuse(best[1], best[2])
+    except DisagreementError as error:
+        raise _by_the_clock(error, boards, track, t_camera_s, options.clock_offset_s) from error
     return best[1]
+
+
+def _by_the_clock(
+    error: DisagreementError, boards: BoardPoses, track: PoseTrack, t_camera_s: Array, stated_s: float | None
+) -> DisagreementError:
+    """The error of a motion that is not rigid, or that of the stated clock offset where the angles fit at another one only."""
+    candidates = [] if stated_s is None else clocks.offset_candidates(track, t_camera_s - stated_s, boards.H_CB)
+    if stated_s is None or not candidates:
+        return error
+    best = replace(candidates[0], offset_s=candidates[0].offset_s + stated_s)
+    if clocks.fits_as_well(track, t_camera_s, boards.H_CB, stated_s, best):
+        return error
+    return DisagreementError(
+        f"at the stated clock offset of {1e3 * stated_s:.0f} ms {error.found}; the angles say {1e3 * best.offset_s:.0f} ms",
+        needed="t_camera = t_mocap + offset",
+        todo="write mocap.clock_offset: estimate",
+    )
 
 
 def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
