@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from handeye_scene import TYPICAL, Session, moving_session, static_session, stop_and_shoot
+from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
+from lpcal.chain.h_pc_handeye.ends import with_turned
 from lpcal.formats.camera_yaml import write_camera
 from lpcal.formats.documents import Provenance
 from lpcal.formats.h_cb_yaml import write_h_cb
@@ -290,6 +292,30 @@ def test_solved_but_warned_of(tmp_path, lpcal, name, command):
     code, out, err = lpcal(command, cwd=tmp_path)
     assert code == 0, out + err
     assert words in out + err
+
+
+@pytest.mark.parametrize("wrong", [slice(0, 7), slice(17, 24), slice(0, 24, 4)], ids=["first", "last", "every fourth"])
+def test_check_turns_boards_back_as_handeye_does(tmp_path, lpcal, wrong):
+    session = static()
+    turned, other = turned_by_half(session.boards), np.zeros(24, dtype=bool)
+    other[wrong] = True
+    image_rig(tmp_path, replace(session, boards=with_turned(session.boards, turned, other)), session.H_OP)
+    for command in ("check", "handeye"):
+        code, out, err = lpcal(command, cwd=tmp_path)
+        assert code == 0, out + err
+        assert command != "check" or f"{other.sum()} boards were found by their other end" in out + err
+    assert np.linalg.norm(read_handeye(tmp_path / "calib" / "handeye.yaml").H_PC[:3, 3] - session.H_PC[:3, 3]) < 4e-3
+
+
+@pytest.mark.parametrize("off_ms", [-300, 200, 400])
+@pytest.mark.parametrize("command", ["handeye", "check"])
+def test_a_misstated_clock_is_named_by_its_key(tmp_path, lpcal, command, off_ms):
+    session = moving()
+    moving_rig(tmp_path, session, mocap=f"  clock_offset: {1e3 * session.offset_s + off_ms:.1f} ms\n")
+    code, out, err = lpcal(command, cwd=tmp_path)
+    assert code == 6, out + err
+    assert "the stated clock offset" in out + err
+    assert "clock_offset: estimate" in out + err
 
 
 def test_what_mends_it_mends_it(tmp_path, lpcal):

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -135,6 +136,32 @@ def test_a_spheres_own_capture_yaml_is_heeded_and_said(tmp_path: Path, lpcal: Ru
     code, out, err = lpcal("refine", cwd=tmp_path)
     assert code == 0, out + err
     assert f"matte_0: sensor: gamma {gamma} (capture.yaml)" in err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("gamma", "spheres", "wings"),
+    [
+        (1.8, ["chrome_0", "chrome_1", "matte_0"], True),
+        (1.6, ["chrome_0", "chrome_1", "matte_1"], False),
+        (1.6, ["chrome_1", "matte_0"], True),
+    ],
+)
+def test_a_gamma_too_slight_for_one_sphere_is_named_by_the_lights(
+    tmp_path: Path, lpcal: Run, gamma: float, spheres: list[str], wings: bool
+) -> None:
+    """Near lights hide a part of a gamma from a matte sphere alone; those that the chrome spheres place do not."""
+    from lights_planted import alter
+    from lpcal.geometry.tone_curve import encode
+
+    rig(tmp_path, spheres, wings=wings)
+    for name in spheres:
+        alter(tmp_path, name, lambda stored: 255 * encode(stored / 255, gamma))
+    code, out, err = lpcal("refine", cwd=tmp_path)
+    assert code == 6, out + err
+    found = re.search(r"sphere matte_.: its shading .* raised to ([\d.]+): they are not linear", err)
+    assert found, err
+    assert float(found[1]) == pytest.approx(gamma, abs=0.2)
 
 
 def _table() -> None:

@@ -4,8 +4,9 @@ Symbols: data y of one light and a of the room at the pixels of an outline (norm
 
     y^e - a^e = g . n  where it is lit        e is where the misfit, over the signal, is least; 1 for a linear camera
 
-A gamma that nobody stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law; perspective and the nearness of
-the light change e by a few hundredths.
+A gamma that nobody stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law. A light as near as fourteen radii
+takes a third off e (a linear camera's is .75), a rough surface adds to it, so only the plainest curves are refused here; where chrome
+spheres say where the lights are, `chain.refine_lights.matte` judges anew.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.detect.sphere_outline import Outline
-from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.tone_curve import not_linear
 from lpcal.records.observations import Radiance
 
 EXPONENTS = np.exp(np.linspace(np.log(0.3), np.log(3.0), 24))
@@ -33,11 +34,7 @@ def refuse_curved(radiance: Radiance, outline: Outline) -> None:
     found = [e for k in range(len(radiance.lights)) if (e := _exponent(radiance, k, outline)) is not None]
     exponent = float(np.median(found)) if found else 1.0
     if not LINEAR[0] < exponent < LINEAR[1]:
-        raise DisagreementError(
-            f"its shading falls off as a matte sphere's does only when the numbers are raised to {exponent:.1f}: they are not linear",
-            needed="images proportional to light",
-            todo="switch the camera's gamma and tone curves off, or state camera.gamma (now undone as stated) in panel.yaml",
-        )
+        raise not_linear(exponent)
 
 
 def _exponent(radiance: Radiance, k: int, outline: Outline) -> float | None:

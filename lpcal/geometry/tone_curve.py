@@ -11,6 +11,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.errors import DisagreementError
+
 type Numbers = npt.NDArray[np.floating[Any]]
 type Gamma = float | Literal["srgb"]
 """A tone curve: an exponent, or the word srgb."""
@@ -51,3 +53,12 @@ def exponent(gamma: Gamma) -> float:
 def worded(gamma: Gamma) -> str:
     """A curve as people write it: ``2.2``, ``srgb``."""
     return "srgb" if gamma == "srgb" else f"{gamma:.3g}"
+
+
+def not_linear(power: float) -> DisagreementError:
+    """The refusal of a matte sphere whose shading is light's only once its numbers are raised to a power."""
+    return DisagreementError(
+        f"its shading falls off as a matte sphere's does only when the numbers are raised to {power:.1f}: they are not linear",
+        needed="images proportional to light",
+        todo="switch the camera's gamma and tone curves off, or state camera.gamma (now undone as stated) in panel.yaml",
+    )

@@ -11,7 +11,7 @@ import numpy as np
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock, congruence, observability
 from lpcal.chain.h_pc_handeye.advice import advise
-from lpcal.chain.h_pc_handeye.ends import settled_ends
+from lpcal.chain.h_pc_handeye.ends import all_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.errors import DegenerateError, DisagreementError, LpcalError
 from lpcal.geometry import park
@@ -179,7 +179,7 @@ def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) ->
 
 
 def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings, *, inverted: bool) -> None:
-    boards, turned = settled_ends(given.boards, H_OP, trusted)
+    boards, turned = all_ends(given.boards, H_OP, trusted)
     if turned.any():
         images = [image for image, other in zip(boards.images, turned, strict=True) if other]
         more_images = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""

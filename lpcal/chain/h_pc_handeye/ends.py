@@ -22,6 +22,8 @@ MENDS = 0.2
 SAMPLES, SAMPLE_VIEWS, SEED = 600, 4, 0
 """Samples of views whose ends are drawn too: one in eight has all its ends alike."""
 FEWEST = 6
+READMIT = 5.0
+"""Times the worst residual of the views that agree, up to which a board turned by half counts as agreeing."""
 
 
 def settled_ends(boards: BoardPoses, H_OP: Array, trusted: Mask) -> tuple[BoardPoses, Mask]:
@@ -48,8 +50,36 @@ def settled_ends(boards: BoardPoses, H_OP: Array, trusted: Mask) -> tuple[BoardP
         return boards, none
     other = none.copy()
     other[trusted] = second if second.sum() <= len(second) / 2 else ~second  # as few as can be are turned
-    corners = np.where(other[:, None, None], np.asarray(turned.corners_px), boards.corners_px)
-    return replace(boards, H_CB=np.where(other[:, None, None], turned.H_CB, boards.H_CB), corners_px=corners), other
+    return with_turned(boards, turned, other), other
+
+
+def all_ends(boards: BoardPoses, H_OP: Array, trusted: Mask) -> tuple[BoardPoses, Mask]:
+    """As `settled_ends`, and the few views too that a majority, found by one end, places better by their other end."""
+    boards, other = settled_ends(boards, H_OP, trusted)
+    if boards.corners_px is None or boards.points_B is None or trusted.sum() < FEWEST:
+        return boards, other
+    H_CB = boards.H_CB[trusted]
+    agreed = park.consensus(H_OP[trusted], H_CB)
+    _, wrong, _, _ = found_by_other_end(replace(boards, H_CB=H_CB, corners_px=boards.corners_px[trusted]), H_OP[trusted], agreed)
+    more = np.zeros(len(trusted), dtype=bool)
+    more[trusted] = wrong
+    return with_turned(boards, turned_by_half(boards), more), other ^ more
+
+
+def found_by_other_end(boards: BoardPoses, H_OP: Array, agreed: park.Consensus) -> tuple[BoardPoses, Mask, Array, Array]:
+    """The boards turned by half, the views (N,) off that are so placed where the others are, and the turned ones' residuals (rad, m)."""
+    turned = turned_by_half(boards)
+    angle, distance = park.residuals(H_OP, turned.H_CB, agreed.H_PC, agreed.H_OB)
+    if not agreed.inliers.any():
+        return turned, agreed.inliers.copy(), angle, distance
+    fits = (angle <= READMIT * agreed.residual_rad[agreed.inliers].max()) & (distance <= READMIT * agreed.residual_m[agreed.inliers].max())
+    return turned, ~agreed.inliers & fits & (angle < 0.2 * agreed.residual_rad), angle, distance
+
+
+def with_turned(boards: BoardPoses, turned: BoardPoses, which: Mask) -> BoardPoses:
+    """The boards, those of the mask (N,) as they are when turned by half."""
+    corners = np.where(which[:, None, None], np.asarray(turned.corners_px), np.asarray(boards.corners_px))
+    return replace(boards, H_CB=np.where(which[:, None, None], turned.H_CB, boards.H_CB), corners_px=corners)
 
 
 def _misses(H_OP: Array, ends: Array, H_PC: Array, H_OB: Array, distance: float) -> Array:

@@ -11,18 +11,15 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import congruence, observability
-from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior, turned_by_half
-from lpcal.chain.h_pc_handeye.ends import settled_ends
+from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior
+from lpcal.chain.h_pc_handeye.ends import found_by_other_end, settled_ends, with_turned
 from lpcal.chain.h_pc_handeye.state import Options, State
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import park
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import BoardPoses
-
-READMIT = 5.0
-"""Times the worst residual of the views that agree, up to which a board turned by half counts as agreeing."""
 
 CLEARLY_WORSE = 1.0
 """Offsets at which the angles disagree by so much more, in logarithms of squares, are not tried."""
@@ -59,8 +56,28 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
             needed=f"{observability.FEWEST_VIEWS}, better 15",
             todo="record the body during the images, its markers in sight; check the clocks: mocap.clock_offset",
         )
-    _refuse(best[1], best[2])
+    try:
+        _refuse(best[1], best[2])
+    except DisagreementError as error:
+        raise _by_the_clock(error, boards, track, t_camera_s, options.clock_offset_s) from error
     return best[1]
+
+
+def _by_the_clock(
+    error: DisagreementError, boards: BoardPoses, track: PoseTrack, t_camera_s: Array, stated_s: float | None
+) -> DisagreementError:
+    """The error of a motion that is not rigid, or that of the stated clock offset where the angles fit at another one only."""
+    candidates = [] if stated_s is None else clocks.offset_candidates(track, t_camera_s - stated_s, boards.H_CB)
+    if stated_s is None or not candidates:
+        return error
+    best = replace(candidates[0], offset_s=candidates[0].offset_s + stated_s)
+    if clocks.fits_as_well(track, t_camera_s, boards.H_CB, stated_s, best):
+        return error
+    return DisagreementError(
+        f"at the stated clock offset of {1e3 * stated_s:.0f} ms {error.found}; the angles say {1e3 * best.offset_s:.0f} ms",
+        needed="t_camera = t_mocap + offset",
+        todo="write mocap.clock_offset: estimate",
+    )
 
 
 def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
@@ -98,15 +115,11 @@ def _turned_back(boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus) 
     """
     if boards.corners_px is None or boards.points_B is None or not agreed.inliers.any():
         return boards, agreed
-    turned = turned_by_half(boards)
-    angle, distance = park.residuals(panel.H, turned.H_CB, agreed.H_PC, agreed.H_OB)
-    fits = (angle <= READMIT * agreed.residual_rad[agreed.inliers].max()) & (distance <= READMIT * agreed.residual_m[agreed.inliers].max())
-    wrong = panel.trusted & ~agreed.inliers & fits & (angle < 0.2 * agreed.residual_rad)
+    turned, wrong, angle, distance = found_by_other_end(boards, panel.H, agreed)
+    wrong &= panel.trusted
     if not wrong.any():
         return boards, agreed
-    H_CB = np.where(wrong[:, None, None], turned.H_CB, boards.H_CB)
-    corners = np.where(wrong[:, None, None], np.asarray(turned.corners_px), boards.corners_px)
-    return replace(boards, H_CB=H_CB, corners_px=corners), replace(
+    return with_turned(boards, turned, wrong), replace(
         agreed,
         inliers=agreed.inliers | wrong,
         residual_rad=np.where(wrong, angle, agreed.residual_rad),

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.chain.refine_lights.explain import SCALE, fitted, scaled
+from lpcal.chain.refine_lights.explain import fitted
 from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured
-from lpcal.chain.refine_lights.samples import FACING_LIGHT, Samples, sample_blocks
+from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import lobe_of_leds
-from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.errors import DegenerateError
 from lpcal.geometry import led_cluster, sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, Wings
@@ -29,8 +29,6 @@ DRIFTED, DRIFTED_PLAIN, DRIFTED_TIMES = 0.03, 0.08, 4.0
 """A light that differs by so much between spheres (under lobes on paper, which ripple), and so many times what others do, has drifted."""
 OTHER_LOBE, UNFIT = 0.25, 0.03
 """Another number of LEDs is named when it leaves this share of the squares and the stated one misses by more than that."""
-RADIUS_OFF, OTHER_RADIUS = 0.03, 0.4
-"""Another radius, off by more than this share, is named when it leaves this share of the squares."""
 GATE_PX, GATE_SHADING = 0.05, 0.015
 EXPECTED_GATES, SHADING_SD = 2.5, 0.003
 """Where the lights or the highlights are less certain than the gate, a miss of so many of its own sigmas is let pass; shading that
@@ -142,60 +140,6 @@ def _lobe_misfit(samples: Samples, own: Array, leds: int) -> float:
         mine = samples.sphere[own] == s
         y[mine] -= y[mine].mean()
     return float(np.mean(y**2))
-
-
-def refuse_matte_radius(solution: LightsSolution, used: Measured, camera: Camera) -> None:
-    """Refuse a matte sphere whose shading misses by more than its lights leave, and fits many times better under another radius.
-
-    Raises
-    ------
-    DisagreementError
-        The radius that fits is named.
-    """
-    from scipy.optimize import minimize_scalar
-
-    for view, measured in used:
-        if view.shading is None:
-            continue
-
-        def misfit(log_scale: float, view: SphereView = view, measured: CentreMeasurement = measured) -> float:
-            other, moved = scaled(view, measured, float(np.exp(log_scale)))
-            try:
-                shaded = shading_misfit([(other, moved.centre_C)], solution.lights, camera)
-            except DegenerateError:
-                return float("inf")
-            return float("inf") if shaded is None else float(np.mean(_levelled(shaded) ** 2))
-
-        if misfit(0.0) < EXPECTED_GATES**2 * _expected_misfit(view, measured.centre_C, solution.lights, camera):
-            continue
-        best = minimize_scalar(misfit, bounds=(-np.log(SCALE), np.log(SCALE)), method="bounded", options={"xatol": 0.005, "maxiter": 14})
-        if abs(best.x) > RADIUS_OFF and best.fun < OTHER_RADIUS * misfit(0.0):
-            raise DisagreementError(
-                f"its shading fits as if its radius were {1e3 * np.exp(best.x) * view.radius_m:.1f} mm, not {1e3 * view.radius_m:.1f}",
-                where=f"sphere {view.name}",
-                needed="the radius as the calipers have it",
-                todo=f"correct spheres.{view.name}.radius in panel.yaml",
-            )
-
-
-def _expected_misfit(view: SphereView, centre_C: Array, lights: Sequence[Light], camera: Camera) -> float:
-    """Mean square of a matte sphere's log shading that the lights' own uncertain directions leave, and what any shading does."""
-    samples = sample_blocks([view], centre_C[None], camera, lights)
-    P, n = sphere.meet(samples.ray_C, centre_C, view.radius_m)
-    expected = np.full(samples.light.size, SHADING_SD**2)
-    for k, light in enumerate(lights):
-        own = samples.light == k
-        cosine = np.sum(n[own] * light.field(P[own])[0], axis=-1)
-        expected[own] += light.direction_std_rad**2 * (1 / np.maximum(cosine, FACING_LIGHT) ** 2 - 1)
-    return float(expected.mean())
-
-
-def _levelled(shaded: Shaded) -> Array:
-    """The misfit (N,) with each light's level removed."""
-    m = shaded.misfit.copy()
-    for k in np.unique(shaded.samples.light):
-        m[shaded.samples.light == k] -= np.median(m[shaded.samples.light == k])
-    return m
 
 
 def _held_out_shading(shaded: Shaded) -> tuple[float, float] | None:

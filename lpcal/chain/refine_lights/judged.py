@@ -11,10 +11,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from lpcal.chain.refine_lights.diagnosis import diagnose, refuse_matte_radius
+from lpcal.chain.refine_lights.diagnosis import diagnose
 from lpcal.chain.refine_lights.explain import refuse_at_sight, refuse_other_orders, refuse_what_explains
 from lpcal.chain.refine_lights.far import far_lights, with_far
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
+from lpcal.chain.refine_lights.matte import refuse_what_explains_shading
 from lpcal.chain.refine_lights.measure import Measured, measured_spheres
 from lpcal.chain.refine_lights.refine import DOUBTED_PX, DOUBTED_SIGMAS, refine
 from lpcal.errors import ConvergenceError
@@ -45,7 +46,7 @@ def refine_judged(
     DegenerateError
         No sphere; or a light that the data leave undetermined.
     DisagreementError
-        Images under each other's names, a sphere of another radius, a moved camera.
+        Images under each other's names, a sphere of another radius, a moved camera, images that are not linear.
     ConvergenceError
         The highlights or a sphere held out are nowhere near what the lights foretell, and nothing explains it.
     """
@@ -69,7 +70,7 @@ def refine_judged(
         refuse_what_explains(near, used, camera, wings)
         chrome = [view for view in views if view.highlights_px]
         if len(chrome) < len(views) and chrome:
-            refuse_matte_radius(refine(chrome, near, camera, wings, intensity_sd=intensity_sd), used, camera)
+            refuse_what_explains_shading(refine(chrome, near, camera, wings, intensity_sd=intensity_sd), used, camera)
     solution = diagnose(solution, used, camera, wings)
     return with_far(solution, far, lights, views, used, camera) if far else solution
 
