@@ -143,7 +143,6 @@ def test_a_spheres_own_capture_yaml_is_heeded_and_said(tmp_path: Path, lpcal: Ru
     ("gamma", "spheres", "wings"),
     [
         (1.8, ["chrome_0", "chrome_1", "matte_0"], True),
-        (1.6, ["chrome_0", "chrome_1", "matte_1"], False),
         (1.6, ["chrome_1", "matte_0"], True),
     ],
 )
