@@ -89,20 +89,14 @@ def test_lights_of_different_colours_are_told_from_the_objects_colour():
 
 
 @pytest.mark.slow
-def test_twelve_bits_low_in_sixteen_need_the_white_level():
+def test_twelve_bits_low_in_sixteen_are_cut_off_where_they_pile_up():
     raw, mask = overexposed(), truth(Scene())[0]
     low = replace(raw, images=raw.images / 16, ambient=raw.ambient / 16, short={}, short_exposure_s={}, step=1 / 65535)
     full, told, untold = to_radiance(raw, Sensor()), to_radiance(low, Sensor(white_level=0.0625)), to_radiance(low, Sensor())
     assert (full.saturated & mask).sum() > 500
     assert np.array_equal(told.saturated, full.saturated)
     assert np.allclose(told.signal, full.signal, atol=1e-3)
-    assert not untold.saturated.any()  # what is cut off is taken for shading
-    n = truth(Scene())[2]
-    error = {}
-    for name, radiance in (("told", told), ("untold", untold)):
-        found = reconstruct(radiance, calibration(), Options(mask=mask))
-        error[name] = np.nanmean(np.linalg.norm(found.normals - n, axis=-1)[mask & found.mask])
-    assert error["untold"] > 1.5 * error["told"]
+    assert (untold.saturated & full.saturated).sum() > 0.9 * full.saturated.sum()  # nobody states the level; their pile shows it
 
 
 def test_more_ambient_images_mean_less_noise():
