@@ -56,7 +56,7 @@ def observe_sphere(radiance: Radiance, expected: Expected, camera: Camera | None
     where, todo = f"sphere {radiance.name}", ""
     try:
         outline = _outline_of(mean_image(radiance), radiance, expected, camera)
-        if not _is_told(radiance, expected):
+        if not _place_is_stated(radiance, expected):
             where += f" at ({outline.centre_px[0]:.0f}, {outline.centre_px[1]:.0f}) px, radius {outline.radius_px:.0f} px"
             todo = f"; is it elsewhere? Then state {sphere_checks.HINT} in panel.yaml"
         return _with_lights(_view_of(radiance, expected, outline), radiance, outline)
@@ -64,7 +64,7 @@ def observe_sphere(radiance: Radiance, expected: Expected, camera: Camera | None
         raise type(error)(error.found, where=where, needed=error.needed, todo=error.todo + todo) from error
 
 
-def _is_told(radiance: Radiance, expected: Expected) -> bool:
+def _place_is_stated(radiance: Radiance, expected: Expected) -> bool:
     """Whether the outline's place is stated."""
     return expected.hint_px is not None or radiance.mask is not None
 
@@ -98,7 +98,7 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     def refine(start: Array, kind: str = expected.kind, shown: Image = image) -> Outline:
         return sphere_outline.refine_outline(shown, kind, start, curve)
 
-    told = _is_told(radiance, expected)
+    stated = _place_is_stated(radiance, expected)
     radius_px = _radius_range(expected, camera)
     if expected.hint_px is not None:
         starts = [expected.hint_px]
@@ -107,16 +107,16 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     else:
         starts = sphere_start.search(image, radius_px)
     outline = _best_of(starts[:REFINED_STARTS], refine)
-    if (outline is None or sphere_checks.is_vague(outline)) and not told and radius_px is not None:
+    if (outline is None or sphere_checks.is_vague(outline)) and not stated and radius_px is not None:
         starts = sphere_start.search(image)
         outline = _best_of(starts[:REFINED_STARTS], refine)
         outline = outline if outline is not None and _is_clear(outline) else None
     if outline is None or sphere_checks.is_vague(outline):
         raise sphere_checks.why_none(image, radius_px)
-    if not told and len(radiance.lights) > 1:
+    if not stated and len(radiance.lights) > 1:
         outline = _most_like(outline, starts, radiance, expected.kind, refine)
     sphere_checks.refuse_bad_outline(outline, image)
-    rivals = sphere_checks.rivals(outline, starts, image) if not told and len(radiance.lights) > 1 else []
+    rivals = sphere_checks.rivals(outline, starts, image) if not stated and len(radiance.lights) > 1 else []
     if rivals:
         parts = [_shown(radiance, np.arange(len(radiance.lights)) % 3 != third) for third in range(3)]
         refines = [partial(refine, shown=shown) for shown in parts]

@@ -114,7 +114,8 @@ class Sigmas:
     """By noise class."""
     mocap_m: tuple[float, ...] = (2e-4, 2e-4)
     log_scale: float = SCALE_SIGMA
-    """Of the board's size, before the data; wider where these show more than chance does, so that a board far off is not pulled back."""
+    """One standard deviation of the prior of the log of the board's size; wider where the data show more than chance, so that a board far
+    off is not pulled back."""
 
 
 @dataclass(frozen=True)

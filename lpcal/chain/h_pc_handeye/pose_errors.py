@@ -1,8 +1,8 @@
 r"""Errors of the panel's poses that hang on the pose: a robot's joint offsets and link lengths, a mocap's corner of the room.
 
 Symbols: the misplacement e_k = (turn, shift of the origin) of the panel in O of view k, from its measured pose to that which the board
-shows, and its covariance S_k by white noise of both sensors; its derivatives J_k by left perturbations of H_PC and H_OB; the pose's clue
-c_k, its six numbers less their means, in units of their spread. A smooth error is a linear function of the clue to first order, so each of
+shows, and its covariance S_k by white noise of both sensors; its derivatives J_k by left perturbations of H_PC, H_OB; the pose's features
+c_k, its six numbers less their means, in units of their spread. A smooth error is a linear function of them to first order, so each of
 the six components of e is::
 
     e = J theta + F a + w,    a ~ N(0, T),   w ~ N(0, s S)
@@ -24,10 +24,10 @@ from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera import projection_jacobian
 
 FEWEST_VIEWS = 12
-"""Views under which six linear clues explain any residual."""
+"""Views under which six linear features explain any residual."""
 CHANCE = 6.0
-"""Twice the gain in log likelihood that two variances reach by chance in one of twenty sound sessions; what goes beyond it counts in full
-only where it is far beyond, so that white noise keeps its covariance and no threshold makes it jump."""
+"""Twice the gain in log likelihood that is put down to chance, the 95 % point of chi^2 of the two variances; what goes beyond it counts in
+full only where it is far beyond, so that white noise keeps its covariance and no threshold makes it jump."""
 LEAST_SHARE = 1e-4
 """The least variance of the smooth errors that is tried, as a share of the noise's: as good as none."""
 
@@ -35,7 +35,7 @@ LEAST_SHARE = 1e-4
 def covariance_of_pose_errors(views: Views, found: Estimate) -> Array:
     """What errors that are linear in the panel's pose add to the covariance (12, 12) of H_PC and H_OB, as left perturbations.
 
-    None where the board poses come without corners, which would show their own noise, or where the views are few.
+    Zeros where the board poses come without corners, which would show their own noise, or where the views are few.
     """
     if views.corners_px is None or views.points_B is None or views.count < FEWEST_VIEWS:
         return np.zeros((12, 12))
@@ -45,7 +45,7 @@ def covariance_of_pose_errors(views: Views, found: Estimate) -> Array:
     e = np.concatenate([turn, H_OP[:, :3, 3] - views.H_OP[:, :3, 3]], axis=1)
     by_O = se3.turn_and_origin_jacobian(H_OP)
     J = np.concatenate([-by_O @ se3.adjoint(H_OP), by_O], axis=2)
-    F = np.einsum("kf,cd->kcfd", _clue(views.H_OP), np.eye(6)).reshape(views.count, 6, -1)
+    F = np.einsum("kf,cd->kcfd", _pose_features(views.H_OP), np.eye(6)).reshape(views.count, 6, -1)
     mocap = views.mocap_sigmas(found.sigmas) ** 2 * views.deflation[:, None]
     by_C = by_O @ se3.adjoint(H_OC)
     S = by_C @ _board_covariance(views, found) @ np.swapaxes(by_C, 1, 2) + mocap[:, :, None] * np.eye(6)
@@ -72,20 +72,20 @@ def _board_covariance(views: Views, found: Estimate) -> Array:
     return np.asarray(np.linalg.inv(np.einsum("nmai,nmaj->nij", J, J)))
 
 
-def _clue(H_OP: Array) -> Array:
+def _pose_features(H_OP: Array) -> Array:
     """(N, 6) of zero mean and unit spread; a direction in which the poses do not differ tells nothing."""
-    clue = np.hstack([se3.rotation_vector(H_OP[0, :3, :3].T @ H_OP[:, :3, :3]), H_OP[:, :3, 3]])
-    clue = clue - clue.mean(axis=0)
-    spread = clue.std(axis=0)
-    return np.asarray(np.where(spread > 0, clue / np.where(spread > 0, spread, 1), 0.0))
+    features = np.hstack([se3.rotation_vector(H_OP[0, :3, :3].T @ H_OP[:, :3, :3]), H_OP[:, :3, 3]])
+    features = features - features.mean(axis=0)
+    spread = features.std(axis=0)
+    return np.asarray(np.where(spread > 0, features / np.where(spread > 0, spread, 1), 0.0))
 
 
 def _variances(J: Array, F: Array, e: Array) -> Array:
-    """Variances (2,) of the clues' coefficients, of turns and of shifts, most likely given what no theta explains.
+    """Variances (2,) of the features' coefficients, of turns and of shifts, most likely given what no theta explains.
 
     Parameters
     ----------
-    J, F, e : (R, 12), (R, 36), (R,) in units of the white noise; the columns of F are by clue, then component
+    J, F, e : (R, 12), (R, 36), (R,) in units of the white noise; the columns of F are by feature, then component
     """
     Q = np.linalg.qr(J)[0]
     F, e = F - Q @ (Q.T @ F), e - Q @ (Q.T @ e)

@@ -1,10 +1,10 @@
 """What explains the shading of a matte sphere that lights found without it do not: another radius, or numbers that are not light.
 
-Symbols: data y of a light and a of the room, stored = light^(1/e); the misfit is the rms of log(data / foretold), a level a light free::
+Symbols: data y of a light and a of the room, stored = light^(1/e); the misfit is the rms of log(data / predicted), a level a light free::
 
     misfit(s)  the radius s R, the centre moved along        misfit(e)  the data (y + a)^e - a^e
 
-The lights' places come from chrome spheres, whose highlights no tone curve moves; with them an e is told from a light that is near,
+The lights' places come from chrome spheres, whose highlights no tone curve moves; with them an e differs from a light that is near,
 which the sphere's image alone (`detect.sphere_response`) does not.
 """
 
