@@ -25,7 +25,7 @@ from lpcal.records.observations import Radiance
 DISC, LIT = 0.88, 0.12
 """Shading is compared inside this share of the radius, and fitted where a normal's cosine with the light is over the second figure."""
 CHANGE = 1e-3
-"""Of the light's energy must change between the lights, or the thing is flat: two lights 5 degrees apart change as much in a ball."""
+"""Least share of the energy that must change between the lights, else it is flat: two lights 5 degrees apart do so in a ball."""
 FEWEST_PIXELS, FIT_ROUNDS = 60, 4
 COMPACT, RING_PX = 0.5, (5.0, 9.0)
 """A spot's height over the ring about it, in pixels from its middle, as a share of its height over the whole; an edge has less."""

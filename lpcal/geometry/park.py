@@ -26,7 +26,7 @@ ROUNDS = 10
 INLIER_SIGMAS = 4.0
 ROTATION_FLOOR = 0.02
 STRETCHES = 12
-"""Of a session, left out one at a time for the doubt of the board's scale: enough that their spread is known within a quarter."""
+"""Stretches of a session, left out one at a time for the doubt of the board's scale: enough that their spread is known within a quarter."""
 FLOOR_M = 2e-4
 """The least scatter that counts as one, so that perfect data have inliers."""
 

@@ -41,7 +41,7 @@ class FarLight:
     seen_from_C: Array
     """(3,)."""
     nearness_rms: float
-    """Of 1 / distance, per metre: where nothing tells it, the light is about as far from the sphere as the camera is, or farther."""
+    """The rms of 1 / distance, per metre: by default that of a light as far from the sphere as the camera is, or more."""
     spheres: int
     """How many spheres show it."""
 
