@@ -9,8 +9,8 @@ from scipy.optimize import minimize
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
 from lpcal.chain.refine_lights import as_designed, refine
 from lpcal.chain.refine_lights.clicks import fit_with_clicks
-from lpcal.chain.refine_lights.geometry_fit import fit_geometry
-from lpcal.chain.refine_lights.measure import measure_centre
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, fit_geometry
+from lpcal.chain.refine_lights.measure import measure_centre, outline_errors
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.wing import d_object, wing_jacobian, wing_transform
@@ -157,7 +157,7 @@ def test_more_spheres_do_not_make_it_worse() -> None:
     rms = []
     for count in (1, 2, 4):
         errors = []
-        for seed in range(8):
+        for seed in range(16):
             scene = Scene(100 + seed, 4)
             views = scene.views[:count]
             fit = fit_geometry([w.name for w in DRAWN], views, [measure_centre(v, CAMERA) for v in views], CAMERA, scene.wings)
@@ -165,6 +165,32 @@ def test_more_spheres_do_not_make_it_worse() -> None:
         rms.append(np.sqrt(np.mean(np.square(errors))))
     assert rms[1] < 1.05 * rms[0]
     assert rms[2] < 1.05 * rms[1]
+
+
+@pytest.mark.parametrize("seen_deg", [360, 240, 150])
+def test_how_sure_a_centre_is_follows_how_much_of_its_outline_is_seen(seen_deg: int) -> None:
+    rng, scatter_px, centre_C = np.random.default_rng(1), 0.1, np.array([0.03, -0.02, 0.40])
+    around = np.radians(np.arange(0, seen_deg))
+    points = CAMERA.project(sphere.outline(centre_C, RADIUS_M, around))
+    middle = CAMERA.project(centre_C[None])[0]
+    outward = (points - middle) / np.linalg.norm(points - middle, axis=1, keepdims=True)
+    known_px = outline_errors("chrome", float(np.linalg.norm(points - middle, axis=1).mean()), scatter_px).bias_px
+    apart = np.abs((around[:, None] - around + np.pi) % (2 * np.pi) - np.pi)
+    root = np.linalg.cholesky(np.exp(-apart / np.radians(6)) + 1e-9 * np.eye(len(around)))
+    squares = []
+    for _ in range(100):
+        moved = points + (known_px + scatter_px * root @ rng.normal(size=len(around)))[:, None] * outward
+        found = measure_centre(SphereView("ball", "chrome", RADIUS_M, moved, scatter_px), CAMERA)
+        error = found.centre_C - centre_C
+        squares.append(error @ np.linalg.solve(found.covariance, error) / 3)
+    assert 0.4 < np.mean(squares) < 1.5
+
+
+@pytest.mark.parametrize("radius_px", [16.0, 24.0, 36.0])
+def test_a_small_chrome_outline_is_smaller_by_the_same_share(radius_px: float) -> None:
+    large = BIAS_PX["chrome"][0] + outline_errors("chrome", 47.0, 0.1).bias_px
+    seen = BIAS_PX["chrome"][0] + outline_errors("chrome", radius_px, 0.1).bias_px
+    assert seen / radius_px == pytest.approx(large / 47.0, rel=1e-6)
 
 
 def test_free_lights_are_found_from_spheres_alone() -> None:

@@ -3,8 +3,11 @@
 From the rigs of `light_sigmas`: the true outline is known, so each seen one's shift and radial bias are. Fitted, by maximum likelihood on
 the even seeds and held against the odd ones, a kind each, with s the scatter of the points and r the radius in pixels::
 
-    shift an axis      sigma^2 = floor^2 + (slope s^2)^2
-    bias               of the rig: mean and sigma; a sphere's own: sigma^2 = floor^2 + (slope s^2)^2 + (small (25 / r)^3)^2
+    shift an axis      sigma^2 = (floor max(1, (25 / r)^2))^2 + (slope s^2)^2
+    bias               of the rig: mean and sigma; a sphere's own: sigma^2 = floor^2 + (slope s^2)^2 + (small min(1, (25 / r)^3))^2
+
+The mean that hangs on the radius (`outline_errors` of `lpcal.chain.refine_lights.measure`) is taken away first; what an outline that lacks
+a part leaves open is weighed as there.
 
 `lpcal.chain.refine_lights.measure` holds what this prints. Scatter shows what the edge met besides the sphere's rim: squared, as it
 takes part of the rays along and is itself seen only in the rest.
@@ -22,14 +25,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from light_rigs import rig_of
 from light_sigmas import RIGS, drawn_as, plan
+from lpcal.chain.refine_lights.measure import SMALL_PX, outline_errors
 from lpcal.geometry import sphere
 from lpcal.simulate.captures import place_spheres
 
-SMALL_PX = 25.0
-
 
 def seen_and_true(seed: int) -> list[tuple[str, np.ndarray]]:
-    """Kind, and (seed, radius, scatter, bias, shift x, shift y) in pixels, of every sphere of a drawn rig."""
+    """Kind, and (seed, radius, scatter, bias, shift x, shift y) in pixels, as if seen all round, of every sphere of a drawn rig."""
     one = plan(seed)
     seen, (rig, _, _) = drawn_as(one), rig_of("lightpanel-6", one.chrome, one.matte)
     spheres = {name: section.model_copy(update={"radius": one.radius_m}) for name, section in rig.spheres.items()}
@@ -41,9 +43,11 @@ def seen_and_true(seed: int) -> list[tuple[str, np.ndarray]]:
         middle = drawn.mean(axis=0)
         (away, angle), (true_away, true_angle) = _polar(view.outline_px - middle), _polar(drawn - middle)
         offset = away - np.interp(angle, true_angle, true_away, period=2 * np.pi)
-        waves = [np.ones_like(angle), *(wave(k * angle) for k in range(1, 7) for wave in (np.cos, np.sin))]
-        bias, x, y = np.linalg.lstsq(np.column_stack(waves), offset, rcond=None)[0][:3]
-        found.append((view.kind, np.array([seed, true_away.mean(), view.outline_sigma_px, bias, x, y])))
+        waves = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
+        bias, x, y = np.linalg.lstsq(waves, offset, rcond=None)[0]
+        lacking = np.sqrt(np.diag(np.linalg.inv(waves.T @ waves / len(waves))) / [1, 2, 2])
+        bias -= outline_errors(view.kind, true_away.mean(), view.outline_sigma_px).bias_px
+        found.append((view.kind, np.array([seed, true_away.mean(), view.outline_sigma_px, *np.array([bias, x, y]) / lacking])))
     return found
 
 
@@ -51,21 +55,21 @@ def _polar(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.linalg.norm(points, axis=1), np.arctan2(points[:, 1], points[:, 0])
 
 
-def shift_sd(p: np.ndarray, scatter: np.ndarray) -> np.ndarray:
+def shift_sd(p: np.ndarray, table: np.ndarray) -> np.ndarray:
     """Floor and slope (log) to a standard deviation an axis."""
     floor, slope = np.exp(p)
-    return np.hypot(floor, slope * scatter**2)
+    return np.hypot(floor * np.maximum(1, (SMALL_PX / table[:, 1]) ** 2), slope * table[:, 2] ** 2)
 
 
 def shift_cost(p: np.ndarray, table: np.ndarray) -> float:
     """Minus log likelihood of shifts."""
-    sd = shift_sd(p, table[:, 2])[:, None]
+    sd = shift_sd(p, table)[:, None]
     return float(np.sum(0.5 * (table[:, 4:] / sd) ** 2 + np.log(sd)))
 
 
 def bias_parts(p: np.ndarray, table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Deviations from the mean and their covariance within one rig."""
-    own2 = np.exp(2 * p[2]) + (np.exp(p[3]) * table[:, 2] ** 2) ** 2 + (np.exp(p[4]) * (SMALL_PX / table[:, 1]) ** 3) ** 2
+    own2 = np.exp(2 * p[2]) + (np.exp(p[3]) * table[:, 2] ** 2) ** 2 + (np.exp(p[4]) * np.minimum(1, (SMALL_PX / table[:, 1]) ** 3)) ** 2
     return table[:, 3] - p[0], np.diag(own2) + np.exp(2 * p[1])
 
 
@@ -90,9 +94,7 @@ def main(count: int) -> None:
         ).x
         print(f"{kind}: {len(even)} outlines fitted, {len(odd)} held")
         print(f"  shift: floor {np.exp(shift[0]):.3f} px, slope {np.exp(shift[1]):.2f} / px;", end=" ")
-        print(
-            "squares over sigma's: " + ", ".join(f"{np.mean((t[:, 4:] / shift_sd(shift, t[:, 2])[:, None]) ** 2):.2f}" for t in (even, odd))
-        )
+        print("squares over sigma's: " + ", ".join(f"{np.mean((t[:, 4:] / shift_sd(shift, t)[:, None]) ** 2):.2f}" for t in (even, odd)))
         mean, (rig, floor, slope, small) = bias[0], np.exp(bias[1:])
         print(
             f"  bias: mean {mean:.3f}, of the rig {rig:.3f}, own floor {floor:.3f} px, slope {slope:.2f} / px, small {small:.3f} px;",

@@ -12,16 +12,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.detect.edge_profile import edge_scale, match_edges
+from lpcal.detect.edge_profile import Edges, edge_scale, match_edges
 from lpcal.errors import DegenerateError
 from lpcal.geometry import sphere
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 
 RAYS = 360
 COARSE_SHARE = 0.06
 """A start may be off by this share of its radius."""
-FIT_ROUNDS = 4
+FIT_ROUNDS, SHARP_ROUNDS = 4, 2
+TRIPLES = 500
+"""Circles tried through three edges each: of a majority of 60 % one in five is."""
 OUTLIER_MADS = 3.0
 FEWEST_RAYS = 90
 
@@ -94,30 +96,76 @@ def refine_outline(image: Image, kind: str, start_px: Array, curve: Curve) -> Ou
     parameters = curve.fit(start_px[:2] + start_px[2] * np.stack([np.cos(AROUND), np.sin(AROUND)], axis=1))
     search_px = COARSE_SHARE * start_px[2]
     for _round in range(FIT_ROUNDS):
-        points, normals = _with_normals(curve.draw(parameters))
-        fits = match_edges(coefficients, points, normals, kind, _circle(points)[2], search_px)
-        good = fits.found
-        moved = points + fits.offset_px[:, None] * normals
-        for _ in range(5):
-            if good.sum() < FEWEST_RAYS:
-                raise DegenerateError(
-                    f"only {good.sum()} of {RAYS} rays find an edge",
-                    needed="a sharp outline, whole in the picture",
-                    todo="state its place as hint: [x px, y px, r px] in panel.yaml",
-                )
-            parameters = curve.fit(moved[good])
-            distance = _distance(curve.draw(parameters), moved)
-            spread = 1.4826 * np.median(np.abs(distance[good]))
-            kept = fits.found & (np.abs(distance) < max(OUTLIER_MADS * spread, 0.05))
-            if np.array_equal(kept, good):
-                break
-            good = kept
+        moved, fits = _edges(coefficients, kind, curve.draw(parameters), search_px)
+        parameters, good, distance = _agreeing(curve, moved, fits.found, fits.found)
         search_px = 0.0
+    return _outline(curve.draw(parameters), moved, good, distance, fits)
+
+
+def on_sharp_edges(image: Image, outline: Outline, curve: Curve) -> Outline:
+    """A chrome sphere's outline again, fitted to its sharp edges alone; as it was where they are too few.
+
+    Where the rim mirrors what is as bright as what is behind it, there is no edge but where that fades: up to 2 px beside the rim.
+    """
+    from scipy.ndimage import spline_filter
+
+    coefficients = spline_filter(image.astype(float), order=3, mode="mirror")
+    drawn = outline.curve_px
+    try:
+        for _round in range(SHARP_ROUNDS):
+            moved, fits = _edges(coefficients, "chrome", drawn, 0.0)
+            parameters, good, distance = _agreeing(curve, moved, fits.sharp, _majority(fits))
+            drawn = curve.draw(parameters)
+    except DegenerateError:
+        return outline
+    return _outline(drawn, moved, good, distance, fits)
+
+
+def _edges(coefficients: Array, kind: str, drawn: Array, search_px: float) -> tuple[Array, Edges]:
+    """Where (RAYS, 2) the edges beside a drawn curve are."""
+    points, normals = _with_normals(drawn)
+    fits = match_edges(coefficients, points, normals, kind, _circle(points)[2], search_px)
+    return points + fits.offset_px[:, None] * normals, fits
+
+
+def _majority(fits: Edges) -> Mask:
+    """The half of the sharp edges that lies nearest to one circle, by least median of squares (Rousseeuw 1984)."""
+    waves = np.column_stack([np.ones(RAYS), np.cos(AROUND), np.sin(AROUND)])
+    rows = np.flatnonzero(fits.sharp)
+    if rows.size < FEWEST_RAYS:
+        return fits.sharp
+    three = np.random.default_rng(0).choice(rows, (TRIPLES, 3))
+    tried = np.linalg.pinv(waves[three]) @ fits.offset_px[three][:, :, None]
+    off = np.abs(fits.offset_px[rows] - (waves[rows] @ tried)[:, :, 0])
+    median = np.median(off, axis=1)
+    best = int(np.argmin(median))
+    return np.isin(np.arange(RAYS), rows[off[best] <= median[best]])
+
+
+def _agreeing(curve: Curve, moved: Array, found: Mask, first: Mask) -> tuple[Array, Mask, Array]:
+    """The parameters of the curve through those points found that agree, from a first guess at which; which they are; all's distances."""
+    good, kept = first, found
+    for _ in range(5):
+        if kept.sum() < FEWEST_RAYS:
+            raise DegenerateError(
+                f"only {kept.sum()} of {RAYS} rays find an edge",
+                needed="a sharp outline, whole in the picture",
+                todo="state its place as hint: [x px, y px, r px] in panel.yaml",
+            )
+        parameters = curve.fit(moved[good])
+        distance = _distance(curve.draw(parameters), moved)
+        spread = 1.4826 * np.median(np.abs(distance[good]))
+        kept = found & (np.abs(distance) < max(OUTLIER_MADS * spread, 0.05))
+        if np.array_equal(kept, good):
+            break
+        good = kept
+    return parameters, good, distance
+
+
+def _outline(drawn: Array, moved: Array, good: Mask, distance: Array, fits: Edges) -> Outline:
     x, y, r = _circle(moved[good])
-    sigma = float(1.4826 * np.median(np.abs(distance[good])))
-    return Outline(
-        curve.draw(parameters), moved[good], max(sigma, 1e-3), np.array([x, y]), r, fits.blur_px, float(np.median(fits.contrast[good]))
-    )
+    sigma = max(float(1.4826 * np.median(np.abs(distance[good]))), 1e-3)
+    return Outline(drawn, moved[good], sigma, np.array([x, y]), r, fits.blur_px, float(np.median(fits.contrast[good])))
 
 
 def _with_normals(points: Array) -> tuple[Array, Array]:

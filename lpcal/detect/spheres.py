@@ -125,7 +125,7 @@ def _outline_of(image: Image, radiance: Radiance, expected: Expected, camera: Ca
     if camera is not None and expected.radius_m is not None:
         centre_C = sphere.from_outline(camera.unproject(outline.points_px), expected.radius_m)
         sphere_checks.refuse_far(float(np.linalg.norm(centre_C)), expected.radius_m, expected.distance_m)
-    return outline
+    return sphere_outline.on_sharp_edges(image, outline, curve) if expected.kind == "chrome" else outline
 
 
 def _most_like(first: Outline, starts: Sequence[Array], radiance: Radiance, kind: str, refine: Callable[[Array], Outline]) -> Outline:

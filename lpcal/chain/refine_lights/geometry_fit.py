@@ -7,7 +7,7 @@ centres C_s, radial bias b of the outlines (one for chrome, one for matte)::
     highlight:  A (P / (P . u) - u) / sigma,   P the mirror point of the source in the sphere, u the ray of the pixel seen
     outline:    W (C_s - measured_s - by_bias_s b)
     camera:     with its parameters free, u + U d for u and measured_s + C_s d for measured_s (`core`)
-    priors:     H_CD, q about the drawing; e about -15 +- 30 mm; b about -0.31 +- 0.12 px (chrome), -0.015 +- 0.04 px (matte)
+    priors:     H_CD, q about the drawing; e about -15 +- 30 mm; b about -0.31 +- 0.09 px (chrome), -0.015 +- 0.04 px (matte)
 
 The bias of a chrome outline is real: its rim mirrors what is behind it. Source: maximum a posteriori estimation, Alhazen's mirror
 point by Newton's method inside the derivative.
@@ -33,7 +33,7 @@ from lpcal.records.calibration import Camera, Wings
 from lpcal.records.observations import SphereView
 
 SOURCE_OFFSET_M, SOURCE_OFFSET_SIGMA_M = -0.015, 0.030
-BIAS_PX = {"chrome": (-0.31, 0.12), "matte": (-0.015, 0.04)}
+BIAS_PX = {"chrome": (-0.31, 0.09), "matte": (-0.015, 0.04)}
 """Mean and standard deviation of the radial bias that all outlines of a kind share, in pixels (`tools/outline_errors.py`)."""
 KINDS = ("chrome", "matte")
 ROBUST = 3.0
