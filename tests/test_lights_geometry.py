@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import minimize
@@ -240,9 +242,29 @@ def test_a_joint_one_click_off_is_named_and_none_falsely(spheres: int) -> None:
         _, wings, clicks = fit_with_clicks(named, scene.views, measured, CAMERA, scene.wings)
         expected = [(f"L{row}", 30 + 10 * step)] if seed % 3 else []
         assert [(c.name, round(float(np.degrees(c.found_rad)))) for c in clicks] == expected
+        sure = [c for c in clicks if c.sure]
+        assert sure == clicks or spheres == 2
         assert [round(float(np.degrees(w.joint_angle_rad))) for w in wings.wings] == [
-            30 + (10 * step if expected and k == row else 0) for k in range(6)
+            30 + (10 * step if sure and k == row else 0) for k in range(6)
         ]
+
+
+@pytest.mark.parametrize("noise_px", [0.06, pytest.param(0.09, marks=pytest.mark.slow), pytest.param(0.12, marks=pytest.mark.slow)])
+def test_highlights_that_hardly_tell_a_click_find_none(noise_px: float) -> None:
+    for seed in range(20, 32):
+        scene, rng = Scene(seed, 2), np.random.default_rng(seed)
+        views = [
+            replace(
+                view,
+                highlights_px={light: pixel + noise_px * rng.normal(size=2) for light, pixel in view.highlights_px.items()},
+                highlight_sigma_px=dict.fromkeys(view.highlights_px, noise_px),
+            )
+            for view in scene.views
+        ]
+        measured = [measure_centre(view, CAMERA) for view in views]
+        _, wings, clicks = fit_with_clicks([w.name for w in DRAWN], views, measured, CAMERA, scene.wings)
+        assert wings is scene.wings
+        assert not any(click.sure for click in clicks)
 
 
 @pytest.mark.slow

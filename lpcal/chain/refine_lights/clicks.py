@@ -10,6 +10,10 @@ Which ones are worth a try, the fit as drawn says to second order: joint angle g
 
     gain ~ 2 d (g - g0) / sigma^2 - d^2 / sigma^2 (1 - S / sigma^2)
 
+How far the data tell a click from none at all is K = d^2 / sigma^2 (1 - S / sigma^2): without one the gain is about -K +- 2 sqrt(K), with
+one K +- 2 sqrt(K). What is enough is so improbable without a click that of all joints tried none gains it: -K + 2 sqrt(K) z. Small spheres
+leave K at 4 to 10 where 20 to 60 is usual.
+
 Simulated over wings within tolerance: without a click the best of twelve tries never gained under two chrome spheres or more (-26 to -0.2),
 under one it gained up to 8; a true click gains 4.5 to 70. Source: Laplace's approximation of the evidence.
 """
@@ -31,7 +35,7 @@ from lpcal.records.observations import SphereView
 
 CLICK_RAD = float(np.radians(10.0))
 ENOUGH, ENOUGH_UNDER_ONE = 4.0, 12.0
-"""With two chrome spheres or more, and with one."""
+"""With two chrome spheres or more that tell a click well, and with one or less well: z squared, an error of three in 10000."""
 TRIES = 4
 """The most promising of all joints and both ways."""
 WORTH_A_TRY = -30.0
@@ -59,30 +63,37 @@ class Click:
     drawn_rad: float
     found_rad: float
     gain: float
+    sure: bool = True
+    """If not, the wing is left as drawn."""
 
     def message(self) -> str:
         """In words."""
         found_deg, drawn_deg = np.degrees([self.found_rad, self.drawn_rad])
+        if not self.sure:
+            return f"{self.name}: its joint may be at {found_deg:.0f} deg, not {drawn_deg:.0f}, which these spheres hardly tell: look at it"
         return f"{self.name}: joint at {found_deg:.0f} deg, not {drawn_deg:.0f}; correct joint_angle in panel.yaml"
 
 
 def fit_with_clicks(
     lights: Sequence[str], views: Sequence[SphereView], measured: Sequence[CentreMeasurement], camera: Camera, wings: Wings
 ) -> tuple[GeometryFit, Wings, list[Click]]:
-    """The geometry, the wings as they stand, and the clicks found."""
+    """The geometry, the wings as they stand, and the clicks found; the last may be unsure."""
     fit = fit_geometry(lights, views, measured, camera, wings)
     clicks: list[Click] = []
     shown = {light for view in views for light in view.highlights_px}
-    enough = ENOUGH if sum(bool(view.highlights_px) for view in views) > 1 else ENOUGH_UNDER_ONE
+    alone = sum(bool(view.highlights_px) for view in views) < 2
     rows = [row for row, wing in enumerate(wings.wings) if wing.name in shown]
     while rows:
         promising = _promising(fit, wings, rows)[:TRIES]
         trials = [(row, step, *_tried(lights, views, measured, camera, _clicked(wings, row, step))) for _, row, step in promising]
         row, step, trial, cost = min(trials, key=lambda trial: trial[3])
         gain = 2 * (fit.cost - cost)
-        if trial is None or gain < enough:
+        sure = gain >= (ENOUGH_UNDER_ONE if alone else _enough(fit, wings, row))
+        if trial is None or not (sure or (gain >= ENOUGH and not alone)):
             break
-        clicks.append(_click(wings, row, step, gain))
+        clicks.append(_click(wings, row, step, gain, sure=sure))
+        if not sure:
+            break
         fit, wings = trial, _clicked(wings, row, step)
         rows.remove(row)
     return fit, wings, clicks
@@ -115,9 +126,9 @@ def clicks_under_shading[Found: _WithSettings](
     return solved, wings, clicks
 
 
-def _click(wings: Wings, row: int, step: int, gain: float) -> Click:
+def _click(wings: Wings, row: int, step: int, gain: float, *, sure: bool = True) -> Click:
     drawn_rad = wings.wings[row].joint_angle_rad
-    return Click(wings.wings[row].name, drawn_rad, drawn_rad + step * CLICK_RAD, gain)
+    return Click(wings.wings[row].name, drawn_rad, drawn_rad + step * CLICK_RAD, gain, sure)
 
 
 def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tuple[float, int, int]]:
@@ -127,9 +138,20 @@ def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tu
 
 def _promise(fit: _WithSettings, wings: Wings, row: int, step: int) -> float:
     """The gain of a click to second order."""
-    sigma, click = wings.setting_sigma[1], step * CLICK_RAD
-    moved, variance = fit.settings[row, 1] - wings.wings[row].joint_angle_rad, fit.settings_std[row, 1] ** 2
-    return float(2 * click * moved / sigma**2 - (click / sigma) ** 2 * (1 - variance / sigma**2))
+    moved = fit.settings[row, 1] - wings.wings[row].joint_angle_rad
+    return float(2 * step * CLICK_RAD * moved / wings.setting_sigma[1] ** 2) - _told(fit, wings, row)
+
+
+def _told(fit: _WithSettings, wings: Wings, row: int) -> float:
+    """How far the data tell a click of a joint from none: K."""
+    sigma = wings.setting_sigma[1]
+    return float((CLICK_RAD / sigma) ** 2 * (1 - fit.settings_std[row, 1] ** 2 / sigma**2))
+
+
+def _enough(fit: _WithSettings, wings: Wings, row: int) -> float:
+    """The gain at which a click is believed."""
+    told = max(_told(fit, wings, row), ENOUGH_UNDER_ONE)
+    return max(ENOUGH, 2 * float(np.sqrt(told * ENOUGH_UNDER_ONE)) - told)
 
 
 def _clicked(wings: Wings, row: int, clicks: int) -> Wings:

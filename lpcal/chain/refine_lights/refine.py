@@ -91,8 +91,7 @@ def refine(
         shading = fit_shading(samples, known, names, intensity_sd, axis_known=axis_known, volume=volume)
         found = with_shading(found, shading)
         return _solution(found, focus_C, fit, shading, views, kept, refused, [*told, *warnings], camera, wings)
-    joint, late = _joint(fit, used, known, camera, wings, intensity_sd)
-    told += [click.message() for click in late]
+    joint, told = _joint(fit, used, known, camera, wings, intensity_sd, clicks)
     found = with_leds(joint.fit, joint.shading)
     focus_C = nearest_to_axes(np.array([light.H_CL for light in found]))
     found = [replace(light, direction_C=light.field(focus_C[None])[0][0]) for light in found]
@@ -127,8 +126,9 @@ def _joint(
     camera: Camera,
     wings: Wings,
     intensity_sd: float,
-) -> tuple[_Joint, list[Click]]:
-    """Highlights and shading together; where too few highlights told clicks, the shading does."""
+    clicks: list[Click],
+) -> tuple[_Joint, list[str]]:
+    """Highlights and shading together, and what clicks are told: where the highlights are unsure of one, or few, the shading tells."""
     views, measured, lights = [view for view, _ in used], [m for _, m in used], start.lights
 
     def solve(now: Wings, begun: GeometryFit | None = None) -> _Joint:
@@ -140,11 +140,12 @@ def _joint(
         return _Joint(fit, shading, fit_jointly(fit, shading, samples, views, measured, camera, now, focus_C, intensity_sd))
 
     joint = solve(wings, start)
-    if sum(bool(view.highlights_px) for view in views) > 1:
-        return joint, []
+    sure = [click.message() for click in clicks if click.sure]
+    if len(sure) == len(clicks) and sum(bool(view.highlights_px) for view in views) > 1:
+        return joint, sure
     rows = [k for k, wing in enumerate(wings.wings) if wing.name in lights]
-    joint, _, clicks = clicks_under_shading(joint, wings, solve, rows)
-    return joint, clicks
+    joint, _, late = clicks_under_shading(joint, wings, solve, rows)
+    return joint, [*sure, *(click.message() for click in late)]
 
 
 def _fit_without_outliers(
