@@ -9,8 +9,8 @@ the even seeds and held against the odd ones, a kind each, with s the scatter of
 The mean that hangs on the radius (`outline_errors` of `lpcal.chain.refine_lights.measure`) is taken away first; what an outline that lacks
 a part leaves open is weighed as there.
 
-`lpcal.chain.refine_lights.measure` holds what this prints. Scatter shows what the edge met besides the sphere's rim: squared, as it
-takes part of the rays along and is itself seen only in the rest.
+`lpcal.chain.refine_lights.measure` holds what this prints; for chrome, less the white part of the errors, which it adds. Scatter shows what
+the edge met besides the sphere's rim: squared, as it takes part of the rays along and is itself seen only in the rest.
 """
 
 from __future__ import annotations
