@@ -12,11 +12,12 @@ from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain import k_camera
 from lpcal.chain.h_cb_board import fit_board_pose
 from lpcal.chain.k_camera.bundle import lens_jacobian
+from lpcal.chain.k_camera.choice import cross_validate
 from lpcal.chain.k_camera.opencv_solver import solve as solve_own
 from lpcal.chain.k_camera.problem import CornerProblem
 from lpcal.chain.k_camera.refit import find_shape
 from lpcal.detect.board import find_board
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
@@ -262,3 +263,50 @@ def test_own_solver_leaves_the_poses_consistent() -> None:
     found = fit.camera.project(se3.apply(fit.H_CB, fit.points_B))
     np.testing.assert_allclose(problem.corners_px - found, fit.residual_px, atol=1e-9)
     assert 0.045 < fit.sigma_px < 0.055
+
+
+def emptied(kept: list[int]) -> CornerProblem:
+    """Views of which the first has these corners only, as where the others were rejected."""
+    views = corner_views(6)
+    corners_px = np.stack([np.asarray(view.corners_px) for view in views.views])
+    lost = np.setdiff1d(np.arange(corners_px.shape[1]), kept)
+    corners_px[0, lost] = np.nan
+    return CornerProblem(BOARD, views.image_size, corners_px)
+
+
+@mrcal_only
+@pytest.mark.parametrize("kept", [[], [20], [0, 8, 22, 45, 53]], ids=["none", "one", "five"])
+def test_a_view_that_lost_its_corners_is_an_error_of_the_contract(kept: list[int]) -> None:
+    from lpcal.chain.k_camera import mrcal_solver
+
+    problem = emptied(kept)
+    with pytest.raises(ConvergenceError, match=f"{len(kept)} corners that fit"):
+        mrcal_solver.solve(problem, "opencv4", "flat")
+    assert cross_validate(problem, mrcal_solver.solve, "opencv4", "flat", pixel_grid(problem.image_size)) == float("inf")
+
+
+@mrcal_only
+@pytest.mark.parametrize("failure", [Exception("solvePnP() failed"), type("Behind", (Exception,), {})(), RuntimeError("no")])
+def test_whatever_mrcal_raises_from_a_start_is_an_error_of_the_contract(failure: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+    import mrcal
+
+    from lpcal.chain.k_camera import mrcal_solver
+
+    def fails(**_: object) -> None:
+        raise failure
+
+    monkeypatch.setattr(mrcal, "seed_stereographic", fails)
+    with pytest.raises(ConvergenceError, match="no start"):
+        mrcal_solver.solve(emptied(list(range(54))), "opencv4", "flat")
+
+
+@mrcal_only
+def test_a_solve_that_mrcal_gives_up_is_an_error_of_the_contract(monkeypatch: pytest.MonkeyPatch) -> None:
+    from lpcal.chain.k_camera import mrcal_solver
+
+    def fails(*_: object) -> None:
+        raise RuntimeError("mrcal.optimize() failed!")
+
+    monkeypatch.setattr(mrcal_solver, "_optimize", fails)
+    with pytest.raises(ConvergenceError, match="no lens"):
+        mrcal_solver.solve(emptied(list(range(54))), "opencv4", "flat")

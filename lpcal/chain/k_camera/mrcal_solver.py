@@ -31,6 +31,8 @@ FOCAL_GUESSES = (0.9, 0.5, 1.8, 3.6)
 """In units of the image's width; the first that leads to a fit under GOOD_START is taken."""
 GOOD_START = 0.01
 """rms of a start without distortion, in units of the image's width."""
+FEWEST_CORNERS = 6
+"""Corners of a view below which mrcal estimates no pose of it: it raises a class that cannot be named outside."""
 SPLINE_PX = 60
 """About so many pixels between the knots of a splined lens."""
 
@@ -41,16 +43,28 @@ def solve(problem: CornerProblem, model: str, board: str) -> CameraFit:
     Raises
     ------
     ConvergenceError
-        mrcal finds no solution from any start.
+        mrcal finds no solution from any start, or a view has too few corners for a pose.
     """
+    seen = np.isfinite(problem.corners_px).all(axis=-1).sum(axis=1)
+    if seen.min() < FEWEST_CORNERS:
+        raise ConvergenceError(
+            f"a view of the board has {seen.min()} corners that fit",
+            needed=f"at least {FEWEST_CORNERS} in each view",
+            todo="look at the corners found",
+        )
     with silenced():
         inputs = _start(problem)
-        _append_lens(inputs, problem, model)
-        _optimize(inputs, problem, model)
-        if board != BOARDS[0]:
-            inputs |= {"calobject_warp": np.zeros(2), "do_optimize_calobject_warp": True}
+        try:
+            _append_lens(inputs, problem, model)
             _optimize(inputs, problem, model)
-        return _fit(problem, model, inputs)
+            if board != BOARDS[0]:
+                inputs |= {"calobject_warp": np.zeros(2), "do_optimize_calobject_warp": True}
+                _optimize(inputs, problem, model)
+            return _fit(problem, model, inputs)
+        except RuntimeError as error:
+            raise ConvergenceError(
+                "mrcal finds no lens for these corners", needed="board corners of one camera", todo="look at the corners found"
+            ) from error
 
 
 def _optimize(inputs: dict[str, Any], problem: CornerProblem, model: str) -> None:
@@ -77,18 +91,12 @@ def _start(problem: CornerProblem) -> dict[str, Any]:
     for guess in FOCAL_GUESSES:
         inputs = _inputs(problem)
         try:
-            core, _, rt_CB = mrcal.seed_stereographic(
-                imagersizes=inputs["imagersizes"],
-                focal_estimate=guess * width,
-                indices_frame_camera=np.ascontiguousarray(inputs["indices_frame_camintrinsics_camextrinsics"][:, :2]),
-                observations=inputs["observations_board"],
-                object_spacing=inputs["calibration_object_spacing"],
-            )
-            inputs |= {"intrinsics": np.array(core, dtype=float), "rt_ref_frame": np.array(rt_CB, dtype=float)}
+            core, rt_CB = _seed(inputs, guess * width)
+            inputs |= {"intrinsics": core, "rt_ref_frame": rt_CB}
             mrcal.optimize(**inputs)
             inputs["do_optimize_intrinsics_core"] = True
             error = mrcal.optimize(**inputs)["rms_reproj_error__pixels"]
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+        except (ConvergenceError, RuntimeError, ValueError, np.linalg.LinAlgError):
             continue
         if error < best[0] and np.all(inputs["intrinsics"][0, :2] > 0):
             best = (error, inputs)
@@ -99,6 +107,23 @@ def _start(problem: CornerProblem) -> dict[str, Any]:
             "no start for the intrinsics leads anywhere", needed="board corners of a central camera", todo="look at the corners found"
         )
     return best[1]
+
+
+def _seed(inputs: dict[str, Any], focal_px: float) -> tuple[Array, Array]:
+    """The core and the poses from a focal length; what mrcal raises here are classes inside its functions, and Exception itself."""
+    import mrcal
+
+    try:
+        core, _, rt_CB = mrcal.seed_stereographic(
+            imagersizes=inputs["imagersizes"],
+            focal_estimate=focal_px,
+            indices_frame_camera=np.ascontiguousarray(inputs["indices_frame_camintrinsics_camextrinsics"][:, :2]),
+            observations=inputs["observations_board"],
+            object_spacing=inputs["calibration_object_spacing"],
+        )
+    except Exception as error:
+        raise ConvergenceError("mrcal estimates no pose from these corners", todo="look at the corners found") from error
+    return np.array(core, dtype=float), np.array(rt_CB, dtype=float)
 
 
 def _inputs(problem: CornerProblem) -> dict[str, Any]:
