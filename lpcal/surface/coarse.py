@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
@@ -41,9 +42,15 @@ class Coarse:
     factor: int
     """Pixels a coarse pixel, along a side."""
 
-    def image(self, values: Array) -> Array:
+    def image[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
         """Values (P, ...) as a map (rows, columns, ...)."""
         return values.reshape(*self.shape, *values.shape[1:])
+
+    @property
+    def maps(self) -> Grey:
+        """The coarse pixels as maps."""
+        shape = (len(self.signal), *self.shape)
+        return Grey(self.signal.reshape(shape).astype(np.float32), self.sigma.reshape(shape).astype(np.float32), self.usable.reshape(shape))
 
 
 def factor_of(maps: Grey, most: int) -> int:
@@ -55,10 +62,10 @@ def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
     """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
     rows, columns = (side // factor for side in maps.signal.shape[1:])
 
-    def blocks(values: Array) -> Array:
+    def blocks[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
         return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns, factor)
 
-    def means(values: Array) -> Array:
+    def means(values: npt.NDArray[np.floating]) -> Array:
         return np.asarray(blocks(values).mean(axis=(-3, -1), dtype=float))
 
     signal = means(maps.signal)
@@ -93,19 +100,19 @@ class LightTable:
         down, across = np.linspace(0, rows - 1, LATTICE[0]), np.linspace(0, columns - 1, LATTICE[1])
         at = np.meshgrid(down, across, indexing="ij")
         rays = np.stack([ndimage.map_coordinates(one, at, order=1) for one in np.moveaxis(image.image(image.rays_C), -1, 0)], axis=-1)
-        u = np.log(distance_m) + np.linspace(*np.log(SPAN), NODES)
+        u = np.log(distance_m) + np.linspace(np.log(SPAN[0]), np.log(SPAN[1]), NODES)
         x_C = np.exp(u)[:, None, None, None] * rays
         d, E = light_vectors(lights, x_C.reshape(-1, 3))
         B = (d * E[..., None]).reshape(len(lights), *x_C.shape) * np.exp(2 * u)[:, None, None, None]
         doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
         row, column = np.indices(image.shape)
-        places = [row.ravel() * (LATTICE[0] - 1) / (rows - 1), column.ravel() * (LATTICE[1] - 1) / (columns - 1)]
+        places = np.stack([row.ravel() * (LATTICE[0] - 1) / max(rows - 1, 1), column.ravel() * (LATTICE[1] - 1) / max(columns - 1, 1)])
 
         def spread(values: Array, order: int) -> Array:
             """Values (..., lattice) at the pixels (..., P)."""
             flat = values.reshape(-1, *LATTICE)
-            found = [ndimage.map_coordinates(one, places, order=order, mode="nearest", output=np.float32) for one in flat]
-            return np.stack(found).reshape(*values.shape[:-2], -1)
+            found = [ndimage.map_coordinates(one, places, order=order, mode="nearest").astype(np.float32) for one in flat]
+            return np.asarray(np.stack(found).reshape(*values.shape[:-2], -1))
 
         return LightTable(float(u[0]), float(u[1] - u[0]), spread(np.moveaxis(B, -1, 2), 3), spread(doubt, 1))
 
@@ -120,9 +127,15 @@ class LightTable:
         k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
         f = t - k
         weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
-        total = sum(self.B[:, k + j - 1, :, pixels] * weight[:, None, None] for j, weight in enumerate(weights))  # (Q, L, 3)
+        total = np.zeros((len(u), len(self.B), 3))
+        for j, weight in enumerate(weights):
+            total += self.B[:, k + j - 1, :, pixels] * weight[:, None, None]
         z = np.exp(self.first + t * self.step)
-        return np.moveaxis(total, 0, 1) / (z**2)[:, None], self.doubt[:, np.rint(t).astype(int), pixels]
+        return np.asarray(np.moveaxis(total, 0, 1) / (z**2)[:, None]), self.doubt[:, np.rint(t).astype(int), pixels]
+
+    def at_pixels(self, some: Indices) -> LightTable:
+        """The table on some of the pixels."""
+        return LightTable(self.first, self.step, self.B[..., some], self.doubt[..., some])
 
     def holds(self, u: Array) -> Mask:
         """Whether log depths lie in the table."""

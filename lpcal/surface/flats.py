@@ -64,7 +64,7 @@ def sweep(image: Coarse, table: LightTable, distance_m: float) -> Sweep:
     low, high = np.log(distance_m) + np.log(SWEEP)
     u = table.nodes[(table.nodes >= low) & (table.nodes <= high)]
     everywhere = np.arange(len(image.rays_C))
-    b, cost = np.empty((len(u), len(everywhere), 3), np.float32), np.empty((len(u), len(everywhere)), np.float32)
+    b, cost = np.empty((len(u), len(everywhere), 3)), np.empty((len(u), len(everywhere)))
     for k, one in enumerate(u):
         B, doubt = table.at(np.full(len(everywhere), one), everywhere)
         b[k], cost[k] = samples.free(image.signal, image.sigma, image.usable, B, doubt)
@@ -91,7 +91,8 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
     """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
     from scipy import ndimage
 
-    left, found = lit.copy(), []
+    left = lit.copy()
+    found: list[Array] = []
 
     def explains(q: Array) -> Mask:
         cost, _, shown = explained(image, table, q)
@@ -142,7 +143,7 @@ def _peaks(image: Coarse, swept: Sweep, left: Mask, distance_m: float) -> list[A
     """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
     from scipy import ndimage
 
-    b = swept.b[:, left].astype(float)
+    b = swept.b[:, left]
     n = b / np.maximum(np.linalg.norm(b, axis=2, keepdims=True), 1e-12)
     towards = -np.einsum("dpi,pi->dp", n, image.rays_C[left])
     cost = swept.cost[:, left]
@@ -165,4 +166,3 @@ def _peaks(image: Coarse, swept: Sweep, left: Mask, distance_m: float) -> list[A
         found.append(-n_top / np.linalg.norm(n_top) / distance)
         total[tuple(slice(max(at - by, 0), at + by + 1) for at, by in zip(top, APART, strict=True))] = 0
     return found
-

@@ -19,6 +19,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import flats, samples
 from lpcal.surface.coarse import Coarse, LightTable
 from lpcal.surface.flats import Sweep
+from lpcal.surface.sight import Indices, strength
 
 FREE_PRICE = 10.0
 """Cost of a normal of one's own: twice the logarithm of how many normals the samples can tell apart."""
@@ -93,7 +94,7 @@ class Pixels:
     sigma: Array
     usable: Mask
     rays_C: Array
-    coarse: Array
+    coarse: Indices
     """(Q,) number of the coarse pixel."""
 
 
@@ -132,19 +133,24 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     return np.asarray(np.minimum(total, total.min(axis=0) + CEILING))
 
 
-def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers]:
-    """Labels (rows, columns): 0 the object's matter, 1.. the planes that are left, then nothing, then other matter; and what they are."""
+def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
+    """Labels (rows, columns), what they are, and the last costs (layers, rows, columns).
+
+    Label 0 is the object's matter, 1.. the planes that are left, then nothing, then other matter.
+    """
     everywhere = np.arange(len(image.rays_C))
     at = Pixels(image.signal, image.sigma, image.usable, image.rays_C, everywhere)
     E = np.linalg.norm(table.at(np.full(len(everywhere), u_free), everywhere)[0], axis=2)
     bright = shine(at, E)
-    weights = boundary(image.image(np.sort(image.signal, axis=0)[-2]))
+    weights = boundary(strength(image.maps))
+    cost = np.empty((0, *image.shape))
     layers, labels = Layers(planes, [None] * len(planes), float(np.median(bright[lit]))), np.zeros(image.shape, int)
     for k in range(ROUNDS):
-        labels = cheapest(with_planes(layers, at, table, swept.least, E).reshape(-1, *image.shape), *weights)
+        cost = with_planes(layers, at, table, swept.least, E).reshape(-1, *image.shape)
+        labels = cheapest(cost, *weights)
         if k + 1 < ROUNDS:
             labels, layers = _learnt(image, table, layers, labels, lit, bright)
-    return labels, layers
+    return labels, layers, cost
 
 
 def _learnt(image: Coarse, table: LightTable, layers: Layers, labels: Labels, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
@@ -214,6 +220,8 @@ def cheapest(cost: Array, across: Image, down: Image) -> Labels:
     return np.asarray(np.argmax(x, axis=0))
 
 
+WEAK = 5.0
+"""Difference of costs, averaged over 3x3 pixels, under which a pixel's side is in doubt."""
 RIM = 2
 """Coarse pixels at the image's border: a plane that reaches them is wall or support."""
 SMALLEST_PIECE = 0.08
@@ -235,6 +243,21 @@ def background_of(labels: Labels, planes: int) -> Mask:
     return np.asarray(found)
 
 
+def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
+    """Area that might as well be of the object, or not of it, as a share of the object's: its costs differ by less than WEAK."""
+    from scipy import ndimage
+
+    here, everywhere = (np.bincount(one.ravel(), minlength=len(cost))[: len(cost)] for one in (labels[mask], labels))
+    ours = (2 * here > everywhere) & (np.arange(len(cost)) <= planes)
+    ours[0] = True
+    theirs = np.where(ours[:, None, None], np.inf, cost).min(axis=0)
+    mine = np.where(ours[:, None, None], cost, np.inf).min(axis=0)
+    difference = ndimage.uniform_filter(np.clip(theirs - mine, -CEILING, CEILING), 3)
+    about = ndimage.binary_dilation(mask, iterations=max(1, int(np.sqrt(mask.sum()) / 4)))
+    wrong = about & np.where(mask, difference < WEAK, difference > -WEAK)
+    return float(wrong.sum() / max(mask.sum(), 1))
+
+
 def object_of(labels: Labels, planes: int) -> Mask:
     """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other."""
     from scipy import ndimage
@@ -247,9 +270,6 @@ def object_of(labels: Labels, planes: int) -> Mask:
     rim = np.concatenate([piece[:1].ravel(), piece[-1:].ravel(), piece[:, 0], piece[:, -1]])
     touches = np.isin(np.arange(count + 1), rim)
     inner = float((size * ~touches).max())
-    if inner > INNER * size.max():
-        kept = ~touches & (size >= SMALLEST_PIECE * inner)
-    else:
-        kept = size == size.max()
+    kept = ~touches & (size >= SMALLEST_PIECE * inner) if inner > INNER * size.max() else size == size.max()
     kept[0] = False
     return np.asarray(ndimage.binary_fill_holes(kept[piece]))

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import cut, flats, layers, planes
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
-from lpcal.surface.sight import Grey, Sight
+from lpcal.surface.sight import Grey, Sight, strength
 
 COARSE_PIXELS = 5200
 """Pixels of the scale at which planes and layers are found: the picture of a 4:3 camera is then some 80 across."""
@@ -45,6 +45,8 @@ class Found:
     how: str
     planes: tuple[planes.Plane, ...] = ()
     """Wall and supports; the first is the largest."""
+    weak: float = 1.0
+    """Share of the object's area that hangs on weak evidence; 1 where nothing but the strength of the signal speaks."""
 
 
 def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:
@@ -56,11 +58,6 @@ def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: fl
         if found is not None:
             return found
     return Found(_by_strength(maps), "by the strength of the signal")
-
-
-def strength(maps: Grey) -> Image:
-    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
-    return np.asarray(np.sort(maps.signal, axis=0)[-2], np.float32)
 
 
 def _by_strength(maps: Grey) -> Mask:
@@ -80,7 +77,9 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
         return None
     table = LightTable.of(image, lights, distance_m)
     swept = flats.sweep(image, table, distance_m)
-    labels, found = layers.label(image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m)))
+    labels, found, cost = layers.label(
+        image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m))
+    )
     count = len(found.planes)
     mask = layers.object_of(labels, count)
     behind = layers.background_of(labels, count)
@@ -88,10 +87,13 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
-        return Found(_enlarged(image.image(lit), image.factor, maps.signal.shape[1:]), "all that is lit lies in one plane: that is the object", walls)
+        return Found(
+            _enlarged(image.image(lit), image.factor, maps.signal.shape[1:]), "all that is lit lies in one plane: that is the object", walls
+        )
+    weak = layers.weak_share(labels, cost, mask, count)
     u_free = swept.u[np.argmin(np.median(swept.cost[:, mask.ravel()], axis=1))]
     fine = _to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C)
-    return Found(fine, f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark", walls)
+    return Found(fine, f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark", walls, weak)
 
 
 def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:
@@ -101,12 +103,14 @@ def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.
 
 
 def _to_full_size(
-    mask: Mask, labels: Array, found: layers.Layers, image: Coarse, table: LightTable, u_free: float, maps: Grey, rays_C: Array
+    mask: Mask, labels: Labels, found: layers.Layers, image: Coarse, table: LightTable, u_free: float, maps: Grey, rays_C: Array
 ) -> Mask:
     """The outline of a coarse mask drawn anew at every finer scale, by costs of the layers that are near."""
     factor, size = image.factor, mask.shape
     every = range(len(found.planes) + 3)
-    of_object, of_rest = (np.stack([_grown(_opened(labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask))
+    of_object, of_rest = (
+        np.stack([_grown(_opened(labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask)
+    )
     of_object[0], of_rest[0] = True, False
     while True:
         finer = max(1, factor // 2)
@@ -121,7 +125,7 @@ def _to_full_size(
         own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
         said = np.where(cut.shrunk(mask, by), 2.0, -2.0).astype(np.float32).ravel()
         said[band] = np.clip((rest - own) / EVIDENCE, -1, 1)
-        bright = _log(here.image(np.sort(here.signal, axis=0)[-2].astype(np.float32)))
+        bright = _log(strength(here.maps))
         mask = cut.total_variation(said.reshape(here.shape), bright, STIFFNESS)
         if finer == 1:
             break
@@ -181,18 +185,16 @@ def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
     """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
     f = factor_of(maps, MEDIUM_PIXELS)
     image = coarse_of(maps, rays_C, f)
-    whole = [np.asarray(values.reshape(-1, *image.shape)) for values in (image.signal, image.sigma, image.usable)]
-    return Grey(whole[0].astype(np.float32), whole[1].astype(np.float32), whole[2]), image.image(image.rays_C), f
+    return image.maps, image.image(image.rays_C), f
 
 
-def _enlarged(mask: Mask, by: float, shape: tuple[int, int]) -> Mask:
+def _enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
     """A mask of pixels `by` times as large, at a shape."""
     import cv2
 
-    grid = np.float32([[1 / by, 0, 0.5 / by - 0.5], [0, 1 / by, 0.5 / by - 0.5]])
-    large = cv2.warpAffine(
-        mask.astype(np.float32), grid, shape[::-1], flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP, borderMode=cv2.BORDER_REPLICATE
-    )
+    grid = np.array([[1 / by, 0, 0.5 / by - 0.5], [0, 1 / by, 0.5 / by - 0.5]])
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    large = cv2.warpAffine(mask.astype(np.float32), grid, shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
     return np.asarray(large > 0.5)
 
 

@@ -23,7 +23,7 @@ BRIGHTER, DARKER = 0.1, 0.015
 OUTLIER = 25.0
 """Cost of a sample that is brighter than predicted by any amount (5 sigmas): a highlight, or another surface."""
 DARK, HALF_DARK = 5.0, 12.0
-"""Cost of a sample in shadow: twice the logarithm of how much rarer that is, with next to nothing left and with more than DARK_SHARE left."""
+"""Costs of a sample in shadow, twice the logarithm of how rare that is: with next to nothing left, and with more than DARK_SHARE left."""
 DARK_SHARE = 0.2
 """Share of the predicted signal under which a sample is dark: shadows get light from elsewhere only."""
 SHADOW = 0.15
