@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -108,9 +109,9 @@ class LightTable:
         row, column = np.indices(image.shape)
         places = np.stack([row.ravel() * (LATTICE[0] - 1) / max(rows - 1, 1), column.ravel() * (LATTICE[1] - 1) / max(columns - 1, 1)])
 
-        def spread(values: Array, order: int) -> Array:
+        def spread(values: Array, order: Literal[1, 3]) -> Array:
             """Values (..., lattice) at the pixels (..., P)."""
-            flat = values.reshape(-1, *LATTICE)
+            flat: Any = values.reshape(-1, *LATTICE)
             found = [ndimage.map_coordinates(one, places, order=order, mode="nearest").astype(np.float32) for one in flat]
             return np.asarray(np.stack(found).reshape(*values.shape[:-2], -1))
 
@@ -119,7 +120,7 @@ class LightTable:
     @property
     def nodes(self) -> Array:
         """u of the nodes."""
-        return self.first + self.step * np.arange(self.B.shape[1])
+        return np.asarray(self.first + self.step * np.arange(self.B.shape[1]), float)
 
     def at(self, u: Array, pixels: Indices) -> tuple[Array, Array]:
         """Light vectors (L, Q, 3) and their doubt (L, Q) at log depths u (Q,) of pixels (Q,)."""
@@ -131,7 +132,8 @@ class LightTable:
         for j, weight in enumerate(weights):
             total += self.B[:, k + j - 1, :, pixels] * weight[:, None, None]
         z = np.exp(self.first + t * self.step)
-        return np.asarray(np.moveaxis(total, 0, 1) / (z**2)[:, None]), self.doubt[:, np.rint(t).astype(int), pixels]
+        square: Array = z[:, None] ** 2
+        return np.moveaxis(total, 0, 1) / square, self.doubt[:, np.rint(t).astype(int), pixels]
 
     def at_pixels(self, some: Indices) -> LightTable:
         """The table on some of the pixels."""

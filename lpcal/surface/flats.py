@@ -126,7 +126,7 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
         own = pixels[good]
         if len(own) < 12:
             break
-        m, doubt = white(q, image.rays_C[own], own, table)
+        _, doubt = white(q, image.rays_C[own], own, table)
         signal = image.signal[:, own]
         weight = lit[:, good] / np.sqrt(samples.variance(signal, image.sigma[:, own], doubt))
 

@@ -254,8 +254,8 @@ def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
     mine = np.where(ours[:, None, None], cost, np.inf).min(axis=0)
     difference = ndimage.uniform_filter(np.clip(theirs - mine, -CEILING, CEILING), 3)
     about = ndimage.binary_dilation(mask, iterations=max(1, int(np.sqrt(mask.sum()) / 4)))
-    wrong = about & np.where(mask, difference < WEAK, difference > -WEAK)
-    return float(wrong.sum() / max(mask.sum(), 1))
+    wrong: Mask = about & np.where(mask, difference < WEAK, difference > -WEAK)
+    return float(np.sum(wrong)) / max(int(np.sum(mask)), 1)
 
 
 def object_of(labels: Labels, planes: int) -> Mask:

@@ -35,6 +35,9 @@ SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
 LEAST_OF_IMAGE = 0.003
+"""Share of the image under which what is found is no object."""
+DOUBTED, DOUBT_POWER = 0.6, 2.0
+"""Weak share at which a mask is as likely wrong as right, and how fast the odds rise; by tools/mask_doubt.py on drawn scenes."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,12 @@ class Found:
     planes: tuple[planes.Plane, ...] = ()
     """Wall and supports; the first is the largest."""
     weak: float = 1.0
-    """Share of the object's area that hangs on weak evidence; 1 where nothing but the strength of the signal speaks."""
+    """Area that hangs on weak evidence, as a share of the object's; 1 where nothing but the strength of the signal speaks."""
+
+    @property
+    def doubt(self) -> float:
+        """Odds (0..1) that the mask is wrong by more than a tenth of its area."""
+        return float(1 / (1 + (DOUBTED / max(self.weak, 1e-3)) ** DOUBT_POWER))
 
 
 def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:

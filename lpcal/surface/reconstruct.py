@@ -113,7 +113,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C, basins_found)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
-    return replace(surface, figures={"mask": _how(background if wanted else None, radiance, options), **told, **surface.figures})
+    found_by = background if wanted else None
+    doubt = {} if found_by is None else {"mask_doubt": found_by.doubt}
+    return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **surface.figures})
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
