@@ -21,9 +21,9 @@ from lpcal.surface.sight import Grey, Indices, light_vectors
 SPAN = (0.25, 6.0)
 """Depths of the table, as shares of the working distance: beyond, lights neither reach nor are calibrated."""
 NODES = 60
-"""Steps of the table, 5 per cent of the depth each: with cubic interpolation the field is then right to a thousandth where it is strong."""
+"""Steps of the table, 5 per cent of the depth each: with cubic interpolation the field is right to some thousandths, which the model's own errors exceed."""
 LATTICE = (19, 25)
-"""Rays down and across the image at which the field is summed: closer than the ripples of a cluster of LEDs."""
+"""Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
 """Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
 

@@ -37,6 +37,10 @@ SMALLEST = 0.006
 """Share of the image under which a plane is not looked for."""
 MOST = 8
 """Planes at most."""
+PAINT = 0.1
+"""Natural logarithm of a step of albedo that encloses a part of a plane."""
+CLEARLY, CLEARLY_EACH = 60.0, 0.3
+"""Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
 FIT_PIXELS = 600
 ACCEPTED = 3.0
 """Cost a light under which a pixel takes part in the fit of a plane."""
@@ -111,7 +115,32 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
             break
         found.append(q)
         left &= ~own
-    return found
+    return [*found, *_before(image, table, found, lit)]
+
+
+def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> list[Array]:
+    """Planes (3,) that stand before those found and are nearly parallel to them: each pixel suits both, all together suit one.
+
+    Asked of the parts of a plane that an edge of its albedo encloses; a part becomes a plane where that pays by CLEARLY.
+    """
+    from scipy import ndimage
+
+    rim = np.ones(image.shape, bool)
+    rim[1:-1, 1:-1] = False
+    new = []
+    for q in found:
+        cost, albedo, shown = explained(image, table, q)
+        own = image.image(lit & (cost < ACCEPTED * len(shown)) & (albedo > 0))
+        tone = np.where(own, np.log(np.maximum(image.image(albedo), 1e-12)), 0.0)
+        part, _ = ndimage.label(own & (ndimage.morphological_gradient(ndimage.median_filter(tone, size=3), size=(3, 3)) < PAINT))
+        size = np.bincount(part.ravel())
+        for one in np.setdiff1d(np.flatnonzero(size >= SMALLEST * part.size), [0, *np.unique(part[rim])]):
+            inside = (part == one).ravel()
+            trial = fitted(image, table, q, inside, rounds=3)
+            gain = np.sum(cost[inside] - explained(image, table, trial, np.flatnonzero(inside))[0])
+            if gain > max(CLEARLY, inside.sum() * CLEARLY_EACH):
+                new.append(trial)
+    return new
 
 
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
