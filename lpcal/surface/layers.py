@@ -226,6 +226,8 @@ RIM = 2
 """Coarse pixels at the image's border: a plane that reaches them is wall or support."""
 SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
+HOLE = 0.005
+"""Share of the object's area under which a hole in it is filled."""
 INNER = 0.15
 """Share of the largest piece from which one that does not touch the border goes before all that do."""
 
@@ -272,4 +274,8 @@ def object_of(labels: Labels, planes: int) -> Mask:
     inner = float((size * ~touches).max())
     kept = ~touches & (size >= SMALLEST_PIECE * inner) if inner > INNER * size.max() else size == size.max()
     kept[0] = False
-    return np.asarray(ndimage.binary_fill_holes(kept[piece]))
+    found = kept[piece]
+    hole, _ = ndimage.label(~found)
+    area = np.bincount(hole.ravel())
+    small = np.flatnonzero(area < HOLE * max(int(found.sum()), 1))
+    return np.asarray(found | np.isin(hole, small[small > 0]))

@@ -36,7 +36,7 @@ SMALLEST_SHARE = 0.02
 HOLE_SHARE = 0.004
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
-DOUBTED, DOUBT_POWER = 0.6, 2.0
+DOUBTED, DOUBT_POWER = 0.5, 2.0
 """Weak share at which a mask is as likely wrong as right, and how fast the odds rise; by tools/mask_doubt.py on drawn scenes."""
 
 
