@@ -1,78 +1,162 @@
-"""What a plane claims of an image, by its ratios and its albedo, and where an outline lies that falls between pixels."""
+"""Planes found by votes, layers labelled by evidence, outlines carried to full size, in pictures of exact planes under near lights."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from lit_scene import calibration
-from lpcal.surface import cut, mask, planes
-from lpcal.surface.backdrop import backdrop, evidence
-from lpcal.surface.mask import _without_faint
-from lpcal.surface.sight import Grey, Sight, look_at, ray_map
+from lpcal.surface import cut, flats, layers, mask, planes, samples
+from lpcal.surface.coarse import LightTable, coarse_of
+from lpcal.surface.sight import Grey, light_vectors, ray_map
 
-SIZE = (90, 120)
-CARD = (slice(30, 62), slice(40, 84))
-Q = np.array([0.02, -0.03, 1 / 0.45])
+CARD = (slice(36, 74), slice(50, 105))
+WALL, FLOOR = np.array([0.04, -0.02, 1 / 0.45]), np.array([0.0, 1.0, 0.1]) / 0.06
+WORKING_M = 0.38
 
 
-def wall_and_card(albedo: np.ndarray, card: float, seed: int = 0) -> tuple[Grey, np.ndarray]:
-    """A wall of an albedo (H, W), a card in front of it that is parallel to it, by the lights of the drawn scene: maps and rays."""
+def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 0) -> tuple[Grey, np.ndarray]:
+    """Maps and rays of planes, each with its albedo (H, W) and where it is seen, the last one on top."""
     camera = calibration().camera
     assert camera is not None
     width, height = camera.image_size
-    rays = ray_map((height, width), camera)
-    step = height // SIZE[0], width // SIZE[1]
-    rays = rays[:: step[0], :: step[1]][: SIZE[0], : SIZE[1]]
-    lights = calibration().lights
-
-    def sent(q: np.ndarray) -> np.ndarray:
-        return planes.foretold(q, rays.reshape(-1, 3), lights).reshape(len(lights), *rays.shape[:2])
-
-    signal = albedo[: rays.shape[0], : rays.shape[1]] * sent(Q)
-    signal[:, *CARD] = card * sent(Q * 1.15)[:, *CARD]
+    rays, lights = ray_map((height, width), camera), calibration().lights
+    signal = np.zeros((len(lights), height, width))
+    for q, albedo, where in parts:
+        sent = np.nan_to_num(planes.foretold(q, rays.reshape(-1, 3), lights).reshape(len(lights), height, width))
+        signal[:, where] = (albedo * sent)[:, where]
     sigma = np.full_like(signal, 0.004 * np.median(signal))
     signal += sigma * np.random.default_rng(seed).standard_normal(signal.shape)
     return Grey(signal.astype(np.float32), sigma.astype(np.float32), np.ones(signal.shape, bool)), rays
 
 
-def said(maps: Grey, rays: np.ndarray) -> tuple[Sight, np.ndarray]:
-    """The evidence against the wall that is known from the image's rim."""
-    shape = rays.shape[:2]
-    seen = look_at(maps, rays, np.ones(shape, bool), central=True)
-    m = planes.foretold(Q, seen.rays_C, calibration().lights)
-    rim = mask.border_band(shape).ravel()
-    back = backdrop(seen, m, planes.Plane(Q, 1.0), rim, rim)
-    assert back is not None
-    return seen, evidence(seen, m, back).reshape(shape)
+def scene(pattern: bool = False, card: float | None = 0.7, floor: bool = False) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """A wall, plain or patterned; a card 5 cm before it; a floor under it."""
+    row, column = np.indices((112, 160))
+    everywhere = np.ones((112, 160), bool)
+    on_card = np.zeros_like(everywhere)
+    on_card[CARD] = True
+    albedo = np.where((row // 8 + column // 8) % 2, 0.25, 0.4) if pattern else np.full(everywhere.shape, 0.35)
+    parts = [(WALL, albedo, everywhere)]
+    if floor:
+        parts.append((FLOOR, np.full(everywhere.shape, 0.5), row > 78))
+    if card is not None:
+        parts.append((WALL * 0.45 / 0.4, np.full(everywhere.shape, card), on_card))
+    return parts
 
 
-def test_a_card_parallel_to_the_wall_is_told_by_its_albedo() -> None:
-    for seed in range(3):
-        against = said(*wall_and_card(np.full(SIZE, 0.3), 0.7, seed))[1]
-        card = np.zeros(against.shape, bool)
-        card[CARD] = True
-        assert np.mean(against[card] > 0.3) > 0.99
-        assert np.mean(against[~card] < -0.3) > 0.97
+def iou(found: np.ndarray, true: np.ndarray) -> float:
+    return float((found & true).sum() / (found | true).sum())
 
 
-def test_a_patterned_wall_is_still_wall() -> None:
-    row, column = np.indices(SIZE)
-    pattern = np.where((row // 6 + column // 6) % 2, 0.2, 0.45)
-    against = said(*wall_and_card(pattern, 0.9))[1]
-    card = np.zeros(against.shape, bool)
-    card[CARD] = True
-    assert np.mean(against[~card] < 0) > 0.95
-    assert np.mean(against[card] > 0) > 0.95
+@pytest.mark.parametrize(("pattern", "card"), [(False, 0.7), (False, 0.2), (True, 0.7)])
+def test_a_card_parallel_to_the_wall_is_the_object(pattern: bool, card: float) -> None:
+    parts = scene(pattern, card)
+    maps, rays = picture(parts)
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
+    assert iou(found.mask, parts[-1][2]) > 0.95
+    assert found.planes[0].q == pytest.approx(WALL, rel=0.05, abs=0.05)
 
 
-def test_shadow_by_some_lights_leaves_the_wall_a_wall_and_shadow_by_all_says_nothing() -> None:
-    maps, rays = wall_and_card(np.full(SIZE, 0.3), 0.7)
-    maps.signal[:2, 5:20] *= 0.02
-    maps.signal[:, 70:85, 5:40] = maps.sigma[:, 70:85, 5:40] * np.random.default_rng(1).standard_normal((len(maps.signal), 15, 35))
-    against = said(maps, rays)[1]
-    assert np.mean(against[7:18, 7:-7] < 0) > 0.95
-    assert np.abs(np.median(against[72:83, 8:38])) < 0.35
+def test_a_floor_that_meets_the_wall_is_no_object() -> None:
+    parts = scene(floor=True)
+    maps, rays = picture(parts)
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
+    assert len(found.planes) >= 2
+    assert iou(found.mask, parts[-1][2]) > 0.88
+
+
+def test_shadows_on_the_wall_are_wall() -> None:
+    parts = scene()
+    maps, rays = picture(parts)
+    maps.signal[0, 60:100, 5:45] *= 0.03
+    maps.signal[1, 10:30, 100:150] *= 0.03
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
+    assert iou(found.mask, parts[-1][2]) > 0.95
+
+
+def test_a_wall_alone_is_the_object() -> None:
+    maps, rays = picture(scene(card=None))
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
+    assert found.how == "all that is lit lies in one plane: that is the object"
+    assert found.mask.mean() > 0.98
+
+
+def test_planes_are_found_where_they_are() -> None:
+    maps, rays = picture(scene(card=None, floor=True))
+    image = coarse_of(maps, rays, 2)
+    table = LightTable.of(image, calibration().lights, WORKING_M)
+    swept = flats.sweep(image, table, WORKING_M)
+    found = flats.find(image, table, swept, np.ones(len(image.rays_C), bool), WORKING_M)
+    for q in (WALL, FLOOR):
+        nearest = min(found, key=lambda one, q=q: float(np.linalg.norm(one - q)))
+        assert np.degrees(np.arccos(nearest @ q / np.linalg.norm(nearest) / np.linalg.norm(q))) < 1.5
+        assert np.linalg.norm(nearest) == pytest.approx(np.linalg.norm(q), rel=0.02)
+
+
+def test_the_table_of_lights_is_the_field() -> None:
+    maps, rays = picture(scene())
+    image, lights = coarse_of(maps, rays, 4), calibration().lights
+    table = LightTable.of(image, lights, WORKING_M)
+    rng = np.random.default_rng(3)
+    u = np.log(WORKING_M * rng.uniform(0.6, 2, len(image.rays_C)))
+    B, _ = table.at(u, np.arange(len(u)))
+    d, E = light_vectors(lights, np.exp(u)[:, None] * image.rays_C)
+    error = np.linalg.norm(B - d * E[..., None], axis=2) / np.linalg.norm(d * E[..., None], axis=2).max(axis=0)
+    assert np.median(error) < 1.5e-3
+    assert np.percentile(error, 99) < 1e-2
+
+
+def test_a_light_whose_direction_is_ill_known_is_doubted_in_the_tail_of_its_lobe() -> None:
+    maps, rays = picture(scene())
+    image, lights = coarse_of(maps, rays, 4), calibration().lights
+    vague = [replace(light, direction_std_rad=0.02) for light in lights]
+    sure, unsure = (LightTable.of(image, some, WORKING_M).doubt for some in (lights, vague))
+    assert np.median(unsure / sure) == pytest.approx(0.02 / 0.0026, rel=0.01)
+    assert np.median(np.ptp(unsure, axis=2)) > 0
+
+
+def test_shadow_costs_less_than_half_light_and_a_highlight_most() -> None:
+    rng = np.random.default_rng(0)
+    m = rng.uniform(0.5, 1, (6, 400))
+    usable, doubt, sigma = np.ones(m.shape, bool), np.zeros(m.shape), np.full(m.shape, 0.005)
+    cost = []
+    for factor in (1.0, 0.0, 0.6, 3.0):
+        signal = 0.4 * m
+        signal[2] *= factor
+        cost.append(float(np.median(samples.planar(signal, sigma, usable, m, doubt)[0])))
+    lit, dark, half, bright = cost
+    assert lit < 1 < dark == pytest.approx(samples.DARK)
+    assert dark < half == pytest.approx(samples.HALF_DARK)
+    assert bright > half
+
+
+def test_labels_are_smooth_and_end_at_edges() -> None:
+    rng = np.random.default_rng(1)
+    true = np.zeros((30, 40), int)
+    true[8:22, 12:30] = 1
+    true[22:, :] = 2
+    cost = 12.0 * (np.arange(3)[:, None, None] != true) + 14 * rng.standard_normal((3, 30, 40))
+    bright = np.choose(true, [0.2, 0.5, 1.0]).astype(np.float32)
+    assert np.mean(np.argmin(cost, axis=0) == true) < 0.8
+    assert np.mean(layers.cheapest(cost, *layers.boundary(bright)) == true) > 0.95
+
+
+def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> None:
+    labels = np.full((40, 60), 1)
+    labels[10:25, 20:40] = 0
+    labels[30:, 45:] = 0
+    assert iou(layers.object_of(labels, 1), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
+    labels[10:25, 20:40] = 1
+    assert iou(layers.object_of(labels, 1), labels == 0) > 0.95
+
+
+def test_the_doubt_rises_with_what_is_weak() -> None:
+    odds = [mask.Found(np.ones((2, 2), bool), "", weak=weak).doubt for weak in (0.05, 0.2, mask.DOUBTED, 2.0)]
+    assert odds == sorted(odds)
+    assert odds[0] < 0.05 < odds[2] == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.3, 0.6])
@@ -89,24 +173,3 @@ def test_an_edge_between_pixels_is_put_where_it_lies(offset: float) -> None:
     for slip in (-1, 0, 1):
         found = cut.halfway(np.roll(truth, slip, axis=1) if slip else truth, signal, np.full_like(signal, 0.05))
         assert np.abs(found[5:-5, 10:30].sum(axis=1) - truth[5:-5, 10:30].sum(axis=1)).max() <= (0 if offset == 0 else 1)
-
-
-def picture(*means: float) -> tuple[np.ndarray, np.ndarray]:
-    mask, against = np.zeros((40, 90), bool), np.full((40, 90), -0.6, np.float32)
-    for k, mean in enumerate(means):
-        piece = (slice(10, 30), slice(5 + 30 * k, 25 + 30 * k))
-        mask[piece], against[piece] = True, mean
-    return mask, against
-
-
-def test_a_piece_that_hardly_differs_from_the_wall_goes_where_another_clearly_does() -> None:
-    mask, against = picture(0.85, 0.1)
-    kept = _without_faint(mask, against)
-    assert kept[:, :30].sum() == 400
-    assert not kept[:, 30:].any()
-
-
-def test_two_clear_pieces_stay_and_so_does_a_faint_one_by_itself() -> None:
-    for means in ((0.85, 0.5), (0.2,), (0.2, 0.1)):
-        mask, against = picture(*means)
-        assert np.array_equal(_without_faint(mask, against), mask)

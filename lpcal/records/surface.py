@@ -10,6 +10,15 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 
 
 @dataclass(frozen=True)
+class Alternative:
+    """Another distance of a component that the images allow, and its odds (0..1); `scale_std` is relative."""
+
+    mean_depth_m: float
+    scale_std: float
+    odds: float
+
+
+@dataclass(frozen=True)
 class Component:
     """One connected piece; `scale_std` is relative, of the distance of the whole piece."""
 
@@ -17,6 +26,7 @@ class Component:
     pixels: int
     mean_depth_m: float
     scale_std: float
+    alternatives: tuple[Alternative, ...] = ()
 
 
 @dataclass(frozen=True)

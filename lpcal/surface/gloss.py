@@ -25,8 +25,8 @@ SAMPLE = 900
 ROUGHNESSES = (0.08, 0.15, 0.3)
 STRENGTHS = (0.003, 0.01, 0.03, 0.1)
 """Of ks, by the object's median albedo."""
-KEPT_BELOW = 0.75
-"""Of the cost without gloss."""
+KEPT_BELOW = 0.95
+"""Share of the cost without gloss under which a lobe is kept: by how much it falls hangs on the number of lights, so the gate is wide."""
 ROUNDS = 3
 TRIAL_STEPS = 30
 CLEAN = 0.25

@@ -1,53 +1,43 @@
 """Which pixels are the object: not the wall behind it, not the support under it, not the dark.
 
-Near light places the plane behind the object from the border of the image; a pixel that this plane explains, by the ratios of its lights
-and by its albedo, shadows counted, is wall. What is left and touches the border is tried as further planes (support, shelf), and dark
-matter that hangs on those or on the border is support too. Without near light, or where no plane is lit, the strength of the signal
-decides.
+Where lights are near, all that is lit is taken apart at a coarse scale into planes and matter of any shape (surface.layers); planes that
+reach the border of the image are wall and support. The outline is then carried to full resolution, from scale to scale, in a band about
+it. Without near light the strength of the signal decides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import cut, planes
-from lpcal.surface.backdrop import Backdrop, backdrop, evidence
-from lpcal.surface.sight import Grey, Sight, look_at
+from lpcal.surface import cut, flats, layers, planes
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
+from lpcal.surface.sight import Grey, Sight, strength
 
-COARSE_PIXELS = 110_000
+COARSE_PIXELS = 5200
+"""Pixels of the scale at which planes and layers are found: the picture of a 4:3 camera is then some 80 across."""
+MEDIUM_PIXELS = 110_000
+MOST_LIGHTS = 16
+"""Lights that the mask is found by, spread over all: more tell no more of it."""
 BORDER_SHARE = 0.06
 LIT_SIGMAS = 6.0
-WALL_SIGMAS = 2.5
 FIT_SIGMAS = 3.0
-FURTHER_PLANES = 3
-MANY = 3
-"""Samples beyond the first that make a plane's claim on a pixel a full one."""
+BAND = 2
+"""Pixels of a scale on either side of an outline that the next finer scale asks anew."""
+EVIDENCE = 10.0
+"""Difference of costs that is full evidence for or against a pixel in the outline."""
 STIFFNESS = 0.6
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
-DARK_SHARE = 0.2
-"""Matter whose brightest light is darker than this share of the object's own is dark."""
-OF_SUPPORT, LEAST_DARK, MOST_DARK = 1.7, 0.05, 0.3
-"""Where a support was found: what is darker than so many times the support, between these shares of the object's own."""
-ALBEDO_PIXELS = 15_000
-"""From which a plane's albedo is made out."""
-NEAR = 3
-"""Coarse pixels: how far beyond its part a plane is asked about the outline."""
-FIXED = 2.0
-"""Evidence of pixels that are not asked."""
 LEAST_OF_IMAGE = 0.003
-CLEAR, FAINT = 0.6, 0.3
-"""Mean evidence against the wall of a piece that is none of it, and of one that may well be."""
-
-type Word = Callable[[Sight], Array]
-"""Evidence (P,) of pixels, from -1 (something that is not the object explains them) to 1 (it does not)."""
+"""Share of the image under which what is found is no object."""
+DOUBTED, DOUBT_POWER = 0.5, 2.0
+"""Weak share at which a mask is as likely wrong as right, and how fast the odds rise; by tools/mask_doubt.py on drawn scenes."""
 
 
 @dataclass(frozen=True)
@@ -57,21 +47,25 @@ class Found:
     mask: Mask
     how: str
     planes: tuple[planes.Plane, ...] = ()
-    """The first is the one behind the object."""
+    """Wall and supports; the first is the largest."""
+    weak: float = 1.0
+    """Area that hangs on weak evidence, as a share of the object's; 1 where nothing but the strength of the signal speaks."""
+
+    @property
+    def doubt(self) -> float:
+        """Odds (0..1) that the mask is wrong by more than a tenth of its area."""
+        return float(1 / (1 + (DOUBTED / max(self.weak, 1e-3)) ** DOUBT_POWER))
 
 
 def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:
     """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes."""
     if distance_m is not None:
-        found = _by_planes(maps, rays_C, lights, distance_m)
+        some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
+        fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
+        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m)
         if found is not None:
             return found
     return Found(_by_strength(maps), "by the strength of the signal")
-
-
-def strength(maps: Grey) -> Image:
-    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
-    return np.asarray(np.sort(maps.signal, axis=0)[-2], np.float32)
 
 
 def _by_strength(maps: Grey) -> Mask:
@@ -84,110 +78,67 @@ def _by_strength(maps: Grey) -> Mask:
     return _tidy(cut.along_the_seam(_tidy(mask), _picture(maps)))
 
 
-def _by_planes(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Found | None:
-    coarse, coarse_rays, _ = binned(maps, rays_C)
-    shape = coarse.signal.shape[1:]
-    everywhere = look_at(coarse, coarse_rays, np.ones(shape, bool), central=True)
-    edges = _log(strength(coarse))
-    lit = np.sum(coarse.signal > LIT_SIGMAS * coarse.sigma, axis=0) >= 3
-    border = border_band(shape)
-    wall = planes.fit(look_at(coarse, coarse_rays, border & lit, central=True), lights, distance_m)
-    if wall is None or wall.misfit > FIT_SIGMAS or np.mean(lit[border]) < 0.2:
+def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Found | None:
+    image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
+    lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
+    if lit.mean() < LEAST_OF_IMAGE:
         return None
-    word, against = _word_of(wall, everywhere, lights, border & lit, edges)
-    left = cut.total_variation(against, edges, STIFFNESS)
-    found, claims = [wall], [(word, np.ones(shape, bool))]
-    support = np.zeros(shape, bool)
-    for _ in range(FURTHER_PLANES):
-        touching = _hangs_on(left & ~support, border)
-        at_border = touching & border & lit
-        if at_border.sum() < 0.01 * border.sum():
-            break
-        plane = planes.fit(look_at(coarse, coarse_rays, at_border, central=True), lights, distance_m, tilted=True)
-        if plane is None or plane.misfit > FIT_SIGMAS:
-            break
-        found.append(plane)
-        word, said = _word_of(plane, everywhere, lights, at_border, edges)
-        grown = _hangs_on(touching & ~cut.total_variation(said, edges, STIFFNESS), at_border)
-        if grown.sum() <= at_border.sum() // 2:
-            break
-        support |= grown
-        claims.append((word, grown))
-    object_, dark, word = _without_dark(left & ~support, support, border, everywhere, edges)
-    claims.append((word, dark))
-    mask = _without_faint(object_, against)
+    table = LightTable.of(image, lights, distance_m)
+    swept = flats.sweep(image, table, distance_m)
+    labels, found, cost = layers.label(
+        image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m))
+    )
+    count = len(found.planes)
+    mask = layers.object_of(labels, count)
+    behind = layers.background_of(labels, count)
+    area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
+    seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
+    walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
-        return Found(_enlarged(lit, maps), "all that is lit lies in one plane: that is the object", tuple(found))
-    fine = _by_pixel(_enlarged(mask, maps), maps, rays_C, [(word, _enlarged(_grown(part, NEAR), maps)) for word, part in claims])
-    return Found(fine, f"against {len(found)} plane{'s' * (len(found) > 1)}", tuple(found))
+        return Found(
+            _enlarged(image.image(lit), image.factor, maps.signal.shape[1:]), "all that is lit lies in one plane: that is the object", walls
+        )
+    weak = layers.weak_share(labels, cost, mask, count)
+    u_free = swept.u[np.argmin(np.median(swept.cost[:, mask.ravel()], axis=1))]
+    fine = _to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C)
+    return Found(fine, f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark", walls, weak)
 
 
-def _word_of(plane: planes.Plane, seen: Sight, lights: Sequence[Light], sure: Mask, edges: Image) -> tuple[Word, Image]:
-    """What a plane says of pixels, and of those seen (H, W): by its ratios alone at first, then by its albedo, as `sure` shows it."""
-    m = planes.foretold(plane.q, seen.rays_C, lights)
-    said, back = _by_ratios(seen, m, plane.misfit), None
-    few = np.arange(0, seen.pixels, max(1, seen.pixels // ALBEDO_PIXELS))
-    for _ in range(2):
-        claimed = ~cut.total_variation(_image(said, seen), edges, STIFFNESS)
-        back = backdrop(seen.at(few), m[:, few], plane, claimed.ravel()[few], (claimed & sure).ravel()[few])
-        if back is None:
+def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:
+    some = planes.thinned(seen.at(np.flatnonzero(own)))
+    square, _ = planes.misfit(some, planes.foretold(q, some.rays_C, lights))
+    return planes.Plane(q, float(np.sqrt(np.median(square))))
+
+
+def _to_full_size(
+    mask: Mask, labels: Labels, found: layers.Layers, image: Coarse, table: LightTable, u_free: float, maps: Grey, rays_C: Array
+) -> Mask:
+    """The outline of a coarse mask drawn anew at every finer scale, by costs of the layers that are near."""
+    factor, size = image.factor, mask.shape
+    every = range(len(found.planes) + 3)
+    of_object, of_rest = (
+        np.stack([_grown(_opened(labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask)
+    )
+    of_object[0], of_rest[0] = True, False
+    while True:
+        finer = max(1, factor // 2)
+        here = coarse_of(maps, rays_C, finer)
+        mask = _enlarged(mask, factor / finer, here.shape)
+        by = int(np.ceil(BAND * factor / finer))
+        band = (_grown(mask, by) & ~cut.shrunk(mask, by)).ravel()
+        row, column = np.indices(here.shape).reshape(2, -1)[:, band]
+        parent = np.minimum(row * finer // image.factor, size[0] - 1) * size[1] + np.minimum(column * finer // image.factor, size[1] - 1)
+        at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
+        cost = layers.costs(found, at, table, np.full(len(parent), u_free))
+        own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
+        said = np.where(cut.shrunk(mask, by), 2.0, -2.0).astype(np.float32).ravel()
+        said[band] = np.clip((rest - own) / EVIDENCE, -1, 1)
+        bright = _log(strength(here.maps))
+        mask = cut.total_variation(said.reshape(here.shape), bright, STIFFNESS)
+        if finer == 1:
             break
-        said = evidence(seen, m, back)
-    return partial(_of_plane, plane, back, lights), _image(said, seen)
-
-
-def _of_plane(plane: planes.Plane, back: Backdrop | None, lights: Sequence[Light], seen: Sight) -> Array:
-    m = planes.foretold(plane.q, seen.rays_C, lights)
-    return _by_ratios(seen, m, plane.misfit) if back is None else evidence(seen, m, back)
-
-
-def _image(values: Array, seen: Sight) -> Image:
-    return np.asarray(values.reshape(seen.mask.shape), np.float32)
-
-
-def _by_ratios(seen: Sight, m: Array, misfit: float) -> Array:
-    """From -1 (a plane explains the pixel well, and by many lights) to 1 (it does not) of pixels (P,); 0 where nothing is seen."""
-    square, count = planes.misfit(seen, m)
-    limit = WALL_SIGMAS * max(1.0, misfit)
-    score = np.sqrt(np.nan_to_num(square, posinf=limit**2))
-    found = np.clip(np.log(np.clip(score, 0.1, 1e3) / limit), -1, 1)
-    return np.where(found < 0, found * np.minimum(1, (count - 1) / MANY), found)
-
-
-def _without_dark(left: Mask, support: Mask, border: Mask, seen: Sight, edges: Image) -> tuple[Mask, Mask, Word]:
-    """What is left without the dark matter that hangs on the support or on the border; that matter; and what darkness says of pixels.
-
-    Brightest lights are compared: an object's far side is dark in most lights, its support in all.
-    """
-    brightest = _image(seen.signal.max(axis=0), seen)
-    if not left.any():
-        return left, left, partial(_by_brightness, 1e-9)
-    free = left & ~_hangs_on(left, border | support)
-    typical = float(np.median(brightest[free] if free.sum() > 0.2 * left.sum() else brightest[left]))
-    limit = DARK_SHARE * typical
-    if support.any():
-        limit = float(np.clip(OF_SUPPORT * np.median(brightest[support]), LEAST_DARK * typical, MOST_DARK * typical))
-    word = partial(_by_brightness, limit)
-    dim = ~cut.total_variation(_image(word(seen), seen), edges, STIFFNESS)
-    dark = _hangs_on(left & dim, border | _grown(support, 2))
-    return _tidy(left & ~dark), dark, word
-
-
-def _by_brightness(limit: float, seen: Sight) -> Array:
-    return np.clip(np.log2(np.maximum(seen.signal.max(axis=0), 1e-9 * limit) / limit), -1, 1)
-
-
-def _without_faint(mask: Mask, against: Image) -> Mask:
-    """Without pieces that hardly differ from the wall where another clearly does: the wall, lit by the untold tails of lobes."""
-    from scipy import ndimage
-
-    label, count = ndimage.label(mask)
-    if count < 2:
-        return mask
-    mean = np.asarray(ndimage.mean(against, label, np.arange(1, count + 1)))
-    if mean.max() < CLEAR:
-        return mask
-    return np.asarray(mask & np.isin(label, 1 + np.flatnonzero(mean >= FAINT)))
+        factor = finer
+    return _tidy(cut.halfway(mask, maps.signal, maps.sigma))
 
 
 def border_band(shape: tuple[int, ...]) -> Mask:
@@ -198,19 +149,16 @@ def border_band(shape: tuple[int, ...]) -> Mask:
     return border
 
 
-def _hangs_on(mask: Mask, seeds: Mask) -> Mask:
-    """The pieces of a mask that touch seeds."""
-    from scipy import ndimage
-
-    label, _ = ndimage.label(mask)
-    touched = np.unique(label[mask & seeds])
-    return np.asarray(np.isin(label, touched[touched > 0]))
-
-
 def _grown(mask: Mask, by: int) -> Mask:
     from scipy import ndimage
 
     return np.asarray(ndimage.binary_dilation(mask, iterations=by))
+
+
+def _opened(mask: Mask) -> Mask:
+    from scipy import ndimage
+
+    return np.asarray(ndimage.binary_opening(mask))
 
 
 def _tidy(mask: Mask) -> Mask:
@@ -229,26 +177,6 @@ def _tidy(mask: Mask) -> Mask:
     return np.asarray(kept | np.isin(holes, small[small > 0]))
 
 
-def _by_pixel(mask: Mask, maps: Grey, rays_C: Array, claims: Sequence[tuple[Word, Mask]]) -> Mask:
-    """A mask whose outline is drawn anew by what is said of each pixel, each word heard in its part of the image."""
-    by = max(cut.SEAM_PX, factor(maps) + 1)
-    inside, near = cut.shrunk(mask, by), _grown(mask, by)
-    rows, columns = np.nonzero(_grown(near, 2 * by))
-    box = slice(rows.min(), rows.max() + 1), slice(columns.min(), columns.max() + 1)
-    band = near & ~inside
-    seen = look_at(maps, rays_C, band, central=True)
-    least = np.ones(seen.pixels)
-    for word, part in claims:
-        here = np.flatnonzero(part[band])
-        least[here] = np.minimum(least[here], word(seen.at(here)))
-    said = np.where(inside, FIXED, -FIXED).astype(np.float32)
-    said[band] = least
-    found = np.zeros_like(mask)
-    found[box] = cut.total_variation(said[box], _log(strength(maps))[box], STIFFNESS)
-    found[box] = cut.halfway(found[box], maps.signal[:, *box], maps.sigma[:, *box])
-    return _tidy(found)
-
-
 def _picture(maps: Grey) -> Image:
     """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
     ordered = np.sort(maps.signal, axis=0)
@@ -261,36 +189,21 @@ def _log(bright: Image) -> Image:
     return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
 
 
-def factor(maps: Grey) -> int:
-    """How many pixels are joined along a side, so that COARSE_PIXELS are left at most."""
-    return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / COARSE_PIXELS)))
-
-
 def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
-    """The maps and rays with blocks of f x f pixels joined, so that COARSE_PIXELS are left at most, and f."""
-    f = factor(maps)
-    rows, columns = maps.signal.shape[1] // f, maps.signal.shape[2] // f
-
-    def blocks(values: Array) -> Array:
-        return values[..., : rows * f, : columns * f].reshape(*values.shape[:-2], rows, f, columns, f)
-
-    signal = blocks(maps.signal.astype(float)).mean(axis=(-3, -1))
-    sigma = np.sqrt((blocks(maps.sigma.astype(float)) ** 2).sum(axis=(-3, -1))) / f**2
-    usable = blocks(maps.usable.astype(float)).min(axis=(-3, -1)) > 0
-    rays = np.moveaxis(blocks(np.moveaxis(rays_C, -1, 0)).mean(axis=(-3, -1)), 0, -1)
-    return Grey(signal.astype(np.float32), sigma.astype(np.float32), usable), rays, f
+    """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
+    f = factor_of(maps, MEDIUM_PIXELS)
+    image = coarse_of(maps, rays_C, f)
+    return image.maps, image.image(image.rays_C), f
 
 
-def _enlarged(mask: Mask, maps: Grey) -> Mask:
-    """A coarse mask at the maps' own size."""
+def _enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
+    """A mask of pixels `by` times as large, at a shape."""
     import cv2
 
-    height, width = maps.signal.shape[1:]
-    f = factor(maps)
-    large = cv2.resize(mask.astype(np.float32), (mask.shape[1] * f, mask.shape[0] * f), interpolation=cv2.INTER_LINEAR) > 0.5
-    found = np.zeros((height, width), bool)
-    found[: large.shape[0], : large.shape[1]] = large
-    return found
+    grid = np.array([[1 / by, 0, 0.5 / by - 0.5], [0, 1 / by, 0.5 / by - 0.5]])
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    large = cv2.warpAffine(mask.astype(np.float32), grid, shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(large > 0.5)
 
 
 def _otsu(values: Image) -> float:

@@ -16,6 +16,8 @@ from lpcal.geometry.arrays import Array
 from lpcal.surface.sight import Indices
 
 COARSEST = 200
+ROUNDING = 1e-12
+"""Share by which the diagonal of the coarsest matrix is raised, so that rounding leaves it positive."""
 DAMPING = 0.7
 OVER_CORRECTION = 1.6
 
@@ -47,7 +49,7 @@ def aggregates(rows: Indices, columns: Indices) -> list[Any]:
 def solve(A: Any, right: Array, start: Array, prolongations: list[Any], *, precision: float = 1e-6, most: int = 200) -> Array:
     """x (P,) with ``A x = right``, from `start`, to a relative residual of `precision`."""
     levels = _levels(A, prolongations)
-    coarsest = np.linalg.pinv(levels[-1].A.toarray(), hermitian=True) if levels[-1].A.shape[0] <= 4 * COARSEST else None
+    coarsest = _factor(levels[-1].A) if levels[-1].A.shape[0] <= 4 * COARSEST else None
     x = start.copy()
     residual = right - A @ x
     size = np.linalg.norm(right - A @ np.full_like(x, x.mean())) + 1e-300
@@ -74,11 +76,25 @@ def _levels(A: Any, prolongations: list[Any]) -> list[Level]:
     return [*levels, Level(A, 1 / A.diagonal(), None)]
 
 
-def _cycle(levels: list[Level], depth: int, right: Array, coarsest: Array | None) -> Array:
+def _factor(A: Any) -> Any:
+    """The Cholesky factor of a small matrix; None where it is singular to rounding."""
+    from scipy import linalg
+
+    dense = A.toarray()
+    dense[np.diag_indices_from(dense)] *= 1 + ROUNDING
+    try:
+        return linalg.cho_factor(dense, check_finite=False, overwrite_a=True)
+    except linalg.LinAlgError:
+        return None
+
+
+def _cycle(levels: list[Level], depth: int, right: Array, coarsest: Any) -> Array:
     """One symmetric V-cycle from zero."""
     level = levels[depth]
     if level.P is None:
-        return coarsest @ right if coarsest is not None else level.inverse_diagonal * right
+        from scipy import linalg
+
+        return linalg.cho_solve(coarsest, right, check_finite=False) if coarsest is not None else level.inverse_diagonal * right
     x = DAMPING * level.inverse_diagonal * right
     x = x + DAMPING * level.inverse_diagonal * (right - level.A @ x)
     x = x + OVER_CORRECTION * (level.P @ _cycle(levels, depth + 1, level.P.T @ (right - level.A @ x), coarsest))

@@ -16,8 +16,9 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
-from lpcal.records.surface import Component, Surface
+from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface import (
+    basins,
     bend,
     gains,
     mask,
@@ -32,6 +33,7 @@ from lpcal.surface import (
     uncertainty,
     without_ambient,
 )
+from lpcal.surface.basins import Basins
 from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 
@@ -101,12 +103,19 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     whole = surroundings.whole(maps, rays_C, object_mask) if found else None
     around = surroundings.patches(whole, found, lights) if whole is not None else None
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
-    state = rounds.run(scene, float(begin), progress)
+    basins_found = None
+    u = np.full(seen.pixels, np.log(begin) if central else 0.0)
+    if near and options.distance_m is None:
+        basins_found = basins.search(sight.grey(radiance, lights), rays_C, object_mask, lights, float(begin))
+        u = basins_found.start(object_mask) if basins_found is not None else u
+    state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
-    surface = _surface(radiance, scene, state, rays_C)
+    surface = _surface(radiance, scene, state, rays_C, basins_found)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
-    return replace(surface, figures={"mask": _how(background if wanted else None, radiance, options), **told, **surface.figures})
+    found_by = background if wanted else None
+    doubt = {} if found_by is None else {"mask_doubt": found_by.doubt}
+    return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **surface.figures})
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
@@ -158,7 +167,7 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
     return given
 
 
-def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> Surface:
+def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:
     seen, grid = scene.seen, scene.grid
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)
@@ -189,12 +198,12 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array) -> S
         component=np.asarray(seen.map(label, 0)),
         rays_C=rays_C,
         breaks=pieces.break_map(grid, state.weight, seen.mask),
-        components=_components(scene, state, depth, label),
+        components=_components(scene, state, depth, label, found),
         figures=_figures(state),
     )
 
 
-def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tuple[Component, ...]:
+def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
     found = []
     for one in np.unique(label):
         inside = label == one
@@ -207,7 +216,9 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels) -> tupl
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
         else:
             std = UNKNOWN_DISTANCE
-        found.append(Component(int(one), int(inside.sum()), middle, std))
+        others = basins_found.others() if basins_found is not None and one == 1 else []
+        alternatives = tuple(Alternative(ratio * middle, std, odds) for ratio, odds in others)
+        found.append(Component(int(one), int(inside.sum()), middle, std, alternatives))
     return tuple(found)
 
 

@@ -76,10 +76,9 @@ class Scene:
         return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
 
 
-def run(scene: Scene, begin: float, progress: Progress) -> State:
-    """All rounds, from a plane at the distance `begin`."""
-    seen = scene.seen
-    state = once(scene, np.full(seen.pixels, np.log(begin) if seen.central else 0.0), None, 0)
+def run(scene: Scene, begin: Array, progress: Progress) -> State:
+    """All rounds, from log depths `begin` (P,)."""
+    state = once(scene, begin, None, 0)
     rounds = ROUNDS if scene.near else 1
     for k in range(1, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)

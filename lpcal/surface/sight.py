@@ -101,6 +101,11 @@ class Lit:
         return Lit(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
 
 
+def strength(maps: Grey) -> Image:
+    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
+    return np.asarray(np.sort(maps.signal, axis=0)[-2], np.float32)
+
+
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:
     """The calibrated lights of a capture, in its order.
 

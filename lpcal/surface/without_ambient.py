@@ -15,7 +15,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.observations import Radiance
-from lpcal.records.surface import Component, Surface
+from lpcal.records.surface import Surface
 from lpcal.surface import mask, room_light, sight
 from lpcal.surface.room_light import PATCHY, Room
 
@@ -88,7 +88,7 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
         depth_std[inside] = np.hypot(depth_std[inside], np.abs(change - whole) * scale)
         held = not central or piece.label in anchored
         scale_std = piece.scale_std if held else float(np.hypot(piece.scale_std, whole * room.std / PATCHY))
-        components.append(Component(piece.label, piece.pixels, piece.mean_depth_m, scale_std))
+        components.append(replace(piece, scale_std=scale_std))
     told = {"estimated": True, "share_of_signal": round(share, 3), "relative_std": round(room.std, 3), "law": room.c.round(4).tolist()}
     return replace(
         surface,

@@ -1,0 +1,139 @@
+r"""Which distance the light speaks for: the rounds of a reconstruction in coarse pixels, from many distances.
+
+Near light tells an object's distance by a cost that has more than one minimum, and rounds from one distance find the nearest. So plain
+rounds (no gloss, no light from elsewhere, the lights' field from a table) run from every start of a sweep; each ends in a basin, with the
+cost of its samples there::
+
+    cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
+
+The cheapest is where the full solve begins. The odds of another basin are exp(-INDEPENDENT (cost - least) / 2) in units of the least
+cost a light, as what the model lacks is common to many pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import Light
+from lpcal.surface import coarse, distance, normals, pieces
+from lpcal.surface.coarse import LightTable
+from lpcal.surface.integrate import Grid, integrate, settle, steps
+from lpcal.surface.sight import Grey, Sight, look_at
+
+PIXELS = 1500
+"""Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
+STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
+"""Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
+ROUNDS = 5
+GRADUATED = 2
+"""Rounds whose depths look for their jumps anew."""
+OUTLIER2 = normals.OUTLIER**2
+MOST = 50.0
+"""Cost of a pixel at most: one that nothing explains does not decide."""
+APART = 0.03
+"""Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
+INDEPENDENT = 25.0
+"""Pixels that an object's are worth: errors of the model are common to whole regions."""
+STATED = 0.02
+"""Odds under which another basin is not worth a word."""
+
+
+@dataclass(frozen=True)
+class Basin:
+    """An end of the rounds."""
+
+    u: Array
+    """(P,) log depth of the coarse pixels."""
+    cost: float
+
+
+@dataclass(frozen=True)
+class Basins:
+    """Ends of the rounds, the cheapest first."""
+
+    ends: tuple[Basin, ...]
+    mask: Mask
+    """(rows, columns) of the coarse pixels."""
+    factor: int
+    lights: int
+
+    def start(self, mask: Mask) -> Array:
+        """Log depth (Q,) of the cheapest end at the pixels of a full-size mask (H, W)."""
+        import cv2
+        from scipy import ndimage
+
+        whole = np.zeros(self.mask.shape)
+        whole[self.mask] = self.ends[0].u
+        nearest = ndimage.distance_transform_edt(~self.mask, return_distances=False, return_indices=True)
+        shift = 0.5 / self.factor - 0.5
+        grid = np.array([[1 / self.factor, 0, shift], [0, 1 / self.factor, shift]])
+        flags = cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP
+        large = cv2.warpAffine(whole[tuple(nearest)], grid, mask.shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
+        return np.asarray(large[mask])
+
+    def others(self) -> list[tuple[float, float]]:
+        """Basins beside the cheapest that the images allow: their distance over that of the cheapest, and their odds."""
+        best = self.ends[0]
+        unit = max(best.cost / self.lights, 1.0)
+        found = [
+            (float(np.exp(np.median(one.u - best.u))), float(np.exp(-INDEPENDENT * (one.cost - best.cost) / 2 / unit)))
+            for one in self.ends[1:]
+        ]
+        total = 1 + sum(odds for _, odds in found)
+        return [(ratio, odds / total) for ratio, odds in found if odds / total > STATED]
+
+
+def search(maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float) -> Basins | None:
+    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels."""
+    factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
+    image = coarse.coarse_of(maps, rays_C, factor)
+    rows, columns = image.shape
+    share = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3))
+    inside = share > 0.5
+    if inside.sum() < normals.LEAST * 20:
+        return None
+    seen = look_at(image.maps, image.image(image.rays_C), inside, central=True)
+    table, grid = LightTable.of(image, lights, about_m).at_pixels(np.flatnonzero(inside)), Grid.of(inside)
+    ends: list[Basin] = []
+    for share_of_working in STARTS:
+        end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
+        twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
+        if twin is None:
+            ends.append(end)
+        elif end.cost < ends[twin].cost:
+            ends[twin] = end
+    return Basins(tuple(sorted(ends, key=lambda one: one.cost)), inside, factor, len(lights))
+
+
+def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
+    """Plain rounds from u (P,)."""
+    everywhere = np.arange(seen.pixels)
+
+    def B_at(depth: Array) -> Array:
+        return table.at(np.log(depth), everywhere)[0]
+
+    cost = np.inf
+    for k in range(ROUNDS + 1):
+        u = np.clip(u, table.nodes[1], table.nodes[-2])
+        B = B_at(np.exp(u))
+        found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), normals.variances(seen))
+        known = np.isfinite(found.b[:, 0])
+        if not known.any():
+            break
+        n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
+        step, sigma = steps(grid, n, seen.rays_C, central=True)
+        strained = np.minimum(((u[grid.b] - u[grid.a] - step) / sigma) ** 2, OUTLIER2)
+        samples = np.where(known, np.minimum(found.cost, MOST), MOST)
+        cost = float(samples.mean() + strained.mean())
+        if k == ROUNDS:
+            break
+        own = distance.own_distance(B_at, np.exp(u), seen, found)
+        u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
+        weight = pieces.without_slivers(grid, weight, seen.mask)
+        u = settle(grid, step, sigma, distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)
+    return Basin(u, cost)

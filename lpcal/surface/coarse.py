@@ -1,0 +1,155 @@
+r"""A capture in coarse pixels, and the lights' field on each of them by log depth.
+
+Symbols: pixel p of ray r_p, u = log z; the table holds ``z^2 B_k(z r_p)`` at equal steps of u, cubic between them (Lagrange). The field is
+smooth: it is summed over the LEDs on a lattice of rays only. `doubt` is what an error of a light's direction makes of its irradiance, as a
+share of it: in the tail of a lobe a tenth of a degree is several per cent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import Light
+from lpcal.surface.sight import Grey, Indices, light_vectors
+
+SPAN = (0.25, 6.0)
+"""Depths of the table, as shares of the working distance: beyond, lights neither reach nor are calibrated."""
+NODES = 60
+"""Steps of the table, 5 per cent of the depth each: cubic between them the field is right to some thousandths, within the model's errors."""
+LATTICE = (19, 25)
+"""Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
+LEAST_DIRECTION_STD_RAD = 0.0026
+"""Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """P coarse pixels, row by row, of L lights."""
+
+    signal: Array
+    """(L, P), a unit of intensity."""
+    sigma: Array
+    usable: Mask
+    rays_C: Array
+    """(P, 3) of length 1 in z."""
+    shape: tuple[int, int]
+    """Rows and columns."""
+    factor: int
+    """Pixels a coarse pixel, along a side."""
+
+    def image[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Values (P, ...) as a map (rows, columns, ...)."""
+        return values.reshape(*self.shape, *values.shape[1:])
+
+    @property
+    def maps(self) -> Grey:
+        """The coarse pixels as maps."""
+        shape = (len(self.signal), *self.shape)
+        return Grey(self.signal.reshape(shape).astype(np.float32), self.sigma.reshape(shape).astype(np.float32), self.usable.reshape(shape))
+
+
+def factor_of(maps: Grey, most: int) -> int:
+    """Pixels to be joined along a side, so that no more than `most` are left."""
+    return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
+
+
+def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
+    """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
+    rows, columns = (side // factor for side in maps.signal.shape[1:])
+
+    def blocks[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
+        return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns, factor)
+
+    def means(values: npt.NDArray[np.floating]) -> Array:
+        return np.asarray(blocks(values).mean(axis=(-3, -1), dtype=float))
+
+    signal = means(maps.signal)
+    return Coarse(
+        signal.reshape(len(signal), -1),
+        (np.sqrt(means(maps.sigma.astype(np.float32) ** 2)) / factor).reshape(len(signal), -1),
+        blocks(maps.usable).all(axis=(-3, -1)).reshape(len(signal), -1),
+        np.moveaxis(means(np.moveaxis(rays_C, -1, 0)), 0, -1).reshape(-1, 3),
+        (rows, columns),
+        factor,
+    )
+
+
+@dataclass(frozen=True)
+class LightTable:
+    """The field on P coarse pixels."""
+
+    first: float
+    """u of the first node."""
+    step: float
+    B: Array
+    """(L, nodes, 3, P), times z^2."""
+    doubt: Array
+    """(L, nodes, P), a share of the irradiance."""
+
+    @staticmethod
+    def of(image: Coarse, lights: Sequence[Light], distance_m: float) -> LightTable:
+        """The table about a working distance."""
+        from scipy import ndimage
+
+        rows, columns = image.shape
+        down, across = np.linspace(0, rows - 1, LATTICE[0]), np.linspace(0, columns - 1, LATTICE[1])
+        at = np.meshgrid(down, across, indexing="ij")
+        rays = np.stack([ndimage.map_coordinates(one, at, order=1) for one in np.moveaxis(image.image(image.rays_C), -1, 0)], axis=-1)
+        u = np.log(distance_m) + np.linspace(np.log(SPAN[0]), np.log(SPAN[1]), NODES)
+        x_C = np.exp(u)[:, None, None, None] * rays
+        d, E = light_vectors(lights, x_C.reshape(-1, 3))
+        B = (d * E[..., None]).reshape(len(lights), *x_C.shape) * np.exp(2 * u)[:, None, None, None]
+        doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
+        row, column = np.indices(image.shape)
+        places = np.stack([row.ravel() * (LATTICE[0] - 1) / max(rows - 1, 1), column.ravel() * (LATTICE[1] - 1) / max(columns - 1, 1)])
+
+        def spread(values: Array, order: Literal[1, 3]) -> Array:
+            """Values (..., lattice) at the pixels (..., P)."""
+            flat: Any = values.reshape(-1, *LATTICE)
+            found = [ndimage.map_coordinates(one, places, order=order, mode="nearest").astype(np.float32) for one in flat]
+            return np.asarray(np.stack(found).reshape(*values.shape[:-2], -1))
+
+        return LightTable(float(u[0]), float(u[1] - u[0]), spread(np.moveaxis(B, -1, 2), 3), spread(doubt, 1))
+
+    @property
+    def nodes(self) -> Array:
+        """u of the nodes."""
+        return np.asarray(self.first + self.step * np.arange(self.B.shape[1]), float)
+
+    def at(self, u: Array, pixels: Indices) -> tuple[Array, Array]:
+        """Light vectors (L, Q, 3) and their doubt (L, Q) at log depths u (Q,) of pixels (Q,)."""
+        t = np.clip((u - self.first) / self.step, 0, self.B.shape[1] - 1.001)
+        k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
+        f = t - k
+        weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
+        total = np.zeros((len(u), len(self.B), 3))
+        for j, weight in enumerate(weights):
+            total += self.B[:, k + j - 1, :, pixels] * weight[:, None, None]
+        z = np.exp(self.first + t * self.step)
+        square: Array = z[:, None] ** 2
+        return np.moveaxis(total, 0, 1) / square, self.doubt[:, np.rint(t).astype(int), pixels]
+
+    def at_pixels(self, some: Indices) -> LightTable:
+        """The table on some of the pixels."""
+        return LightTable(self.first, self.step, self.B[..., some], self.doubt[..., some])
+
+    def holds(self, u: Array) -> Mask:
+        """Whether log depths lie in the table."""
+        return np.asarray((u >= self.first) & (u <= self.first + self.step * (self.B.shape[1] - 1)))
+
+
+def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:
+    """Share of the irradiance (L, nodes, lattice) that an error of a light's direction makes, from how the field changes across."""
+    fall = np.log(np.maximum(E, 1e-30))
+    across = np.gradient(fall, axis=3) / np.gradient(rays[..., 0], axis=1)
+    down = np.gradient(fall, axis=2) / np.gradient(rays[..., 1], axis=0)
+    slope = np.hypot(across, down) / x_C[..., 2]
+    far = np.stack([np.linalg.norm(x_C - (light.source_C if light.source_C is not None else 0.0), axis=-1) for light in lights])
+    std = np.array([max(np.nan_to_num(light.direction_std_rad, nan=0.0, posinf=0.0), LEAST_DIRECTION_STD_RAD) for light in lights])
+    return np.asarray(np.minimum(slope * far * std[:, None, None, None], 1.0))

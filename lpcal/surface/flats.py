@@ -1,0 +1,197 @@
+r"""Planes in a picture, found wherever they are by votes of its pixels.
+
+Symbols: at the log depth u a pixel of ray r has a normal n(u) from its lights, and so lies on the plane ``n . x = n . r e^u``. Over a
+sweep of u it votes for all these planes, by how well its lights agree with each; pixels of one plane agree on one only. A peak is then
+fitted by robust least squares over the pixels that it explains (see surface.planes for q), and what it explains leaves the vote.
+Sources: Hough 1962; Isack and Boykov 2012, Int. J. Computer Vision 97 (hypotheses first, then labels).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface import samples
+from lpcal.surface.coarse import Coarse, LightTable
+from lpcal.surface.sight import Indices
+
+SWEEP = (0.3, 5.0)
+"""Depths at which pixels vote, as shares of the working distance."""
+SLOPE_BINS, OFFSET_BINS = 61, 90
+"""Cells of the vote across the x and the y of a normal (2 degrees each) and across log offsets (5 per cent each)."""
+OFFSETS = (-2.5, 2.0)
+"""Natural logarithms of a plane's distance from the camera over the working distance, from and to."""
+BLUR = (0.8, 0.8, 1.2)
+"""Cells over which votes are smoothed: what noise of a normal spreads them by."""
+APART = (3, 3, 4)
+"""Cells about a peak that are no peaks of their own."""
+PEAKS = 3
+"""Peaks of a vote that are fitted; that which explains most is kept."""
+STEEPEST = 0.05
+"""Cosine to the viewer under which a pixel's normal places no plane."""
+EXPLAINED = 20.0
+"""Cost by which a plane may be dearer than matter of any normal, of a pixel that it explains."""
+SMALLEST = 0.006
+"""Share of the image under which a plane is not looked for."""
+MOST = 8
+"""Planes at most."""
+PAINT = 0.1
+"""Natural logarithm of a step of albedo that encloses a part of a plane."""
+CLEARLY, CLEARLY_EACH = 60.0, 0.3
+"""Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
+FIT_PIXELS = 600
+ACCEPTED = 3.0
+"""Cost a light under which a pixel takes part in the fit of a plane."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Every pixel as matter of any normal, at every depth: D depths, P pixels."""
+
+    u: Array
+    """(D,)."""
+    b: Array
+    """(D, P, 3)."""
+    cost: Array
+    """(D, P)."""
+
+    @property
+    def least(self) -> Array:
+        """Cost (P,) at each pixel's best depth."""
+        return np.asarray(self.cost.min(axis=0))
+
+
+def sweep(image: Coarse, table: LightTable, distance_m: float) -> Sweep:
+    """The sweep over the table's nodes from SWEEP[0] to SWEEP[1] working distances."""
+    low, high = np.log(distance_m) + np.log(SWEEP)
+    u = table.nodes[(table.nodes >= low) & (table.nodes <= high)]
+    everywhere = np.arange(len(image.rays_C))
+    b, cost = np.empty((len(u), len(everywhere), 3)), np.empty((len(u), len(everywhere)))
+    for k, one in enumerate(u):
+        B, doubt = table.at(np.full(len(everywhere), one), everywhere)
+        b[k], cost[k] = samples.free(image.signal, image.sigma, image.usable, B, doubt)
+    return Sweep(u, b, cost)
+
+
+def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[Array, Array]:
+    """Signals (L, Q) of a white plane q along rays (Q, 3) that lie in the table's pixels (Q,), and their doubt; 0 where a ray misses it."""
+    slope = rays_C @ q
+    u = -np.log(np.maximum(slope, 1e-12))
+    hit = (slope > 0) & table.holds(u)
+    B, doubt = table.at(u, pixels)
+    return np.where(hit, np.maximum(B @ (-q / np.linalg.norm(q)), 0.0), 0.0), doubt
+
+
+def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None = None) -> tuple[Array, Array, Mask]:
+    """`samples.planar` of (some of) the coarse pixels."""
+    some = np.arange(len(image.rays_C)) if pixels is None else pixels
+    m, doubt = white(q, image.rays_C[some], some, table)
+    return samples.planar(image.signal[:, some], image.sigma[:, some], image.usable[:, some], m, doubt)
+
+
+def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
+    """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
+    from scipy import ndimage
+
+    left = lit.copy()
+    found: list[Array] = []
+
+    def explains(q: Array) -> Mask:
+        cost, _, shown = explained(image, table, q)
+        return np.asarray(left & (cost < swept.least + EXPLAINED) & (shown.sum(axis=0) >= 3))
+
+    def size(own: Mask) -> int:
+        return int(ndimage.binary_opening(image.image(own)).sum())
+
+    while len(found) < MOST and left.sum() > SMALLEST * left.size:
+        trials = [fitted(image, table, q, left, rounds=2) for q in _peaks(image, swept, left, distance_m)]
+        if not trials:
+            break
+        q = fitted(image, table, max(trials, key=lambda one: size(explains(one))), left, rounds=4)
+        own = explains(q)
+        if size(own) < SMALLEST * left.size:
+            break
+        found.append(q)
+        left &= ~own
+    return [*found, *_before(image, table, found, lit)]
+
+
+def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> list[Array]:
+    """Planes (3,) that stand before those found and are nearly parallel to them: each pixel suits both, all together suit one.
+
+    Asked of the parts of a plane that an edge of its albedo encloses; a part becomes a plane where that pays by CLEARLY.
+    """
+    from scipy import ndimage
+
+    rim = np.ones(image.shape, bool)
+    rim[1:-1, 1:-1] = False
+    new = []
+    for q in found:
+        cost, albedo, shown = explained(image, table, q)
+        own = image.image(lit & (cost < ACCEPTED * len(shown)) & (albedo > 0))
+        tone = np.where(own, np.log(np.maximum(image.image(albedo), 1e-12)), 0.0)
+        part, _ = ndimage.label(own & (ndimage.morphological_gradient(ndimage.median_filter(tone, size=3), size=(3, 3)) < PAINT))
+        size = np.bincount(part.ravel())
+        for one in np.setdiff1d(np.flatnonzero(size >= SMALLEST * part.size), [0, *np.unique(part[rim])]):
+            inside = (part == one).ravel()
+            trial = fitted(image, table, q, inside, rounds=3)
+            gain = np.sum(cost[inside] - explained(image, table, trial, np.flatnonzero(inside))[0])
+            if gain > max(CLEARLY, inside.sum() * CLEARLY_EACH):
+                new.append(trial)
+    return new
+
+
+def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
+    """The plane q (3,) fitted to those pixels `among` (P,) that it explains."""
+    from scipy import optimize
+
+    pixels = np.flatnonzero(among)
+    pixels = pixels[:: max(1, len(pixels) // FIT_PIXELS)]
+    for _ in range(rounds):
+        cost, _, lit = explained(image, table, q, pixels)
+        good = cost < ACCEPTED * len(lit)
+        own = pixels[good]
+        if len(own) < 12:
+            break
+        _, doubt = white(q, image.rays_C[own], own, table)
+        signal = image.signal[:, own]
+        weight = lit[:, good] / np.sqrt(samples.variance(signal, image.sigma[:, own], doubt))
+
+        def residuals(x: Array, own: Indices = own, weight: Array = weight, signal: Array = signal) -> Array:
+            m = weight * white(x, image.rays_C[own], own, table)[0]
+            albedo = np.sum(m * weight * signal, axis=0) / np.maximum(np.sum(m**2, axis=0), 1e-12)
+            return np.asarray((weight * signal - albedo * m).ravel())
+
+        q = np.asarray(optimize.least_squares(residuals, q, loss="cauchy", max_nfev=8, x_scale=np.linalg.norm(q)).x)
+    return q
+
+
+def _peaks(image: Coarse, swept: Sweep, left: Mask, distance_m: float) -> list[Array]:
+    """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
+    from scipy import ndimage
+
+    b = swept.b[:, left]
+    n = b / np.maximum(np.linalg.norm(b, axis=2, keepdims=True), 1e-12)
+    towards = -np.einsum("dpi,pi->dp", n, image.rays_C[left])
+    cost = swept.cost[:, left]
+    votes = np.exp(-(cost - cost.min(axis=0)) / max(2, len(image.signal))) * ((towards > STEEPEST) & (n[..., 2] < 0))
+    votes /= np.maximum(votes.sum(axis=0), 1e-9)
+    offset = swept.u[:, None] + np.log(np.maximum(towards, 1e-3)) - np.log(distance_m)
+    column, row = (np.rint((n[..., axis] + 1) / 2 * (SLOPE_BINS - 1)).astype(int) for axis in (0, 1))
+    depth = np.clip(np.rint((offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) * (OFFSET_BINS - 1)), 0, OFFSET_BINS - 1).astype(int)
+    cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
+    where = np.ravel_multi_index((column, row, depth), cells)
+    total = ndimage.gaussian_filter(np.bincount(where.ravel(), votes.ravel(), int(np.prod(cells))).reshape(cells), BLUR)
+    found = []
+    for _ in range(PEAKS):
+        top = np.unravel_index(int(np.argmax(total)), cells)
+        if total[top] <= 0:
+            break
+        x, y = (2 * top[axis] / (SLOPE_BINS - 1) - 1 for axis in (0, 1))
+        n_top = np.array([x, y, -np.sqrt(max(1 - x * x - y * y, 0.01))])
+        distance = distance_m * np.exp(OFFSETS[0] + top[2] / (OFFSET_BINS - 1) * (OFFSETS[1] - OFFSETS[0]))
+        found.append(-n_top / np.linalg.norm(n_top) / distance)
+        total[tuple(slice(max(at - by, 0), at + by + 1) for at, by in zip(top, APART, strict=True))] = 0
+    return found

@@ -1,0 +1,50 @@
+"""From which distance a reconstruction begins, and which other distances the images allow."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lit_scene import Scene, calibration, draw, truth
+from lpcal.records.observations import Radiance
+from lpcal.surface import sight
+from lpcal.surface.basins import Basin, Basins, search
+
+
+@pytest.mark.parametrize("about", [0.6, 1.0, 1.9])
+def test_the_object_is_found_from_afar(about: float) -> None:
+    """The sphere's distance within 3 per cent, though the working distance is stated up to twice as large."""
+    given = calibration()
+    raw = draw(Scene(), given, seed=int(10 * about))
+    mask, depth, _ = truth(Scene())
+    signal = np.asarray(raw.images - raw.ambient.mean(axis=0), np.float32)
+    radiance = Radiance("scene", raw.lights, signal, np.full(signal.shape, 0.003, np.float32), np.zeros(signal.shape, bool), None, ())
+    found = search(sight.grey(radiance, given.lights), sight.ray_map(mask.shape, given.camera), mask, given.lights, about * 0.35)
+    assert found is not None
+    assert abs(np.median(found.start(mask) - np.log(depth[mask]))) < 0.03
+    assert found.ends == tuple(sorted(found.ends, key=lambda one: one.cost))
+
+
+def ends(*costs: float) -> Basins:
+    flat = np.zeros(4)
+    return Basins(tuple(Basin(flat + 0.2 * k, cost) for k, cost in enumerate(costs)), np.ones((2, 2), bool), 1, 6)
+
+
+def test_a_basin_of_like_cost_is_stated_with_its_odds_and_a_dear_one_is_not() -> None:
+    (ratio, odds), *rest = ends(2.0, 2.02, 9.0).others()
+    assert ratio == pytest.approx(np.exp(0.2))
+    assert 0.3 < odds < 0.5
+    assert not rest
+    assert not ends(2.0, 4.0).others()
+
+
+def test_what_the_model_lacks_makes_basins_more_alike() -> None:
+    """The same difference of costs says less where even the best explains little."""
+    well, ill = (replace_all(ends(1.0, 1.1), by) for by in (0.0, 29.0))
+    assert ill.others()[0][1] > well.others()[0][1]
+
+
+def replace_all(given: Basins, by: float) -> Basins:
+    return replace(given, ends=tuple(replace(one, cost=one.cost + by) for one in given.ends))
