@@ -21,7 +21,7 @@ from lpcal.surface.sight import Grey, Indices, light_vectors
 SPAN = (0.25, 6.0)
 """Depths of the table, as shares of the working distance: beyond, lights neither reach nor are calibrated."""
 NODES = 60
-"""Steps of the table, 5 per cent of the depth each: cubic between them the field is right to some thousandths, within the model's errors."""
+"""Steps of the table, 5 per cent of the depth each: cubic between them, the field is right to some thousandths."""
 LATTICE = (19, 25)
 """Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
