@@ -10,8 +10,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
@@ -24,6 +22,7 @@ from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
 from lpcal.pipeline.curve import settle_sensor
 from lpcal.pipeline.sensor import BY_CAPTURE, SensorInUse, stated_in, stated_in_panel
+from lpcal.pipeline.surface_notes import distance_said, notes_of
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress
@@ -31,15 +30,12 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface import mesh
-from lpcal.surface.convention import mirrored
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
 """What --mask takes beside a file."""
-VAGUE_DEG = 6.0
-"""Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so ill known serves nobody."""
 OUTSIDE = (0.5, 2.0)
 """Of the working distance: beyond, nothing is known of the lights."""
 
@@ -171,7 +167,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if wishes.near and wishes.distance_m is None:
         refuse_outside(surface, calibration)
     solved = time.perf_counter()
-    notes = (*_with_ambient_said(radiance.notes, surface), *_intensities_said(surface), *_misfit_said(surface))
+    notes = notes_of(radiance.notes, surface)
     document = document_of(
         surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read}, settled.used
     )
@@ -209,45 +205,6 @@ def refuse_outside(surface: Surface, calibration: Calibration) -> None:
         )
 
 
-def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
-    """The notes with what became of the room's light where there is no image of it."""
-    found: Any = surface.figures.get("ambient")
-    if not found:
-        return notes
-    others = tuple(note for note in notes if not note.startswith("no ambient image"))
-    if not found["estimated"]:
-        return (*others, found["note"])
-    percent, doubt = 100 * found["share_of_signal"], 100 * found["relative_std"]
-    said = f"no ambient image: the room's light was estimated, {percent:.0f} % of the images within {doubt:.0f} % of that, and taken away"
-    return (*others, said)
-
-
-def _intensities_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said of intensities that nobody has measured and that were taken from the object."""
-    found: Any = surface.figures.get("intensities_found")
-    if not found:
-        return ()
-    least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
-    return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
-
-
-def _misfit_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said where the normals are hardly known, or are those of a surface only with one axis turned over."""
-    said = []
-    doubt_deg = float(np.median(surface.normal_std_deg[surface.mask])) if surface.mask.any() else 0.0
-    if doubt_deg > VAGUE_DEG:
-        said.append(
-            f"the normals are known to {doubt_deg:.0f} deg only (median, an axis): the images do not fit the lights; are their names, "
-            "order and axes those of the images?"
-        )
-    if mirrored(surface.normals, surface.mask, surface.rays_C):
-        said.append(
-            "the normals are of a surface only with x or y turned over: an axis of the light list seems flipped "
-            "(lpcal takes x right, y up), the images mirrored, or the lights in backward order"
-        )
-    return tuple(said)
-
-
 def document_of(
     surface: Surface,
     task: Task,
@@ -265,6 +222,7 @@ def document_of(
         "units": "metres" if surface.rays_C[..., :2].any() else "pixels",
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
+        "mask_doubt": surface.figures.get("mask_doubt", 0.0),
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
@@ -295,9 +253,7 @@ def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
 def line_of(document: dict[str, Any], target: Path) -> str:
     """One line for people."""
     figures, pieces = document["counts_and_residuals"], document["components"]
-    where = ", ".join(
-        f"{1e3 * piece['mean_depth_m']:.1f} mm +- {1e5 * piece['scale_std'] * piece['mean_depth_m'] / 100:.1f}" for piece in pieces[:3]
-    )
+    where = ", ".join(distance_said(piece) for piece in pieces[:3])
     return (
         f"{document['name']}: {figures['pixels']} px in {len(pieces)} piece{'s' * (len(pieces) != 1)}"
         + (f" at {where}" if document["units"] == "metres" else "")

@@ -1,0 +1,74 @@
+"""What is to be said of a surface: its distance with what else it may be, and what in it is in doubt."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lpcal.records.surface import Surface
+from lpcal.surface.convention import mirrored
+
+VAGUE_DEG = 6.0
+"""Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so ill known serves nobody."""
+IN_DOUBT = 0.5
+"""Odds of being wrong from which a mask is spoken of."""
+
+
+def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
+    """The notes of a capture with those of its surface."""
+    return (*_with_ambient_said(known, surface), *_intensities_said(surface), *_misfit_said(surface), *_mask_said(surface))
+
+
+def distance_said(piece: dict[str, Any]) -> str:
+    """The distance of a component of summary.json and, where the images allow another one, that too."""
+    said = f"{1e3 * piece['mean_depth_m']:.1f} mm +- {1e3 * piece['scale_std'] * piece['mean_depth_m']:.1f}"
+    others = [f"{1e3 * one['mean_depth_m']:.0f} mm (odds {100 * one['odds']:.0f} %)" for one in piece["alternatives"]]
+    return said + (f", or {' or '.join(others)}" if others else "")
+
+
+def _mask_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said of an automatic mask that may be wrong."""
+    odds: Any = surface.figures.get("mask_doubt", 0.0)
+    if odds < IN_DOUBT:
+        return ()
+    return (f"the automatic mask may be wrong (odds {100 * odds:.0f} %): look at mask.png, and give a mask with --mask FILE where it is",)
+
+
+def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
+    """The notes with what became of the room's light where there is no image of it."""
+    found: Any = surface.figures.get("ambient")
+    if not found:
+        return notes
+    others = tuple(note for note in notes if not note.startswith("no ambient image"))
+    if not found["estimated"]:
+        return (*others, found["note"])
+    percent, doubt = 100 * found["share_of_signal"], 100 * found["relative_std"]
+    said = f"no ambient image: the room's light was estimated, {percent:.0f} % of the images within {doubt:.0f} % of that, and taken away"
+    return (*others, said)
+
+
+def _intensities_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said of intensities that nobody has measured and that were taken from the object."""
+    found: Any = surface.figures.get("intensities_found")
+    if not found:
+        return ()
+    least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
+    return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
+
+
+def _misfit_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said where the normals are hardly known, or are those of a surface only with one axis turned over."""
+    said = []
+    doubt_deg = float(np.median(surface.normal_std_deg[surface.mask])) if surface.mask.any() else 0.0
+    if doubt_deg > VAGUE_DEG:
+        said.append(
+            f"the normals are known to {doubt_deg:.0f} deg only (median, an axis): the images do not fit the lights; are their names, "
+            "order and axes those of the images?"
+        )
+    if mirrored(surface.normals, surface.mask, surface.rays_C):
+        said.append(
+            "the normals are of a surface only with x or y turned over: an axis of the light list seems flipped "
+            "(lpcal takes x right, y up), the images mirrored, or the lights in backward order"
+        )
+    return tuple(said)
