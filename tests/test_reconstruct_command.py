@@ -78,7 +78,7 @@ def test_every_file_of_the_contract(lpcal, rig):
     assert np.all(np.sum(ply.vertex_normals * ply.vertices, axis=1) < 0)
 
     summary = json.loads((folder / "summary.json").read_text())
-    assert {"label", "pixels", "mean_depth_m", "scale_std"} == set(summary["components"][0])
+    assert {"label", "pixels", "mean_depth_m", "scale_std", "alternatives"} == set(summary["components"][0])
     assert {"times_s", "peak_memory_mb", "counts_and_residuals", "versions", "inputs"} <= set(summary)
     assert len(summary["inputs"]["L0.png"]) == 64
 
