@@ -42,6 +42,7 @@ PAINT = 0.1
 CLEARLY, CLEARLY_EACH = 60.0, 0.3
 """Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
 FIT_PIXELS = 600
+"""Pixels that a plane is fitted to, spread over its own: more tell no more of three numbers."""
 ACCEPTED = 3.0
 """Cost a light under which a pixel takes part in the fit of a plane."""
 

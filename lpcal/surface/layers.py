@@ -34,8 +34,11 @@ EDGE = 6.0
 PLANE_SAYS, OBJECT_SAYS = 4.0, 8.0
 """Most that an appearance adds to a cost: by the albedo in a plane, and by the brightest shading for and against the object."""
 ROUNDS = 4
+"""Times that labels are drawn, planes and appearances learnt anew between them: further rounds move next to nothing."""
 STEPS = 250
+"""Steps of the primal-dual method: labels then stand still."""
 BINS = 40
+"""Cells of an appearance."""
 RARE = 0.02
 """Share of an appearance that is spread over all albedos: none is impossible."""
 BRIGHTEST = 75
@@ -77,6 +80,7 @@ class Layers:
     """What the layers of a picture are."""
 
     planes: list[Array]
+    """q (3,) each."""
     of_plane: list[Appearance | None]
     """Of log albedo in each plane."""
     brightest: float

@@ -21,19 +21,25 @@ from lpcal.surface.sight import Grey, Sight, strength
 COARSE_PIXELS = 5200
 """Pixels of the scale at which planes and layers are found: the picture of a 4:3 camera is then some 80 across."""
 MEDIUM_PIXELS = 110_000
+"""Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
 MOST_LIGHTS = 16
 """Lights that the mask is found by, spread over all: more tell no more of it."""
 BORDER_SHARE = 0.06
+"""Share of the image's shorter side that its rim takes on each side."""
 LIT_SIGMAS = 6.0
+"""Standard deviations of its noise over which a sample is lit."""
 FIT_SIGMAS = 3.0
+"""Misfit under which a plane explains the rim of an image whose room light is not known."""
 BAND = 2
 """Pixels of a scale on either side of an outline that the next finer scale asks anew."""
 EVIDENCE = 10.0
 """Difference of costs that is full evidence for or against a pixel in the outline."""
 STIFFNESS = 0.6
+"""Evidence that a unit of outline must be worth where the picture shows no edge."""
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
+"""Share of the object under which a hole in it is filled."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 DOUBTED, DOUBT_POWER = 0.5, 2.0

@@ -31,6 +31,7 @@ SHADOW = 0.15
 THROWN = 0.04
 """Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
 ROUNDS = 4
+"""Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
 WIDTH2 = 9.0
 """Square of the residual, in sigmas, at which a sample's weight for the normal has fallen to a quarter."""
 
