@@ -145,12 +145,26 @@ def test_labels_are_smooth_and_end_at_edges() -> None:
 
 
 def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> None:
+    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
     labels = np.full((40, 60), 1)
     labels[10:25, 20:40] = 0
     labels[30:, 45:] = 0
-    assert iou(layers.object_of(labels, 1), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
+    assert iou(layers.object_of(labels, [WALL], slanting), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
     labels[10:25, 20:40] = 1
-    assert iou(layers.object_of(labels, 1), labels == 0) > 0.95
+    assert iou(layers.object_of(labels, [WALL], slanting), labels == 0) > 0.95
+
+
+def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> None:
+    labels = np.full((40, 60), 1)
+    labels[:, :20] = 2
+    labels[:, 20:40] = 0
+    flat = np.array([-0.6, 0.0, -0.8])
+    n_free = np.broadcast_to(flat, (40, 60, 3)).copy()
+    n_free[:, 24:] = [0.6, 0.0, -0.8]
+    found = layers.background_of(labels, [WALL, -flat / 0.3], n_free)
+    assert np.array_equal(found, labels == 1)
+    n_free[:, 20:24] = [0.6, 0.0, -0.8]
+    assert np.array_equal(layers.background_of(labels, [WALL, -flat / 0.3], n_free), labels != 0)
 
 
 def test_the_doubt_rises_with_what_is_weak() -> None:

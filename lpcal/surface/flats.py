@@ -63,6 +63,12 @@ class Sweep:
         """Cost (P,) at each pixel's best depth."""
         return np.asarray(self.cost.min(axis=0))
 
+    @property
+    def normals(self) -> Array:
+        """Normal (P, 3) at each pixel's best depth."""
+        b = self.b[np.argmin(self.cost, axis=0), np.arange(self.b.shape[1])]
+        return np.asarray(b / np.maximum(np.linalg.norm(b, axis=1, keepdims=True), 1e-12))
+
 
 def sweep(image: Coarse, table: LightTable, distance_m: float) -> Sweep:
     """The sweep over the table's nodes from SWEEP[0] to SWEEP[1] working distances."""

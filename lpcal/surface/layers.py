@@ -153,11 +153,13 @@ def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], l
         cost = with_planes(layers, at, table, swept.least, E).reshape(-1, *image.shape)
         labels = cheapest(cost, *weights)
         if k + 1 < ROUNDS:
-            labels, layers = _learnt(image, table, layers, labels, lit, bright)
+            labels, layers = _learnt(image, table, layers, labels, lit, bright, image.image(swept.normals))
     return labels, layers, cost
 
 
-def _learnt(image: Coarse, table: LightTable, layers: Layers, labels: Labels, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
+def _learnt(
+    image: Coarse, table: LightTable, layers: Layers, labels: Labels, lit: Mask, bright: Array, n_free: Array
+) -> tuple[Labels, Layers]:
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     flat, count = labels.ravel(), len(layers.planes)
     kept = [k for k in range(count) if np.sum(flat == k + 1) >= KEPT * flat.size]
@@ -173,7 +175,7 @@ def _learnt(image: Coarse, table: LightTable, layers: Layers, labels: Labels, li
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
     labels = new[labels]
     of_object, of_rest = None, None
-    mine = object_of(labels, len(kept)).ravel()
+    mine = object_of(labels, planes, n_free).ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
         both = bright[free | rest]
@@ -232,20 +234,30 @@ SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
+NO_CREASE, MOSTLY, BESIDE = 0.97, 0.5, 2
+"""Cosine (14 degrees) of normals that go on smoothly, share of a plane's edge along which they do, and its width in coarse pixels."""
 INNER = 0.15
 """Share of the largest piece from which one that does not touch the border goes before all that do."""
 
 
-def background_of(labels: Labels, planes: int) -> Mask:
-    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter."""
+def background_of(labels: Labels, planes: list[Array], n_free: Array) -> Mask:
+    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
+
+    A piece of a plane from which the object's matter goes on without a crease, by its normals n_free (rows, columns, 3), is a flat part
+    of the object, cut by the border.
+    """
     from scipy import ndimage
 
-    found = labels > planes
+    found = labels > len(planes)
     rim = np.ones(labels.shape, bool)
     rim[RIM:-RIM, RIM:-RIM] = False
-    for k in range(1, planes + 1):
+    for k, q in enumerate(planes, 1):
         piece, _ = ndimage.label(labels == k)
-        found |= np.isin(piece, np.setdiff1d(piece[rim], [0]))
+        smooth = n_free @ (-q / np.linalg.norm(q)) > NO_CREASE
+        for one in np.setdiff1d(piece[rim], [0]):
+            beside = ndimage.binary_dilation(piece == one, iterations=BESIDE) & (labels == 0)
+            if not (beside.sum() > FEWEST and smooth[beside].mean() > MOSTLY):
+                found |= piece == one
     return np.asarray(found)
 
 
@@ -264,11 +276,11 @@ def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
     return float(np.sum(wrong)) / max(int(np.sum(mask)), 1)
 
 
-def object_of(labels: Labels, planes: int) -> Mask:
+def object_of(labels: Labels, planes: list[Array], n_free: Array) -> Mask:
     """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other."""
     from scipy import ndimage
 
-    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes)))
+    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, n_free)))
     if not count:
         return np.zeros(labels.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
