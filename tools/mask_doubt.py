@@ -44,6 +44,9 @@ def main(folders: list[str]) -> None:
             continue
         begun = time.process_time()
         found, one = found_in(scene)
+        if found.weak is None:
+            print(f"{scene.name}  IoU {one:.3f}  {found.how}", flush=True)
+            continue
         weak.append(found.weak)
         iou.append(one)
         print(

@@ -222,7 +222,7 @@ def document_of(
         "units": "metres" if surface.rays_C[..., :2].any() else "pixels",
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
-        "mask_doubt": surface.figures.get("mask_doubt", 0.0),
+        "mask_doubt": surface.figures.get("mask_doubt"),
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),

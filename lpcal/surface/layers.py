@@ -62,7 +62,7 @@ class Appearance:
 
     @staticmethod
     def of(values: Array, low: float, high: float) -> Appearance:
-        """Of log values (N,), smoothed over a bin."""
+        """The appearance of log values (N,), smoothed over a bin."""
         from scipy import ndimage
 
         count, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
@@ -82,12 +82,12 @@ class Layers:
     planes: list[Array]
     """q (3,) each."""
     of_plane: list[Appearance | None]
-    """Of log albedo in each plane."""
+    """The appearance of each plane, by log albedo; None where too few pixels show it."""
     brightest: float
     """Log of the shading of the brightest matter."""
     of_object: Appearance | None = None
     of_rest: list[Appearance] | None = None
-    """Of the log of the brightest shading."""
+    """The appearances of all else, by the log of the brightest shading, as that of the object."""
 
 
 @dataclass(frozen=True)

@@ -54,12 +54,14 @@ class Found:
     how: str
     planes: tuple[planes.Plane, ...] = ()
     """Wall and supports; the first is the largest."""
-    weak: float = 1.0
-    """Area that hangs on weak evidence, as a share of the object's; 1 where nothing but the strength of the signal speaks."""
+    weak: float | None = None
+    """Area that hangs on weak evidence, as a share of the object's; None where no layers were labelled."""
 
     @property
-    def doubt(self) -> float:
-        """Odds (0..1) that the mask is wrong by more than a tenth of its area."""
+    def doubt(self) -> float | None:
+        """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where nothing tells them."""
+        if self.weak is None:
+            return None
         return float(1 / (1 + (DOUBTED / max(self.weak, 1e-3)) ** DOUBT_POWER))
 
 

@@ -25,8 +25,6 @@ WEAK = 0.1
 FIT_PIXELS = 700
 SPAN = (0.55, 3.5)
 """Of the working distance: where planes are looked for."""
-TILTS = ((0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.0), (-0.8, 0.0))
-"""Slopes of the planes that a fit starts from: x and y parts of q by its z part."""
 TRIED = 3
 SHADE_PRICE = 3.0
 """Sigmas that a sample costs which a plane takes for shadow: else one that fits nothing is as good as one that fits all."""
@@ -64,12 +62,6 @@ def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
     return np.where(hit, r, np.inf), np.asarray(counted.sum(axis=0), float)
 
 
-def albedo(seen: Sight, m: Array) -> tuple[Array, Mask]:
-    """Albedo (P,) that pixels have if they lie in a plane, shadows left out, and where (P,) two samples or more tell it."""
-    hit, found, counted, _ = _fitted(seen, m, shaded=True)
-    return found, hit & (counted.sum(axis=0) >= 2) & (found > 0)
-
-
 def strong(seen: Sight, m: Array) -> tuple[Mask, Array]:
     """The samples (L, P) by which a plane is judged, and m with 1 where a ray misses the plane."""
     hit = _hit(m)
@@ -101,7 +93,7 @@ def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
 
 
-def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool = False) -> Plane | None:
+def fit(seen: Sight, lights: Sequence[Light], distance_m: float) -> Plane | None:
     """The plane that most of the pixels lie in; None where they are too few."""
     from scipy import optimize
 
@@ -121,11 +113,7 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float, *, tilted: bool
         return float(np.sum(np.log1p(np.where(shade, SHADE_PRICE, np.nan_to_num(r, posinf=1e2)) ** 2)))
 
     nearest, furthest = SPAN
-    starts = [
-        np.array([sx, sy, 1.0]) / (distance_m * share)
-        for share in np.geomspace(nearest, furthest, 14)
-        for sx, sy in (TILTS if tilted else TILTS[:1])
-    ]
+    starts = [np.array([0.0, 0.0, 1 / (distance_m * share)]) for share in np.geomspace(nearest, furthest, 14)]
     best = sorted(starts, key=robust)[:TRIED]
     q = min((np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=6).x) for q in best), key=robust)
     q = np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=25).x)

@@ -98,7 +98,8 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
-        seen = sight.look_at(sight.grey(radiance, lights), rays_C, object_mask, central=central)
+        maps = sight.grey(radiance, lights)
+        seen = sight.look_at(maps, rays_C, object_mask, central=central)
     found = background.planes if near and background is not None else ()
     whole = surroundings.whole(maps, rays_C, object_mask) if found else None
     around = surroundings.patches(whole, found, lights) if whole is not None else None
@@ -106,7 +107,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
-        basins_found = basins.search(sight.grey(radiance, lights), rays_C, object_mask, lights, float(begin))
+        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin))
         u = basins_found.start(object_mask) if basins_found is not None else u
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
@@ -114,7 +115,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     surface = _surface(radiance, scene, state, rays_C, basins_found)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
     found_by = background if wanted else None
-    doubt = {} if found_by is None else {"mask_doubt": found_by.doubt}
+    doubt = {} if found_by is None or found_by.doubt is None else {"mask_doubt": found_by.doubt}
     return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **surface.figures})
 
 

@@ -2,11 +2,11 @@ r"""What samples say for and against an explanation of a pixel: matter of any no
 
 Symbols: signal I_k, predicted signal m_k, in units of the sample's standard deviation s_k::
 
-    s_k^2 = noise^2 + (MODEL^2 + doubt_k^2) I_k^2 + (INDIRECT max_l I_l)^2
+    s_k^2 = noise^2 + (MODEL^2 + doubt_k^2) I_k^2 + (indirect max_l I_l)^2
 
 A brighter sample costs min(r^2, OUTLIER), a darker one min(r^2, a shadow's price): DARK where next to nothing is left of it, HALF_DARK
-where it keeps much of its light. Light from elsewhere only adds, so INDIRECT is larger for brighter samples than for darker ones. Costs
-are twice negative logarithms of likelihoods: those of independent samples add up.
+where it keeps much of its light. Light from elsewhere only adds, so `indirect` is BRIGHTER for brighter samples, DARKER for darker ones.
+Costs are twice negative logarithms of likelihoods: those of independent samples add up.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SHADOW = 0.15
 """Share of a pixel's second largest shading under which a sample is not asked for the normal."""
 THROWN = 0.04
 """Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
-ROUNDS = 4
+ROUNDS = 3
 """Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
 WIDTH2 = 9.0
 """Square of the residual, in sigmas, at which a sample's weight for the normal has fallen to a quarter."""
@@ -63,7 +63,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
     shadow = shading < SHADOW * np.sort(shading, axis=0)[-2]
     weight = (usable & ~shadow) / spread2
     b = lambert.weighted(B, signal, weight)[0]
-    for _ in range(ROUNDS - 2):
+    for _ in range(ROUNDS - 1):
         square = square_residual(signal, lambert.predicted(B, b), spread2)
         b = lambert.weighted(B, signal, weight / (1 + square / WIDTH2) ** 2)[0]
     b = np.nan_to_num(b)

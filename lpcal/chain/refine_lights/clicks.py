@@ -139,10 +139,10 @@ def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tu
 def _promise(fit: _WithSettings, wings: Wings, row: int, step: int) -> float:
     """The gain of a click to second order."""
     moved = fit.settings[row, 1] - wings.wings[row].joint_angle_rad
-    return float(2 * step * CLICK_RAD * moved / wings.setting_sigma[1] ** 2) - _told(fit, wings, row)
+    return float(2 * step * CLICK_RAD * moved / wings.setting_sigma[1] ** 2) - _evidence(fit, wings, row)
 
 
-def _told(fit: _WithSettings, wings: Wings, row: int) -> float:
+def _evidence(fit: _WithSettings, wings: Wings, row: int) -> float:
     """How far the data tell a click of a joint from none: K."""
     sigma = wings.setting_sigma[1]
     return float((CLICK_RAD / sigma) ** 2 * (1 - fit.settings_std[row, 1] ** 2 / sigma**2))
@@ -150,8 +150,8 @@ def _told(fit: _WithSettings, wings: Wings, row: int) -> float:
 
 def _enough(fit: _WithSettings, wings: Wings, row: int) -> float:
     """The gain at which a click is believed."""
-    told = max(_told(fit, wings, row), ENOUGH_UNDER_ONE)
-    return max(ENOUGH, 2 * float(np.sqrt(told * ENOUGH_UNDER_ONE)) - told)
+    known = max(_evidence(fit, wings, row), ENOUGH_UNDER_ONE)
+    return max(ENOUGH, 2 * float(np.sqrt(known * ENOUGH_UNDER_ONE)) - known)
 
 
 def _clicked(wings: Wings, row: int, clicks: int) -> Wings:

@@ -8,7 +8,7 @@ Symbols: outline points with scatter s a point (px), radius r (px); a common rad
     its mean        matte small q, chrome rim (1 - min(1, r / 47)), beside what all of the kind share
 
 Scatter shows what the edge met besides the sphere's rim: squared, as it takes part of the rays along and is itself seen only in the rest.
-They are those of an outline seen all round. Of one that lacks a part, bias and shift cannot be told apart: they grow with the inverse of
+They are those of an outline seen all round. Where a part is lacking, bias and shift are hard to tell apart: they grow with the inverse of
 the normal matrix of (1, n) over its normals n. A matte outline's model of the limb does not hold within the blur, which moves it
 outwards; a chrome rim mirrors what is behind it in rings whose width is a share of the radius, and so is the bias that they make.
 """

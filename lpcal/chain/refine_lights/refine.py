@@ -81,21 +81,21 @@ def refine(
     kept = [view for view, _ in used]
     known = [(lobes or {}).get(name) or lobe_of_leds(leds_of(fit, k, wings)) for k, name in enumerate(lights)]
     found, warnings = near_lights(fit, lights, known, focus_C, intensity_sd)
-    shaded, told = any(view.shading for view in kept), [click.message() for click in clicks]
+    shaded, messages = any(view.shading for view in kept), [click.message() for click in clicks]
     if not shaded:
-        return _solution(found, focus_C, fit, None, views, kept, refused, [*told, *warnings], camera, wings)
+        return _solution(found, focus_C, fit, None, views, kept, refused, [*messages, *warnings], camera, wings)
     if wings is None or not can_fit(kept, wings, lights):
         samples = sample_blocks(kept, fit.centres_C, camera, found)
         volume = shading_volume(found, fit, samples, [view.radius_m for view in kept], focus_C)
         names, axis_known = [view.name for view in kept], [row is not None for row in fit.wing_of]
         shading = fit_shading(samples, known, names, intensity_sd, axis_known=axis_known, volume=volume)
         found = with_shading(found, shading)
-        return _solution(found, focus_C, fit, shading, views, kept, refused, [*told, *warnings], camera, wings)
-    joint, told = _joint(fit, used, known, camera, wings, intensity_sd, clicks)
+        return _solution(found, focus_C, fit, shading, views, kept, refused, [*messages, *warnings], camera, wings)
+    joint, messages = _joint(fit, used, known, camera, wings, intensity_sd, clicks)
     found = with_leds(joint.fit, joint.shading)
     focus_C = nearest_to_axes(np.array([light.H_CL for light in found]))
     found = [replace(light, direction_C=light.field(focus_C[None])[0][0]) for light in found]
-    return _solution(found, focus_C, joint.start, joint.shading, views, kept, refused, [*told, *warnings], camera, wings, joint.fit)
+    return _solution(found, focus_C, joint.start, joint.shading, views, kept, refused, [*messages, *warnings], camera, wings, joint.fit)
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def _joint(
     intensity_sd: float,
     clicks: list[Click],
 ) -> tuple[_Joint, list[str]]:
-    """Highlights and shading together, and what clicks are told: where the highlights are unsure of one, or few, the shading tells."""
+    """Highlights and shading together, and the clicks' messages: where highlights are few or leave a click unsure, shading decides it."""
     views, measured, lights = [view for view, _ in used], [m for _, m in used], start.lights
 
     def solve(now: Wings, begun: GeometryFit | None = None) -> _Joint:
