@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -106,14 +106,11 @@ class LightTable:
         d, E = light_vectors(lights, x_C.reshape(-1, 3))
         B = (d * E[..., None]).reshape(len(lights), *x_C.shape) * np.exp(2 * u)[:, None, None, None]
         doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
-        row, column = np.indices(image.shape)
-        places = np.stack([row.ravel() * (LATTICE[0] - 1) / max(rows - 1, 1), column.ravel() * (LATTICE[1] - 1) / max(columns - 1, 1)])
 
         def spread(values: Array, order: Literal[1, 3]) -> Array:
-            """Values (..., lattice) at the pixels (..., P)."""
-            flat: Any = values.reshape(-1, *LATTICE)
-            found = [ndimage.map_coordinates(one, places, order=order, mode="nearest").astype(np.float32) for one in flat]
-            return np.asarray(np.stack(found).reshape(*values.shape[:-2], -1))
+            """Values (..., lattice) at the pixels (..., P): splines of this order down and across."""
+            by_row, by_column = (_spline(nodes, side, order) for nodes, side in zip(LATTICE, image.shape, strict=True))
+            return np.asarray((by_row @ values @ by_column.T).reshape(*values.shape[:-2], -1), np.float32)
 
         return LightTable(float(u[0]), float(u[1] - u[0]), spread(np.moveaxis(B, -1, 2), 3), spread(doubt, 1))
 
@@ -142,6 +139,14 @@ class LightTable:
     def holds(self, u: Array) -> Mask:
         """Whether log depths lie in the table."""
         return np.asarray((u >= self.first) & (u <= self.first + self.step * (self.B.shape[1] - 1)))
+
+
+def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
+    """Matrix (places, nodes) from values at nodes evenly apart to a spline at places evenly apart, both from end to end."""
+    from scipy import ndimage
+
+    at = np.linspace(0, nodes - 1, places)[None]
+    return np.stack([ndimage.map_coordinates(one, at, order=order, mode="nearest") for one in np.eye(nodes)], axis=1)
 
 
 def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:
