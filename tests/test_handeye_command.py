@@ -55,6 +55,16 @@ def test_one_pose_an_image(tmp_path, lpcal):
     assert (code, "23 poses for 24 images" in err) == (6, True)
 
 
+@pytest.mark.parametrize("lost", ["handeye.easy_handeye.yaml", "H_OP.yaml", "handeye.yaml"])
+def test_what_a_killed_run_did_not_write_is_written_by_the_next(tmp_path, session, lpcal, lost):
+    moving_rig(tmp_path, session)
+    assert lpcal("run", cwd=tmp_path)[0] == 0
+    before = {path.name for path in (tmp_path / "calib").glob("*.yaml")}
+    (tmp_path / "calib" / lost).unlink()
+    assert lpcal("run", cwd=tmp_path)[0] == 0
+    assert {path.name for path in (tmp_path / "calib").glob("*.yaml")} == before
+
+
 def test_missing_pieces(tmp_path, session, lpcal):
     (tmp_path / "panel.yaml").write_text("lpcal: 1\nname: nothing\n")
     assert lpcal("handeye", cwd=tmp_path)[0] == 3

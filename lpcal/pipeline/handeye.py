@@ -38,9 +38,9 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     progress("hand-eye", 1, 1)
     handeye = _with_all_images(finding.handeye, given)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
+    write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given))
     write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding, track), provenance)
     write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
-    write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
 
 

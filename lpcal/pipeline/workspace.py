@@ -186,7 +186,7 @@ class Stage:
                     return False
         except (LpcalError, OSError, KeyError, TypeError):
             return False
-        return True
+        return all(workspace.calib(name).exists() for name in self.beside)
 
 
 def natural(path: Path) -> list[tuple[int, int | str]]:
