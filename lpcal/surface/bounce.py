@@ -26,7 +26,7 @@ from lpcal.surface import normals, sides
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
-from lpcal.surface.surroundings import Patches
+from lpcal.surface.surroundings import Around, Patches
 
 PATCHES = 2000
 STEPS = 6
@@ -47,7 +47,7 @@ INDEPENDENT = 25.0
 
 
 def thrown(
-    seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Patches | None = None
+    seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None
 ) -> tuple[Array, Array]:
     """J (L, P, 3) of a surface of depths (P,), normals n (P, 3) and an estimate of its albedo, and of what stands around it.
 
@@ -72,7 +72,7 @@ def thrown(
     by_unseen, unseen = sides.thrown(own.x_C, own.n, relief, albedo, lights)
     at_patches = _received(own, own, relief) + by_unseen
     if around is not None:
-        at_patches = at_patches + _received(own, around, relief)
+        at_patches = at_patches + _received(own, around.behind(relief, lights), relief)
     inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2)[seen.mask]
     blank = np.zeros(seen.mask.shape, np.float32)
 

@@ -226,7 +226,7 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
 def _model_std(state: State, inside: Mask) -> float:
     """Of a piece (P,): see uncertainty.model_std."""
     shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
-    return uncertainty.model_std(glossy=state.gloss is not None, shaded_share=shaded)
+    return uncertainty.model_std(glossy=state.field.gloss is not None, shaded_share=shaded)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
@@ -253,7 +253,7 @@ def _figures(state: State) -> dict[str, object]:
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
         "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
-        "gloss": None if state.gloss is None else asdict(state.gloss),
+        "gloss": None if state.field.gloss is None else asdict(state.field.gloss),
         "reflectance": state.reflectance,
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }
