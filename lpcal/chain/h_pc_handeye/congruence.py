@@ -22,6 +22,7 @@ import numpy as np
 from lpcal.errors import DisagreementError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Carries
 from lpcal.records.digits import fine
 
 FITS = 0.03
@@ -36,8 +37,6 @@ BOARD_SIGMAS = 3.0
 STUDENT = 1.28
 """Widens a sigma that comes from a dozen stretches of a session so that three of it are passed as rarely as three of a known one."""
 FAR_M = 1.0
-ON_BODY_M = 0.6
-"""Metres from the body's origin within which a board that it carries lies."""
 ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
@@ -130,10 +129,6 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
             needed="a camera fixed to the tracked body, a board that stays put, poses that belong to the images",
             todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
         )
-    if "poses are inverted" in named.found and named.reach_m > FAR_M:
-        fixed = fixed_camera(*park.park(_turned_round(H_OP[agreed.inliers]), H_CB[agreed.inliers]), inverted=True)
-        if fixed is not None:
-            raise fixed
     raise DisagreementError(
         f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once mended)",
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
@@ -141,48 +136,23 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
     )
 
 
-def _turned_round(poses: Array) -> Array:
-    """Poses that were stated one way round, the other way."""
-    return se3.inv(poses)
-
-
-def board_size_warning(scale: float, sigma: float, H_PC: Array) -> str | None:
+def board_size_warning(scale: float, sigma: float, H_PC: Array, carries: Carries = "camera") -> str | None:
     """In words, where the mocap finds the board another size than it was said to have, by its scale and that one's sigma."""
     if abs(scale - 1) < max(BOARD_OFF, BOARD_SIGMAS * sigma):
         return None
     otherwise = ", ".join(f"{1e3 * value:.1f}" for value in H_PC[:3, 3] / scale)
+    name, place = ("H_OC", "room") if carries == "board" else ("H_PC", "body")
     return (
         f"the mocap measures the board as {100 * scale:.2f} +- {fine(100 * sigma)} % of its stated size; which of the two is right these "
-        f"data cannot tell. H_PC is in the mocap's metres: if those are right, board.square is wrong (measure it over many squares); if "
-        f"board.square is right, all of the mocap's lengths are wrong by as much and the camera is at {otherwise} mm in the body"
+        f"data cannot tell. {name} is in the mocap's metres: if those are right, board.square is wrong (measure it over many squares); if "
+        f"board.square is right, all of the mocap's lengths are wrong by as much and the camera is at {otherwise} mm in the {place}"
     )
 
 
-def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array) -> str | None:
+def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array, carries: Carries) -> str | None:
     """`board_size_warning` before any solve; None where the closed form cannot tell the board's size as well as that."""
     sigma = STUDENT * park.board_scale_sigma(H_OP, H_CB)
-    return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC)
-
-
-def fixed_camera(H_PC: Array, H_OB: Array, *, inverted: bool) -> DisagreementError | None:
-    """The error for a camera that stands in the room and a board that rides on the tracked body; None for a camera on the body.
-
-    With the poses inverted such a session fits as well as one of a camera on the body: then what is solved for as H_PC is H_OC, the camera
-    in the room, and what is solved for as H_OB is H_PB, the board on the body. Their sizes tell: a board rides within reach of the body.
-    """
-    camera_m, board_m = (float(np.linalg.norm(H[:3, 3])) for H in (H_PC, H_OB))
-    if not (inverted and camera_m > FAR_M and board_m < NEARER * camera_m and board_m < ON_BODY_M):
-        return None
-    return DisagreementError(
-        f"this looks like a camera that stands still in the room and a board that rides on the tracked body: camera in the room H_OC at "
-        f"{_mm(H_PC)} mm, board on the body H_PB at {_mm(H_OB)} mm",
-        needed="a camera on the tracked body and a board that stands still: lpcal solves no other set-up",
-        todo="if the camera is on the body after all, write mocap.direction: H_OP",
-    )
-
-
-def _mm(H: Array) -> str:
-    return ", ".join(f"{1e3 * value:.1f}" for value in H[:3, 3])
+    return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC, carries)
 
 
 def swapped_roles_warning(H_PC: Array, H_OB: Array) -> str | None:
@@ -209,7 +179,7 @@ def _scale(H_OP: Array, H_CB: Array) -> float:
 def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> Iterator[tuple[str | None, str, Array, Array]]:
     """What might have gone wrong, what to do, and the data with it undone."""
     yield None, "", H_OP, H_CB
-    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO)"
+    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO); or mocap.carries: board, if the camera stands still in the room"
     yield "the mocap poses are inverted: they take room to body", todo, se3.inv(H_OP), H_CB
     if not from_images:
         todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC)"
