@@ -270,6 +270,22 @@ def list_shifted(rig: Path, _: Rng) -> None:
     listed_lights(rig, lambda rows: [[row[0], *other[1:]] for row, other in zip(rows, [*rows[1:], rows[0]], strict=True)])
 
 
+def two_exchanged(rig: Path, rng: Rng) -> None:
+    """Two of the twelve lights are listed in each other's place."""
+    one, other = rng.choice(12, 2, replace=False)
+
+    def change(rows: list[list[str]]) -> list[list[str]]:
+        rows[one][1:], rows[other][1:] = rows[other][1:], rows[one][1:]
+        return rows
+
+    listed_lights(rig, change)
+
+
+def rings_backwards(rig: Path, _: Rng) -> None:
+    """Each ring of six is listed the other way round."""
+    listed_lights(rig, lambda rows: [[row[0], *rows[6 * (k // 6) + (-k) % 6][1:]] for k, row in enumerate(rows)])
+
+
 def intensities(rig: Path, rng: Rng) -> None:
     for k in range(12):
         factor = rng.uniform(0.6, 1.0)
@@ -372,6 +388,8 @@ FAULTS: dict[str, Fault] = {
     "black level": Fault("surface", no_black, "black|ambient"),
     "white level": Fault("surface", partial(clipped, pattern="cap/*.png"), "white|saturat|clip|one level"),
     "lights' order": Fault("surface", list_shifted, "order|names"),
+    "two of twelve exchanged": Fault("surface", two_exchanged, "order|names|stand for|exchanged"),
+    "rings backwards": Fault("surface", rings_backwards, "order|names|turned|backwards"),
     "list's axes flipped": Fault("surface", axes_flipped, "axes|flip|behind"),
     "intensities": Fault("surface", intensities, "intensit"),
     "saturated": Fault("surface", overexposed, "saturat"),

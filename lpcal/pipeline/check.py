@@ -182,7 +182,7 @@ def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) ->
 
 
 def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings, options: Options) -> None:
-    found = set_up.of_pairs(H_OP[trusted], given.boards.H_CB[trusted], options)
+    found = set_up.of_pairs(H_OP[trusted], given.boards.H_CB[trusted], options, from_images=given.boards.corners_px is not None)
     if found.board_carried:
         findings.say("set-up", "the camera stands still in the room, the tracked body carries the board")
     findings.warnings += found.warnings()

@@ -182,7 +182,7 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
     todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO); or mocap.carries: board, if the camera stands still in the room"
     yield "the mocap poses are inverted: they take room to body", todo, se3.inv(H_OP), H_CB
     if not from_images:
-        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC)"
+        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC); or mocap.carries: board, if the camera stands still"
         yield "the board poses are inverted", todo, H_OP, se3.inv(H_CB)
     q = se3.quaternion(H_OP[:, :3, :3])
     for order, place, other in (("w, x, y, z", [1, 2, 3, 0], "wxyz"), ("x, y, z, w", [3, 0, 1, 2], "xyzw")):

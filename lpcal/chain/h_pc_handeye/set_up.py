@@ -47,11 +47,14 @@ class SetUp:
         return ["the poses take the body to the room, not mocap.direction: H_PO as is stated: they are read so"] if self.misstated else []
 
 
-def of_pairs(H_OP: Array, H_CB: Array, options: Options) -> SetUp:
-    """The set-up of panel poses H_OP (N, 4, 4), as read, and board poses H_CB (N, 4, 4)."""
+def of_pairs(H_OP: Array, H_CB: Array, options: Options, *, from_images: bool = True) -> SetUp:
+    """The set-up of panel poses H_OP (N, 4, 4), as read, and board poses H_CB (N, 4, 4).
+
+    Board poses found elsewhere may be inverted, which looks as a fixed camera does: of these the data leave it open.
+    """
     if options.carries is not None:
         return SetUp(options.carries == "board")
-    if len(H_OP) < FEWEST:
+    if len(H_OP) < FEWEST or not from_images:
         return SetUp()
     agreed = park.consensus(H_OP, H_CB)
     if congruence.fits(H_OP, H_CB, agreed):
@@ -62,16 +65,18 @@ def of_pairs(H_OP: Array, H_CB: Array, options: Options) -> SetUp:
     return SetUp(congruence.fits(turned, H_CB, agreed) and _carried(agreed))
 
 
-def of_track(track: PoseTrack, t_camera_s: Array, H_CB: Array, options: Options) -> SetUp:
+def of_track(track: PoseTrack, t_camera_s: Array, H_CB: Array, options: Options, *, from_images: bool = True) -> SetUp:
     """The set-up of a recording and board poses at the camera's times (N,), at the likeliest clock offset: angles know of no set-up."""
     if options.carries is not None:
         return SetUp(options.carries == "board")
+    if not from_images:
+        return SetUp()
     known_s = options.clock_offset_s
     candidates = [] if known_s is not None else clock.offset_candidates(track, t_camera_s, H_CB)
     if known_s is None and not candidates:
         return SetUp()
     panel = poses_at(track, t_camera_s - (candidates[0].offset_s if known_s is None else known_s))
-    return of_pairs(panel.H[panel.trusted], H_CB[panel.trusted], options)
+    return of_pairs(panel.H[panel.trusted], H_CB[panel.trusted], options, from_images=from_images)
 
 
 def _carried(agreed: park.Consensus) -> bool:

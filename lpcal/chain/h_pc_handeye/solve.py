@@ -63,7 +63,7 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
     """
     stamped_s = np.asarray(boards.t_camera_s)
     t_camera_s, rate = without_rate(track, stamped_s, boards.H_CB) if options.clock_offset_s is None else (stamped_s, 0.0)
-    found = set_up.of_track(track, t_camera_s, boards.H_CB, options)
+    found = set_up.of_track(track, t_camera_s, boards.H_CB, options, from_images=boards.corners_px is not None)
     options = replace(options, carries="board" if found.board_carried else "camera")
     track = replace(track, inverse=found.board_carried != found.misstated)
     state = start_moving(boards, track, t_camera_s, camera, options)
@@ -86,7 +86,7 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
 def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
-    found = set_up.of_pairs(H_OP, boards.H_CB, options)
+    found = set_up.of_pairs(H_OP, boards.H_CB, options, from_images=boards.corners_px is not None)
     options = replace(options, carries="board" if found.board_carried else "camera")
     panel = TrackPoses(np.full(count, np.nan), found.mover(H_OP), np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
     return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, found.warnings(), None, told=found)
