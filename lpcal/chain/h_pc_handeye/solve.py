@@ -16,6 +16,7 @@ from lpcal.chain.h_pc_handeye.clock import without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, estimate, misfit
+from lpcal.chain.h_pc_handeye.stamps import late_stamps
 from lpcal.chain.h_pc_handeye.start import start_moving, start_paired
 from lpcal.chain.h_pc_handeye.state import Options, State
 from lpcal.errors import ConvergenceError, DegenerateError
@@ -78,6 +79,8 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
         warnings.append(
             f"the camera's clock runs {1e6 * drift.rate:+.0f} +- {1e6 * drift.std:.1f} ppm fast: its times are corrected for it"
         )
+    late = late_stamps(state, t_camera_s)
+    warnings += [late] if late else []
     if options.clock_offset_s is None and not state.clock:
         warnings.append("the panel stood still in every view that was used: the data do not show the clock offset, it is left out")
     return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift, found)
