@@ -14,7 +14,7 @@ Source: screw congruence, Chen, A screw motion approach to uniqueness analysis o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +41,21 @@ ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
 SHIFTS = (1, -1, 2, -2, 3, -3)
+ANGLES: dict[str, Callable[[Array], Array]] = {
+    "abc_deg": lambda v: se3.rotation_about_axes(v, "zyx"),
+    "xyz_deg": lambda v: se3.rotation_about_axes(v, "xyz"),
+    "zyz_deg": lambda v: se3.rotation_about_axes(v, "zyz"),
+    "rpy_deg": lambda v: se3.rotation_about_axes(v[:, ::-1], "zyx"),
+    "rotation_vector_deg": se3.rotation,
+}
+"""Rotations (N, 3, 3) of three numbers (N, 3) in radians, by what ``mocap.rotation`` calls them."""
+MEANT = {
+    "abc_deg": "angles about z, y', x''",
+    "xyz_deg": "angles about x, y', z''",
+    "zyz_deg": "angles about z, y', z''",
+    "rpy_deg": "roll, pitch, yaw",
+    "rotation_vector_deg": "a rotation vector",
+}
 UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm", 1 / 25.4: "1/inches"}
 
 
@@ -191,6 +206,7 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
         words = f"the quaternions are in another order: they are {order}"
         yield words, f"write mocap.quaternion: {other}", H, H_CB
         yield f"{words}, and the poses are inverted", f"write mocap.quaternion: {other} and mocap.direction: H_PO", se3.inv(H), H_CB
+    yield from _other_angles(H_OP, H_CB)
     todo = "export the recording anew in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
     for axis in range(3):
         mirror = np.eye(4)
@@ -205,6 +221,26 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
         if len(poses) >= 6:
             words = f"the pairing is shifted by {abs(shift)}: view k belongs to the pose of view k{shift:+d}"
             yield words, "correct the images' names or times: mocap.poses or mocap.images", poses, boards
+
+
+def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, Array]]:
+    """Three numbers of a rotation read as one thing that are another; where poses hold no such numbers, none of it mends anything."""
+    R = H_OP[:, :3, :3]
+    zyx = se3.angles_about_zyx(R)
+    for read, v in (("abc_deg", zyx), ("rpy_deg", zyx[:, ::-1]), ("rotation_vector", se3.rotation_vector(R))):
+        for name, meant in ANGLES.items():
+            if name != read and (read, name) != ("rpy_deg", "abc_deg"):
+                H = H_OP.copy()
+                H[:, :3, :3] = meant(v)
+                words = f"the rotations' three numbers are of another order or kind than {read.split('_deg')[0]}: {MEANT[name]}"
+                yield words, f"write mocap.rotation: {name}{_other_way(read, name)}", H, H_CB
+
+
+def _other_way(read: str, name: str) -> str:
+    """What to add where the same mends the other mistake, and where a rotation vector, in radians, turned out to hold angles."""
+    if (read, name) == ("abc_deg", "rpy_deg"):
+        return " (or abc_deg, if it says rpy)"
+    return " (the numbers in degrees)" if read == "rotation_vector" else ""
 
 
 def _with_scale(found: str | None, scale: float) -> str:
