@@ -321,6 +321,24 @@ def gamma(rig: Path, _: Rng, pattern: str) -> None:
     captures(rig, lambda image: np.asarray(image ** (1 / 2.2)), pattern)
 
 
+def glossy_gamma(rig: Path, rng: Rng, keep: int) -> None:
+    """A broad gloss on the object, a photograph's gamma, and `keep` of the twelve lights."""
+    rows = [line.split() for line in (rig / "dome.lp").read_text().splitlines()[1:]]
+    truth = np.load(rig / "truth.npz")
+    strength, power = rng.uniform(0.1, 0.3), rng.uniform(8, 20)
+    for k, row in enumerate(rows):
+        if k % 2 and k > 2 * (keep - 6):
+            (rig / "cap" / row[0]).unlink()
+            continue
+        half = np.array([float(v) for v in row[1:]]) * [1, -1, -1] + [0, 0, -1]
+        shine = np.maximum(truth["normals"] @ (half / np.linalg.norm(half)), 0) ** power
+        shine = strength * np.nan_to_num(shine) * truth["mask"]
+        captures(rig, lambda image, shine=shine: np.asarray(np.clip(image + shine, 0, 1)), f"cap/{row[0]}")
+    kept = [row for row in rows if (rig / "cap" / row[0]).exists()]
+    (rig / "dome.lp").write_text("\n".join(" ".join(row) for row in [[str(len(kept))], *kept]) + "\n")
+    gamma(rig, rng, "cap/*.png")
+
+
 def edited(rig: Path, _: Rng, old: str, new: str) -> None:
     edit(rig, old, new)
 
@@ -385,6 +403,8 @@ FAULTS: dict[str, Fault] = {
     "sphere radius 3 % small": Fault("lights", partial(edited, old=f"25 mm, {CHROME}", new=f"24.25 mm, {CHROME}"), "radius"),
     "sphere moved between": Fault("lights", sphere_moved, "moved|outline"),
     "gamma": Fault("surface", partial(gamma, pattern="cap/*.png"), "gamma"),
+    "gamma, glossy": Fault("surface", partial(glossy_gamma, keep=12), "gamma"),
+    "gamma, glossy, few lights": Fault("surface", partial(glossy_gamma, keep=8), "gamma"),
     "black level": Fault("surface", no_black, "black|ambient"),
     "white level": Fault("surface", partial(clipped, pattern="cap/*.png"), "white|saturat|clip|one level"),
     "lights' order": Fault("surface", list_shifted, "order|names"),
