@@ -29,3 +29,16 @@ def test_stamps_a_frame_off_are_named(seed: int, by_s: float) -> None:
 def test_right_stamps_are_not_doubted(seed: int) -> None:
     session = moving_session(np.random.default_rng(seed), 48, flips=0.1 * (seed % 2))
     assert "stamps" not in warnings(session, session.boards.t_camera_s)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_blurred_boards_are_no_wrong_stamps(seed: int) -> None:
+    session = moving_session(np.random.default_rng(seed), 72)
+    rng = np.random.default_rng(seed + 20)
+    blurred = rng.random(72) < 0.2
+    corners = session.boards.corners_px + blurred[:, None, None] * rng.normal(0, 4.0, (72, 1, 2))
+    shift = np.where(blurred[:, None], rng.normal(0, 0.004, (72, 3)), 0)
+    H_CB = session.boards.H_CB.copy()
+    H_CB[:, :3, 3] += shift
+    smeared = replace(session, boards=replace(session.boards, corners_px=corners, H_CB=H_CB))
+    assert "stamps" not in warnings(smeared, session.boards.t_camera_s)

@@ -16,6 +16,9 @@ from lpcal.geometry.pose_track import poses_at
 
 FEWEST = 3
 """Views that must fit at another time: one or two may by chance."""
+MOST_OF = 0.5
+"""Share of the views left out that must: where stamps are what is wrong nearly all do, while of views that are out by their noise or lost one
+in five fits somewhere."""
 REACH_S = 0.3
 """Seconds by which a stamp may be off: several images of any camera that a panel is calibrated with."""
 STEP_S = 0.0025
@@ -42,7 +45,7 @@ def late_stamps(state: State, t_camera_s: Array) -> str | None:
     off = np.where(panel.trusted, off, np.inf).reshape(len(out), len(tried))
     best = np.argmin(off, axis=1)
     late = (off[np.arange(len(out)), best] < FITS) & (np.abs(tried[best]) > LEAST_S)
-    if late.sum() < FEWEST:
+    if late.sum() < max(FEWEST, MOST_OF * len(out)):
         return None
     images = [state.boards.images[row] for row in out[late]]
     more = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""
