@@ -17,8 +17,8 @@ from lpcal.geometry.pose_track import poses_at
 FEWEST = 3
 """Views that must fit at another time: one or two may by chance."""
 MOST_OF = 0.5
-"""Share of the views left out that must: where stamps are what is wrong nearly all do, while of views that are out by their noise or lost one
-in five fits somewhere."""
+"""Share of the views left out that must: where stamps are what is wrong nearly all do, while of views that are out by their noise one in
+five fits somewhere."""
 REACH_S = 0.3
 """Seconds by which a stamp may be off: several images of any camera that a panel is calibrated with."""
 STEP_S = 0.0025
