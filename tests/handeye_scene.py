@@ -46,16 +46,20 @@ class Session:
     """(N, 4, 4) measured panel poses (static sessions)."""
     stream: PoseStream | None
     H_PC: np.ndarray
+    """H_OC of a fixed camera."""
     H_OB: np.ndarray
+    """H_PB of a fixed camera."""
     offset_s: float
     flipped: np.ndarray
     """(N,) whether the view's panel pose was swapped."""
 
 
-def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0) -> Session:
-    """Views at rest, each with its own pose."""
+def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0, *, fixed=False) -> Session:
+    """Views at rest, each with its own pose; `fixed`: the camera stands in the room and the body carries the board."""
     H_PC, H_OB, H_CB = _scene(rng, views, np.radians(turn_deg))
-    true_OP = H_OB @ se3.inv(H_PC @ H_CB)
+    if fixed:
+        H_PC, H_OB = _fixed(rng)
+    true_OP = _poses(H_PC, H_OB, H_CB, fixed=fixed)
     H_OP = _measured(rng, true_OP, noise)
     flipped = rng.random(views) < flips
     H_OP[flipped] = H_OP[flipped] @ se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
@@ -78,15 +82,17 @@ def robot_session(rng, turn_deg=0.03, shift_mm=0.3) -> Session:
     return replace(session, H_OP=moved)
 
 
-def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every_s=1 / FRAME_HZ) -> Session:
-    """The panel waved by hand before the board, camera and mocap each on its own clock."""
+def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every_s=1 / FRAME_HZ, *, fixed=False) -> Session:
+    """The panel waved by hand before the board, camera and mocap each on its own clock; `fixed` as of `static_session`."""
     H_PC, H_OB, H_0 = _scene(rng, 1, 0.05)
+    if fixed:
+        H_PC, H_OB = _fixed(rng)
     motion = _motion(rng, np.radians(turn_deg))
     offset = float(rng.uniform(0.03, 0.08)) * rng.choice([-1, 1])
     t_image = 1.0 + np.arange(views) * every_s + rng.normal(0, 2e-4, views)  # on the mocap's clock
     t_mocap = np.arange(0.0, t_image[-1] + 1.0, 1 / MOCAP_HZ)
     H_CB = motion(t_image) @ H_0[0]
-    stream_true = H_OB @ se3.inv(H_PC @ (motion(t_mocap) @ H_0[0]))
+    stream_true = _poses(H_PC, H_OB, motion(t_mocap) @ H_0[0], fixed=fixed)
     H_OP = _measured(rng, stream_true, noise)
     flipped = np.zeros(len(t_mocap), dtype=bool)
     while flips and flipped.mean() < flips:
@@ -96,6 +102,17 @@ def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every
     stream = PoseStream("Panel", t_mocap, H_OP, np.full(len(t_mocap), np.nan), rate_hz=MOCAP_HZ)
     camera, boards = _seen(rng, H_CB, noise, t_image + offset)
     return Session(boards, camera, H_OP[:0], stream, H_PC, H_OB, offset, np.zeros(views, dtype=bool))
+
+
+def _fixed(rng):
+    """H_OC of a camera in the room, H_PB of a board on the body."""
+    H_OC = se3.exp(np.concatenate([rng.normal(0, 0.5, 3), np.zeros(3)]))
+    H_OC[:3, 3] = rng.uniform(0.7, 2.5) * se3.rotation(rng.normal(0, 2, 3))[:, 0]
+    return H_OC, se3.exp(np.concatenate([rng.normal(0, 0.4, 3), rng.normal(0, 0.05, 3)]))
+
+
+def _poses(H_PC, H_OB, H_CB, *, fixed):
+    return H_PC @ H_CB @ se3.inv(H_OB) if fixed else H_OB @ se3.inv(H_PC @ H_CB)
 
 
 def _scene(rng, views, turn_rad):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lpcal.chain.h_pc_handeye.congruence import fixed_camera
 from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
@@ -100,17 +99,6 @@ def test_a_few_lost_poses_lend_no_axis(lost: int) -> None:
     H_OP[4 : 4 + lost] = np.eye(4)
     with pytest.raises(DegenerateError, match="about one axis only, about its z"):
         solve_paired(BoardPoses(tuple(NAMES[:24]), None, H_CB), H_OP, None, Options())
-
-
-def test_a_fixed_camera_is_told_from_an_inverted_stream() -> None:
-    far = se3.transform(np.eye(3), np.array([1.7, -1.0, 1.1]))
-    near = se3.transform(np.eye(3), np.array([0.05, -0.04, 0.02]))
-    found = fixed_camera(far, near, inverted=True)
-    assert found is not None
-    assert "H_OC at 1700.0, -1000.0, 1100.0 mm" in found.found
-    assert "H_PB at 50.0, -40.0, 20.0 mm" in found.found
-    assert fixed_camera(near, far, inverted=True) is None
-    assert fixed_camera(far, near, inverted=False) is None
 
 
 @pytest.mark.parametrize("scale", [1.015, 0.98, 1.03])

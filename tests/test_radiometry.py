@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lpcal.detect.radiometry import Sensor, fit_flat_field, noise_model, to_radiance
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.records.observations import RawCapture
 
 SHAPE = (96, 128)
@@ -177,3 +177,16 @@ def test_light_that_is_not_clipped_does_not_pile_up() -> None:
     flat = np.full(SHAPE, 0.6)[None] * np.array([0.9, 1.0])[:, None, None]
     for images in (flat, ball(3, 8, 5) * np.array([1.0, 0.6, 0.3])[:, None, None], np.stack([ramp(0.1, 0.7), ramp(0.7, 0.1)])):
         assert not to_radiance(capture(np.rint(255 * images) / 255), Sensor()).saturated.any()
+
+
+@pytest.mark.parametrize("noise", [0.001, 0.02])
+@pytest.mark.parametrize(("black", "stated"), [(0.008, 0.08), (0.02, 0.05), (0.05, 0.09)])
+def test_a_black_level_over_the_darkest_pixels_is_refused(black: float, stated: float, noise: float) -> None:
+    rng = np.random.default_rng(int(1000 * stated))
+    light = np.concatenate([np.zeros(4000), np.linspace(0, 0.7, 6000)])
+    images = np.clip(black + light + rng.normal(0, noise, (5, 10000)), 0, 1).astype(np.float32).reshape(5, 100, 100)
+    with pytest.raises(DisagreementError, match="darker than black") as error:
+        to_radiance(capture(images, step=1 / 65535), Sensor(black_level=stated))
+    assert f"stated as {100 * stated:.3g} %" in error.value.found
+    to_radiance(capture(images, step=1 / 65535), Sensor(black_level=black))
+    to_radiance(capture(images, step=1 / 65535), Sensor(black_level=black + 0.003))

@@ -117,6 +117,28 @@ def test_imported_lights_heed_a_gamma_wherever_it_is_stated(lpcal, tmp_path, sta
     assert error_deg(tmp_path / "untold", drawn) > 5.0
 
 
+@pytest.mark.parametrize(
+    ("panel", "calibration", "words"),
+    [
+        ("gamma: 1.8", "gamma: srgb", "panel.yaml says gamma 1.8, c.yaml gamma srgb, which counts"),
+        ("gamma: srgb", "gamma: 2.2", "panel.yaml says gamma srgb, c.yaml gamma 2.2, which counts"),
+        ("gamma: srgb, white_level: 99 %", "gamma: srgb, white_level: 0.98", "panel.yaml says white level 99 %, c.yaml white level 98 %"),
+        ("gamma: srgb", "gamma: srgb", ""),
+    ],
+)
+def test_a_panel_changed_over_its_calibration_is_said(lpcal, tmp_path, panel, calibration, words):
+    write(tmp_path / "cap", draw(RECIPE, 3))
+    assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
+    with (tmp_path / "c.yaml").open("a") as file:
+        file.write(f"camera: {{{calibration}}}\n")
+    (tmp_path / "panel.yaml").write_text(f"lpcal: 1\ncamera: {{{panel}}}\n")
+    _, _, told = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out")
+    assert words in told
+    assert words or "which counts" not in told
+    stated = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out", "--gamma", "srgb", "--white-level", "99%")[2]
+    assert "which counts" not in stated
+
+
 def test_a_panel_elsewhere_says_nothing_of_this_capture(lpcal, tmp_path):
     write(tmp_path / "other/cap", draw(RECIPE, 3))
     (tmp_path / "rig").mkdir()

@@ -58,3 +58,13 @@ def test_lights_in_another_order(lpcal, tmp_path: Path, order: list[int]) -> Non
 def test_mirrored_lists(lpcal, tmp_path: Path, order: list[int], signs: tuple[int, int, int]) -> None:
     write(tmp_path, list(order), signs)
     assert "x or y turned over" in said(lpcal, tmp_path)
+
+
+@pytest.mark.parametrize(("one", "other"), [(0, 1), (2, 9), (7, 10)])
+def test_two_of_a_dozen_exchanged(lpcal, tmp_path: Path, one: int, other: int) -> None:
+    order = list(range(12))
+    order[one], order[other] = other, one
+    write(tmp_path, order)
+    words = said(lpcal, tmp_path)
+    assert f"L{one} fits the light L{other}" in words
+    assert f"L{other} fits the light L{one}" in words

@@ -270,6 +270,22 @@ def list_shifted(rig: Path, _: Rng) -> None:
     listed_lights(rig, lambda rows: [[row[0], *other[1:]] for row, other in zip(rows, [*rows[1:], rows[0]], strict=True)])
 
 
+def two_exchanged(rig: Path, rng: Rng) -> None:
+    """Two of the twelve lights are listed in each other's place."""
+    one, other = rng.choice(12, 2, replace=False)
+
+    def change(rows: list[list[str]]) -> list[list[str]]:
+        rows[one][1:], rows[other][1:] = rows[other][1:], rows[one][1:]
+        return rows
+
+    listed_lights(rig, change)
+
+
+def rings_backwards(rig: Path, _: Rng) -> None:
+    """Each ring of six is listed the other way round."""
+    listed_lights(rig, lambda rows: [[row[0], *rows[6 * (k // 6) + (-k) % 6][1:]] for k, row in enumerate(rows)])
+
+
 def intensities(rig: Path, rng: Rng) -> None:
     for k in range(12):
         factor = rng.uniform(0.6, 1.0)
@@ -303,6 +319,24 @@ def map_convention(rig: Path, rng: Rng) -> None:
 
 def gamma(rig: Path, _: Rng, pattern: str) -> None:
     captures(rig, lambda image: np.asarray(image ** (1 / 2.2)), pattern)
+
+
+def glossy_gamma(rig: Path, rng: Rng, keep: int) -> None:
+    """A broad gloss on the object, a photograph's gamma, and `keep` of the twelve lights."""
+    rows = [line.split() for line in (rig / "dome.lp").read_text().splitlines()[1:]]
+    truth = np.load(rig / "truth.npz")
+    strength, power = rng.uniform(0.1, 0.3), rng.uniform(8, 20)
+    for k, row in enumerate(rows):
+        if k % 2 and k > 2 * (keep - 6):
+            (rig / "cap" / row[0]).unlink()
+            continue
+        half = np.array([float(v) for v in row[1:]]) * [1, -1, -1] + [0, 0, -1]
+        shine = np.maximum(truth["normals"] @ (half / np.linalg.norm(half)), 0) ** power
+        shine = strength * np.nan_to_num(shine) * truth["mask"]
+        captures(rig, lambda image, shine=shine: np.asarray(np.clip(image + shine, 0, 1)), f"cap/{row[0]}")
+    kept = [row for row in rows if (rig / "cap" / row[0]).exists()]
+    (rig / "dome.lp").write_text("\n".join(" ".join(row) for row in [[str(len(kept))], *kept]) + "\n")
+    gamma(rig, rng, "cap/*.png")
 
 
 def edited(rig: Path, _: Rng, old: str, new: str) -> None:
@@ -369,9 +403,13 @@ FAULTS: dict[str, Fault] = {
     "sphere radius 3 % small": Fault("lights", partial(edited, old=f"25 mm, {CHROME}", new=f"24.25 mm, {CHROME}"), "radius"),
     "sphere moved between": Fault("lights", sphere_moved, "moved|outline"),
     "gamma": Fault("surface", partial(gamma, pattern="cap/*.png"), "gamma"),
+    "gamma, glossy": Fault("surface", partial(glossy_gamma, keep=12), "gamma"),
+    "gamma, glossy, few lights": Fault("surface", partial(glossy_gamma, keep=8), "gamma"),
     "black level": Fault("surface", no_black, "black|ambient"),
     "white level": Fault("surface", partial(clipped, pattern="cap/*.png"), "white|saturat|clip|one level"),
     "lights' order": Fault("surface", list_shifted, "order|names"),
+    "two of twelve exchanged": Fault("surface", two_exchanged, "order|names|stand for|exchanged"),
+    "rings backwards": Fault("surface", rings_backwards, "order|names|turned|backwards"),
     "list's axes flipped": Fault("surface", axes_flipped, "axes|flip|behind"),
     "intensities": Fault("surface", intensities, "intensit"),
     "saturated": Fault("surface", overexposed, "saturat"),

@@ -28,6 +28,11 @@ NOISE_BINS = 24
 NOISE_BLOCK_PX = 12
 LOWER_QUARTER = 0.842
 """The lower quarter of the variances of such blocks of white noise, as a fraction of the true one."""
+BLACK_BLOCK = 8
+"""Side of the blocks of pixels whose mean is held against black: it scatters by an eighth of a pixel's noise."""
+BLACK_OFF, BLACK_SIGMAS, BLACK_SHARE = 0.005, 4.0, 0.01
+"""Share of full scale, beside standard deviations of its own mean, by which a block is darker than black, and the share of such blocks from
+which the black level is wrong: half a percent of full scale is what a sensor's own pattern makes."""
 DARK_SIGMAS, DARK_PIXELS = 10.0, 8
 """A light that lifts fewer pixels than this by so many sigmas is off."""
 
@@ -87,6 +92,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     linear = sensor.linear(raw.images)
     ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
     noise = noise_model(linear, saturated, raw.step)
+    _refuse_black(raw, sensor, linear)
     response = sensor.response(linear.shape)
     exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
     ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
@@ -105,6 +111,30 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     notes += [f"{light} lights nothing: is it off in its image?" for light in dark]
     lit = signal / response
     return Radiance(raw.name, raw.lights, lit, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
+
+
+def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
+    """Stop where blocks of pixels are darker than no light at all, by more than their noise makes them."""
+    mean, scatter = _blocks(linear)
+    below = mean < -(BLACK_OFF + BLACK_SIGMAS * scatter / BLACK_BLOCK)
+    if below.size == 0 or below.mean() < BLACK_SHARE:
+        return
+    darkest = 100 * float(np.percentile(_blocks(raw.images)[0], 100 * BLACK_SHARE))
+    raise DisagreementError(
+        f"{100 * below.mean():.0f} % of the image is darker than black: the black level is stated as {100 * sensor.black_level:.3g} % of "
+        f"full scale, the darkest places are at {darkest:.2g} %",
+        where=raw.name,
+        needed="the black level of these images, what they hold with the lens cap on",
+        todo="correct black_level (capture.yaml, --black-level, or camera: in panel.yaml)",
+    )
+
+
+def _blocks(images: Image) -> tuple[Image, Image]:
+    """Mean and standard deviation (L, h, w) of square blocks of images (L, H, W) or (L, H, W, 3), the channels joined."""
+    grey = images if images.ndim == 3 else images.mean(axis=3)
+    h, w = grey.shape[1] // BLACK_BLOCK, grey.shape[2] // BLACK_BLOCK
+    blocks = grey[:, : h * BLACK_BLOCK, : w * BLACK_BLOCK].reshape(len(grey), h, BLACK_BLOCK, w, BLACK_BLOCK)
+    return blocks.mean(axis=(2, 4)), blocks.std(axis=(2, 4))
 
 
 def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, float]:

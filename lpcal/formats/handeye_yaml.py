@@ -7,6 +7,9 @@
 - ``views``: ``image, used, why`` (null where used), ``residual_px`` (corners, rms a coordinate), ``residual_m``, ``residual_deg``
   (the board seen through the measured body pose against H_OB), ``held_out_m`` (the same against the H_OB of a solve without the view)
 - ``transforms``: H_PC, H_CP, H_OB, H_BO in the forms that other programs take
+
+Where the body carries the board, before a camera that stands still, ``H_OC`` (the camera in the room) stands for ``H_PC`` and ``H_PB``
+(the board on the body) for ``H_OB`` in all of it; the residuals are those of the board on the body.
 """
 
 from __future__ import annotations
@@ -19,24 +22,25 @@ import numpy as np
 from lpcal.formats.document_numbers import covariance, number, rigid
 from lpcal.formats.documents import Provenance, read_record, write_document
 from lpcal.formats.pasted_transforms import both_ways
-from lpcal.records.calibration import HandEye, ViewVerdict
+from lpcal.records.calibration import NAMES, Carries, HandEye, ViewVerdict
 
 KIND = "handeye"
 
 
 def write_handeye(path: Path, found: HandEye, provenance: Provenance, body: str = "panel") -> None:
     """Write handeye.yaml; `body` is the tracked body's name."""
+    camera, board = found.names
     content = {
-        "H_PC": found.H_PC,
-        "H_PC_covariance": found.H_PC_covariance,
-        "H_OB": found.H_OB,
-        "H_OB_covariance": found.H_OB_covariance,
+        camera: found.H_PC,
+        f"{camera}_covariance": found.H_PC_covariance,
+        board: found.H_OB,
+        f"{board}_covariance": found.H_OB_covariance,
         "clock_offset_s": found.clock_offset_s,
         "clock_offset_std_s": found.clock_offset_std_s,
         "clock_drift_ppm": 1e6 * found.clock_drift,
         "clock_middle_s": found.clock_middle_s,
         "warnings": list(found.warnings),
-        "transforms": both_ways(found.H_PC, found.H_OB, body),
+        "transforms": both_ways(found.H_PC, found.H_OB, body, found.carries),
         "evidence": found.evidence,
         "views": [_view(view) for view in found.views],
     }
@@ -55,11 +59,13 @@ def read_handeye(path: Path) -> HandEye:
 
 
 def _handeye(document: dict[str, Any]) -> HandEye:
+    carries: Carries = "board" if "H_OC" in document else "camera"
+    camera, board = NAMES[carries]
     return HandEye(
-        H_PC=rigid(document, "H_PC"),
-        H_PC_covariance=covariance(document, "H_PC_covariance", 6),
-        H_OB=rigid(document, "H_OB"),
-        H_OB_covariance=covariance(document, "H_OB_covariance", 6),
+        H_PC=rigid(document, camera),
+        H_PC_covariance=covariance(document, f"{camera}_covariance", 6),
+        H_OB=rigid(document, board),
+        H_OB_covariance=covariance(document, f"{board}_covariance", 6),
         clock_offset_s=number(document, "clock_offset_s"),
         clock_offset_std_s=number(document, "clock_offset_std_s"),
         views=tuple(_verdict(view) for view in document["views"]),
@@ -67,6 +73,7 @@ def _handeye(document: dict[str, Any]) -> HandEye:
         clock_middle_s=number(document, "clock_middle_s") or 0.0,
         warnings=tuple(document.get("warnings") or ()),
         evidence=document.get("evidence") or {},
+        carries=carries,
     )
 
 

@@ -16,6 +16,7 @@ from lpcal.formats.documents import plain
 from lpcal.formats.outputs import marked, write_text
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import NAMES, Carries
 
 BOARD, CAMERA, ROOM = "board", "camera", "mocap"
 
@@ -49,13 +50,15 @@ def matrix_lines(H_AB: Array) -> list[str]:
     return [f"{' ' if k else '['}[{numbers(row, 6)}]{']' if k == last else ','}" for k, row in enumerate(H_AB)]
 
 
-def both_ways(H_PC: Array, H_OB: Array, body: str) -> dict[str, dict[str, Any]]:
-    """H_PC, H_CP, H_OB, H_BO in all forms."""
+def both_ways(H_PC: Array, H_OB: Array, body: str, carries: Carries = "camera") -> dict[str, dict[str, Any]]:
+    """H_PC, H_CP, H_OB, H_BO in all forms; of a board that the body carries H_OC, H_CO, H_PB, H_BP, given in their places."""
+    of_camera, of_board = NAMES[carries]
+    camera_in, board_in = (ROOM, body) if carries == "board" else (body, ROOM)
     return {
-        "H_PC": forms(H_PC, body, CAMERA),
-        "H_CP": forms(se3.inv(H_PC), CAMERA, body),
-        "H_OB": forms(H_OB, ROOM, BOARD),
-        "H_BO": forms(se3.inv(H_OB), BOARD, ROOM),
+        of_camera: forms(H_PC, camera_in, CAMERA),
+        f"H_C{of_camera[2]}": forms(se3.inv(H_PC), CAMERA, camera_in),
+        of_board: forms(H_OB, board_in, BOARD),
+        f"H_B{of_board[2]}": forms(se3.inv(H_OB), BOARD, board_in),
     }
 
 
@@ -63,17 +66,21 @@ MARK = "# written by lpcal for easy_handeye\n"
 EASY_HANDEYE = marked("an easy_handeye calibration", MARK)
 
 
-def write_easy_handeye(path: Path, H_PC: Array, body: str) -> None:
-    """easy_handeye's calibration file, eye on hand: the camera (``tracking_base_frame``) in the body (``robot_effector_frame``)."""
+def write_easy_handeye(path: Path, H_PC: Array, body: str, carries: Carries = "camera") -> None:
+    """easy_handeye's calibration file, eye on hand: the camera (``tracking_base_frame``) in the body (``robot_effector_frame``).
+
+    Where the body carries the board it is eye on base: the camera in the room (``robot_base_frame``).
+    """
     x, y, z = H_PC[:3, 3]
     qx, qy, qz, qw = se3.quaternion(H_PC[:3, :3])
+    on_hand = carries == "camera"
     document = {
         "parameters": {
-            "eye_on_hand": True,
+            "eye_on_hand": on_hand,
             "freehand_robot_movement": True,
             "move_group": "manipulator",
             "move_group_namespace": "/",
-            "namespace": "/lpcal_eye_on_hand/",
+            "namespace": "/lpcal_eye_on_hand/" if on_hand else "/lpcal_eye_on_base/",
             "robot_base_frame": ROOM,
             "robot_effector_frame": body,
             "tracking_base_frame": CAMERA,

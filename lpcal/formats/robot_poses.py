@@ -9,7 +9,7 @@ columns                   rotation
 ========================  =============================================================================================
 qx, qy, qz, qw            a quaternion
 rx, ry, rz                a rotation vector in radians (Universal Robots)
-A, B, C                   R = Rz(A) Ry(B) Rx(C), degrees (KUKA)
+A, B, C                   R = Rz(A) Ry(B) Rx(C), degrees (KUKA); ``mocap.rotation: xyz_deg`` for Rx Ry Rz, ``zyz_deg`` for Rz Ry Rz
 roll, pitch, yaw          R = Rz(yaw) Ry(pitch) Rx(roll) (URDF, ROS); W, P, R likewise in degrees (Fanuc)
 ========================  =============================================================================================
 """
@@ -40,16 +40,14 @@ NAMES = {"file": ("file", "image", "filename", "name"), "x": ("x", "tx", "px"), 
 UNIT = re.compile(r"(.*?)(?:_|\s*[\[(]\s*)(m|cm|mm|rad|deg)\s*[\])]?$")
 
 
-def _about(axis: int, angle: Array) -> Array:
-    return se3.rotation(np.eye(3)[axis] * angle[:, None])
-
-
 ROTATIONS: dict[str, Callable[[Array], Array]] = {
     "rotation_vector": se3.rotation,
     "rotation_vector_deg": lambda v: se3.rotation(np.deg2rad(v)),
-    "abc_deg": lambda v: _about(2, np.deg2rad(v[:, 0])) @ _about(1, np.deg2rad(v[:, 1])) @ _about(0, np.deg2rad(v[:, 2])),
-    "rpy_deg": lambda v: _about(2, np.deg2rad(v[:, 2])) @ _about(1, np.deg2rad(v[:, 1])) @ _about(0, np.deg2rad(v[:, 0])),
-    "rpy_rad": lambda v: _about(2, v[:, 2]) @ _about(1, v[:, 1]) @ _about(0, v[:, 0]),
+    "abc_deg": lambda v: se3.rotation_about_axes(np.deg2rad(v), "zyx"),
+    "xyz_deg": lambda v: se3.rotation_about_axes(np.deg2rad(v), "xyz"),
+    "zyz_deg": lambda v: se3.rotation_about_axes(np.deg2rad(v), "zyz"),
+    "rpy_deg": lambda v: se3.rotation_about_axes(np.deg2rad(v[:, ::-1]), "zyx"),
+    "rpy_rad": lambda v: se3.rotation_about_axes(v[:, ::-1], "zyx"),
 }
 """Rotations (N, 3, 3) of three numbers (N, 3), by what ``mocap.rotation`` calls them."""
 TRIPLES: dict[tuple[str, ...], str] = {

@@ -8,7 +8,7 @@ solve, not in the speed. Source: measured on real and rendered streams (30 ms of
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -59,6 +59,8 @@ class PoseTrack:
     """Samples left out, by why."""
     variance: Array | None = None
     """(N, 6) of the rotation's and the origin's errors along the axes of A, over what is usual; None: all alike."""
+    inverse: bool = False
+    """Whether `poses_at` gives H_BA for H_AB."""
 
     @cached_property
     def rows(self) -> Array:
@@ -106,6 +108,13 @@ class TrackPoses:
     def trusted(self) -> Mask:
         """(N,) where there is a pose to trust."""
         return np.array([why is None for why in self.why], dtype=bool)
+
+    def inverse(self) -> TrackPoses:
+        """H_BA for H_AB, with its velocity; the variance is that of H_AB still."""
+        R_BA, x_A = np.swapaxes(self.H[:, :3, :3], 1, 2), self.H[:, :3, 3]
+        w, v = self.velocity[:, :3], self.velocity[:, 3:]
+        turned = np.stack([-w, np.cross(w, x_A) - v], axis=1) @ np.swapaxes(R_BA, 1, 2)
+        return replace(self, H=se3.inv(self.H), velocity=turned.reshape(-1, 6))
 
 
 def clean(t_s: Array, H_AB: Array, error_m: Array, variance: Array | None = None) -> PoseTrack:
@@ -159,7 +168,8 @@ def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
     H_AB = se3.interpolate(track.H, track.t_s, held)
     H_dwell, steady = _dwells(track, t, np.where(inside, of, -1))
     velocity = np.where(steady[:, None], 0.0, _velocity(track, held))
-    return TrackPoses(t, np.where(steady[:, None, None], H_dwell, H_AB), velocity, why, steady, _variance(track, held))
+    found = TrackPoses(t, np.where(steady[:, None, None], H_dwell, H_AB), velocity, why, steady, _variance(track, held))
+    return found.inverse() if track.inverse else found
 
 
 def _swapped(error_m: Array) -> Mask:

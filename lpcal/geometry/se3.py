@@ -31,6 +31,18 @@ def rotation(phi: Array) -> Array:
     return np.asarray(np.eye(3) + a * W + b * (W @ W))
 
 
+def rotation_about_axes(angles: Array, axes: str) -> Array:
+    """Rotations (N, 3, 3) by three angles (N, 3), rad, each about an axis turned by the ones before: ``zyx`` is Rz(a) Ry(b) Rx(c)."""
+    a, b, c = (rotation(np.eye(3)["xyz".index(axis)] * angles[:, k, None]) for k, axis in enumerate(axes))
+    return np.asarray(a @ b @ c)
+
+
+def angles_about_zyx(R: Array) -> Array:
+    """Angles (N, 3), rad, a of R = Rz(a0) Ry(a1) Rx(a2), the middle one within a quarter turn, of rotations (N, 3, 3)."""
+    middle = np.arctan2(-R[:, 2, 0], np.hypot(R[:, 0, 0], R[:, 1, 0]))
+    return np.stack([np.arctan2(R[:, 1, 0], R[:, 0, 0]), middle, np.arctan2(R[:, 2, 1], R[:, 2, 2])], axis=1)
+
+
 def rotation_vector(R: Array) -> Array:
     """Rotation vector (..., 3) in radians, of length at most pi, of rotation matrices R (..., 3, 3); exact near 0 and pi."""
     q = quaternion(R)

@@ -9,16 +9,18 @@ from typing import Any
 import numpy as np
 
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye import clock, congruence, observability
+from lpcal.chain.h_pc_handeye import clock, congruence, observability, set_up
 from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.ends import all_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
+from lpcal.chain.h_pc_handeye.state import Options
 from lpcal.errors import DegenerateError, DisagreementError, LpcalError
-from lpcal.geometry import park
+from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, section_of, with_recording
 from lpcal.pipeline.workspace import Workspace
+from lpcal.records.calibration import Carries
 from lpcal.records.observations import PoseStream
 from lpcal.records.outcome import Outcome, Progress
 
@@ -57,7 +59,8 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     _boards(given, findings)
     pairs = _panel(workspace, given, findings)
     if pairs is not None:
-        _motion(given, *pairs, findings, inverted=section_of(workspace).direction == "H_PO")
+        section = section_of(workspace)
+        _motion(given, *pairs, findings, Options(inverted=section.direction == "H_PO", carries=section.carries))
     for error in findings.wrong:
         findings.lines += [f"WRONG       {line}" if k == 0 else f"          {line}" for k, line in enumerate(error.message().splitlines())]
     if not findings.wrong:
@@ -178,7 +181,12 @@ def _lost_views(given: HandEyeInputs, panel: TrackPoses, findings: _Findings) ->
         findings.say("", f"{len(images)} views without a pose, {why}: {', '.join(images[:NAMED])}{more}")
 
 
-def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings, *, inverted: bool) -> None:
+def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Findings, options: Options) -> None:
+    found = set_up.of_pairs(H_OP[trusted], given.boards.H_CB[trusted], options, from_images=given.boards.corners_px is not None)
+    if found.board_carried:
+        findings.say("set-up", "the camera stands still in the room, the tracked body carries the board")
+    findings.warnings += found.warnings()
+    H_OP = found.mover(H_OP)
     boards, turned = all_ends(given.boards, H_OP, trusted)
     if turned.any():
         images = [image for image, other in zip(boards.images, turned, strict=True) if other]
@@ -190,9 +198,10 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     names = [image for image, ok in zip(given.boards.images, trusted, strict=True) if ok]
     agreed = None
     try:
-        spread, more = observability.refuse_what_cannot_show_it(H_OP)
+        measured = se3.inv(H_OP) if found.board_carried else H_OP
+        spread, more = observability.refuse_what_cannot_show_it(measured)
         agreed = park.consensus(H_OP, H_CB)
-        spread, more = observability.refuse_what_cannot_show_it(H_OP[agreed.inliers])
+        spread, more = observability.refuse_what_cannot_show_it(measured[agreed.inliers])
     except DegenerateError as error:
         off = [] if agreed is None else [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
         if off:
@@ -202,7 +211,7 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
     findings.say("motion", f"the panel's turns spread by {spread.words()} about its principal axes")
     findings.figures["rotation_spread_deg"] = np.degrees(spread.sigma_rad)
     findings.warnings += more
-    step = find_step(H_OP, H_CB, names)
+    step = find_step(H_OP, H_CB, names, board_carried=found.board_carried)
     try:
         congruence.refuse(H_OP, H_CB, agreed, from_images=given.boards.corners_px is not None)
     except DisagreementError as error:
@@ -210,17 +219,18 @@ def _motion(given: HandEyeInputs, H_OP: Array, trusted: Mask, findings: _Finding
         return
     if step is not None:
         findings.wrong.append(step.refusal())
-    fixed = congruence.fixed_camera(agreed.H_PC, agreed.H_OB, inverted=inverted)
-    if fixed is not None:
-        findings.wrong.append(fixed)
     off = [name for name, inlier in zip(names, agreed.inliers, strict=True) if not inlier]
     findings.say("rigid", f"body and camera move as one; the board is misplaced by {1e3 * agreed.scatter_m:.1f} mm (median, closed form)")
     if off:
         more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
-    size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC)
-    roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB) if fixed is None else None
-    advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
-    findings.say("expected", f"by the scatter of these views H_PC is known {advised.words()}")
-    findings.warnings += [each for each in (size, roles) if each is not None]
-    findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off, "expected_sigma_m": advised.sigma_m}
+    carries: Carries = "board" if found.board_carried else "camera"
+    findings.figures |= {"misplaced_m": agreed.scatter_m, "views_off": off, "carries": carries}
+    size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, carries)
+    findings.warnings += [size] if size else []
+    if carries == "camera":
+        roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
+        findings.warnings += [roles] if roles else []
+        advised = advise(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, agreed.H_OB)
+        findings.say("expected", f"by the scatter of these views H_PC is known {advised.words()}")
+        findings.figures["expected_sigma_m"] = advised.sigma_m

@@ -38,7 +38,7 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     progress("hand-eye", 1, 1)
     handeye = _with_all_images(finding.handeye, given)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
-    write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given))
+    write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given), handeye.carries)
     write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding, track), provenance)
     write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
@@ -51,9 +51,10 @@ def settings(workspace: Workspace) -> dict[str, Any]:
 
 
 def _solved(workspace: Workspace, given: HandEyeInputs, track: PoseTrack | None) -> HandEyeFinding:
-    offset = section_of(workspace).clock_offset
-    inverted = section_of(workspace).direction == "H_PO"
-    options = Options(None if offset == "estimate" else float(offset), given.camera_share, inverted=inverted)
+    section = section_of(workspace)
+    offset = section.clock_offset
+    known_s = None if offset == "estimate" else float(offset)
+    options = Options(known_s, given.camera_share, inverted=section.direction == "H_PO", carries=section.carries)
     if track is not None:
         return solve_moving(given.boards, track, given.camera, options)
     assert given.H_OP is not None
@@ -80,6 +81,7 @@ def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding, track: P
         H_OP = np.array([pose_of.get(image, nothing) for image in given.images])
         why = tuple(None if image in pose_of else given.without_pose.get(image, "no pose kept: no board") for image in given.images)
         steady = np.zeros(len(given.images), dtype=bool)
+    H_OP = finding.set_up.as_measured(H_OP)
     refused = {view.image: view.why for view in finding.handeye.views if not view.used}
     verdict = tuple(each if each is not None else refused.get(image) for image, each in zip(given.images, why, strict=True))
     return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, finding.handeye.clock_offset_s)

@@ -30,11 +30,14 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
     body = body_name(given)
     H_PC = handeye.H_PC
     q = se3.quaternion(H_PC[:3, :3])
+    camera, board = handeye.names
+    still, at = ("the room", body) if handeye.carries == "board" else (body, "the room")
     lines = [
-        f"H_PC        camera in {body}: position {numbers(1e3 * H_PC[:3, 3], 2)} mm, quaternion {numbers(q, 6)} xyzw",
+        *(["set-up      the camera stands still in the room, the tracked body carries the board"] if handeye.carries == "board" else []),
+        f"{camera}        camera in {still}: position {numbers(1e3 * H_PC[:3, 3], 2)} mm, quaternion {numbers(q, 6)} xyzw",
         *(f"            {line}" for line in matrix_lines(H_PC)),
         f"sigma       {fine_each(np.degrees(sigma[:3]), 3)} deg, {fine_each(1e3 * sigma[3:])} mm, an axis",
-        f"H_OB        board in the room at {numbers(handeye.H_OB[:3, 3], 4)} m",
+        f"{board}        board in {at} at {numbers(handeye.H_OB[:3, 3], 4)} m",
         *_size(handeye),
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}{_held_out(handeye)}",
@@ -57,7 +60,7 @@ def _size(handeye: HandEye) -> list[str]:
     if "board_size_by_mocap" not in found:
         return []
     share, std = 100 * float(found["board_size_by_mocap"]), 100 * float(found["board_size_by_mocap_std"])
-    return [f"scale       the board is {share:.2f} +- {fine(std)} % of its stated size by the mocap, in whose metres H_PC is"]
+    return [f"scale       the board is {share:.2f} +- {fine(std)} % of its stated size by the mocap, in whose metres {handeye.names[0]} is"]
 
 
 def _clock(handeye: HandEye, given: HandEyeInputs) -> str:
@@ -113,9 +116,9 @@ def _held_out(handeye: HandEye) -> str:
 def _document(handeye: HandEye, body: str) -> dict[str, Any]:
     return {
         "body": body,
-        **both_ways(handeye.H_PC, handeye.H_OB, body),
-        "H_PC_covariance": handeye.H_PC_covariance,
-        "H_OB_covariance": handeye.H_OB_covariance,
+        **both_ways(handeye.H_PC, handeye.H_OB, body, handeye.carries),
+        f"{handeye.names[0]}_covariance": handeye.H_PC_covariance,
+        f"{handeye.names[1]}_covariance": handeye.H_OB_covariance,
         "clock_offset_s": handeye.clock_offset_s,
         "clock_offset_std_s": handeye.clock_offset_std_s,
         "clock_drift_ppm": 1e6 * handeye.clock_drift,

@@ -21,7 +21,7 @@ from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
 from lpcal.pipeline.curve import settle_sensor
-from lpcal.pipeline.sensor import BY_CAPTURE, SensorInUse, stated_in, stated_in_panel
+from lpcal.pipeline.sensor import BY_CAPTURE, BY_COMMAND, SensorInUse, contradictions, stated_in, stated_in_panel
 from lpcal.pipeline.surface_notes import distance_said, notes_of
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
@@ -150,13 +150,14 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     if camera is not None and camera.size_guessed:
         camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
         calibration = replace(calibration, camera=camera)
-    saying = [("the command", wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
-    settled = settle_sensor(raw, calibration, [*saying, ("panel.yaml", wishes.panel)])
+    saying = [(BY_COMMAND, wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
+    saying.append(("panel.yaml", wishes.panel))
+    settled = settle_sensor(raw, calibration, saying)
     sensor = settled.used.sensor
     refuse_bright_ambient(raw, sensor)
     plain = to_radiance(raw, sensor)
     radiance = with_short_exposures(plain, raw, sensor)
-    radiance = replace(radiance, notes=(*radiance.notes, *settled.notes, *ambient_notes(plain, raw, sensor)))
+    radiance = replace(radiance, notes=(*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", raw.ambient is not None, settled.linear)

@@ -23,6 +23,9 @@ PLAIN = Sensor()
 
 BY_CAPTURE, BY_LARGEST = "capture.yaml", "the images' largest number"
 """Who says what a capture itself says of its sensor."""
+BY_COMMAND = "the command"
+FOR_ONCE = (BY_COMMAND, BY_CAPTURE)
+"""Who speaks of one capture alone, knowing what else is said."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,7 @@ class SensorInUse:
         if key == "flat_field":
             return "flat field divided out"
         value = getattr(self.sensor, key)
-        if value == getattr(PLAIN, key):
-            return ""
-        return f"gamma {worded(value)}" if key == "gamma" else f"{key.replace('_', ' ')} {100 * value:.4g} %"
+        return "" if value == getattr(PLAIN, key) else _told(key, value)
 
 
 def sensor_in_use(saying: Sequence[tuple[str, StatedSensor]], where: str) -> SensorInUse:
@@ -61,6 +62,23 @@ def sensor_in_use(saying: Sequence[tuple[str, StatedSensor]], where: str) -> Sen
         said_by |= {key: who for key in one.said if key not in said_by}
         stated = stated.over(one)
     return SensorInUse(sensor_with(PLAIN, stated, where), said_by)
+
+
+def contradictions(saying: Sequence[tuple[str, StatedSensor]]) -> tuple[str, ...]:
+    """In words, where what counts is a calibration's and panel.yaml says otherwise: one was changed after the other."""
+    found = []
+    for key in ("gamma", "black_level", "white_level"):
+        (who, value), *others = [(name, one.said[key]) for name, one in saying if key in one.said] or [("", None)]
+        found += [
+            f"{other} says {_told(key, unlike)}, {who} {_told(key, value)}, which counts: if {other} is right, calibrate or import anew"
+            for other, unlike in others
+            if unlike != value and who not in FOR_ONCE
+        ]
+    return tuple(found)
+
+
+def _told(key: str, value: Any) -> str:
+    return f"gamma {worded(value)}" if key == "gamma" else f"{key.replace('_', ' ')} {100 * value:.4g} %"
 
 
 def sensor_of_capture(raw: RawCapture, saying: Sequence[tuple[str, StatedSensor]]) -> SensorInUse:

@@ -17,7 +17,13 @@ IN_DOUBT = 0.5
 
 def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
     """The notes of a capture with those of its surface."""
-    return (*_with_ambient_said(known, surface), *_intensities_said(surface), *_misfit_said(surface), *_mask_said(surface))
+    return (
+        *_with_ambient_said(known, surface),
+        *_intensities_said(surface),
+        *_misfit_said(surface),
+        *_exchange_said(surface),
+        *_mask_said(surface),
+    )
 
 
 def distance_said(piece: dict[str, Any]) -> str:
@@ -55,6 +61,17 @@ def _intensities_said(surface: Surface) -> tuple[str, ...]:
         return ()
     least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
     return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
+
+
+def _exchange_said(surface: Surface) -> tuple[str, ...]:
+    """What is to be said of images that fit another light than their own."""
+    found: Any = surface.figures.get("images_exchanged")
+    if not found:
+        return ()
+    places = ", ".join(f"{image} fits the light {light}" for image, light in found.items())
+    return (
+        f"images, cables or lines of the light list seem exchanged: {places}; put them right, for now these images only widen the doubt",
+    )
 
 
 def _misfit_said(surface: Surface) -> tuple[str, ...]:

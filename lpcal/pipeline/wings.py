@@ -9,7 +9,7 @@ import numpy as np
 
 from lpcal.chain.h_pd_markers import h_pd_from_markers
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.wings_yaml import KIND, write_wings
 from lpcal.geometry.arrays import Array
@@ -109,6 +109,13 @@ def disc_in_camera(workspace: Workspace, panel: PanelSection) -> tuple[Array, Ar
         H_CD[:3, 3] = -np.array(panel.camera.position)
         return H_CD, np.diag([mount_sigma_rad**2] * 3 + [mount_sigma_m**2] * 3), "the camera's place as drawn"
     handeye = read_handeye(workspace.calib("handeye.yaml"))
+    if handeye.carries == "board":
+        raise DisagreementError(
+            "the camera stands still in the room and the tracked body carries the board: no panel is tracked",
+            where=str(workspace.calib("handeye.yaml")),
+            needed="a camera on the tracked panel, or a rig without mocap, whose lights the spheres show in the camera's frame",
+            todo="take panel: and lights: into a rig folder without mocap:",
+        )
     H_PD, H_PD_covariance, source = disc_in_body(workspace, panel)
     return *camera_in_disc(handeye.H_PC, handeye.H_PC_covariance, H_PD, H_PD_covariance), f"hand-eye{source}"
 

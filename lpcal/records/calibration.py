@@ -6,6 +6,7 @@ A covariance of a transform is (6, 6), rotation (rad) first, then translation (m
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -112,9 +113,18 @@ class CameraSolution:
     """The board in the images that were used, by image, as the solve has it."""
 
 
+Carries = Literal["camera", "board"]
+NAMES: dict[Carries, tuple[str, str]] = {"camera": ("H_PC", "H_OB"), "board": ("H_OC", "H_PB")}
+"""What the two transforms of a hand-eye solve are, by what the tracked body carries: the camera's place, the board's."""
+
+
 @dataclass(frozen=True)
 class HandEye:
-    """H_PC and H_OB with their covariances, the clock offset (t_camera = t_mocap + offset), and what became of each view."""
+    """H_PC and H_OB with their covariances, the clock offset (t_camera = t_mocap + offset), and what became of each view.
+
+    Where the body `carries` the board, before a camera that stands still in the room, ``H_PC`` holds H_OC, the camera in the room, and
+    ``H_OB`` holds H_PB, the board on the body: ``H_PO H_OC H_CB = H_PB`` is the same equation. All that is written bears `names`.
+    """
 
     H_PC: Array
     H_PC_covariance: Array
@@ -129,6 +139,12 @@ class HandEye:
     clock_middle_s: float = 0.0
     warnings: tuple[str, ...] = ()
     evidence: dict[str, object] = field(default_factory=dict)
+    carries: Carries = "camera"
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """What ``H_PC`` and ``H_OB`` are."""
+        return NAMES[self.carries]
 
 
 @dataclass(frozen=True)

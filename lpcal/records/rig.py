@@ -154,8 +154,10 @@ class MocapSection(Section):
     board_poses: BoardPosesSection | None = None
     poses: str | None = None
     direction: Literal["H_OP", "H_PO"] = "H_OP"
+    carries: Literal["camera", "board"] | None = None
+    """What rides on the tracked body, the other one standing still in the room; None: what the data say."""
     quaternion: Literal["xyzw", "wxyz"] | None = None
-    rotation: Literal["rotation_vector", "rotation_vector_deg", "abc_deg", "rpy_deg", "rpy_rad"] | None = None
+    rotation: Literal["rotation_vector", "rotation_vector_deg", "abc_deg", "xyz_deg", "zyz_deg", "rpy_deg", "rpy_rad"] | None = None
     """What the three numbers of a rotation are in ``poses``, where their names do not say."""
     units: Literal["m", "mm", "cm"] | None = None
     clock_offset: Annotated[Literal["estimate"] | float, BeforeValidator(_offset)] = "estimate"

@@ -9,6 +9,7 @@ import numpy as np
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import NAMES
 from lpcal.report import charts
 from lpcal.report.rig_report import RigReport, array, board_points, items, origin_sigmas, sigmas
 from lpcal.report.wording import NOTHING, Document, fixed, number, plural, with_sigma
@@ -55,7 +56,8 @@ def handeye_section(report: RigReport) -> Section | None:
     offset, std = document.get("clock_offset_s"), document.get("clock_offset_std_s")
     measures = (("residual_px", "px", 1.0), ("residual_m", "mm", 1000.0), ("residual_deg", "°", 1.0))
     return {
-        "transforms": [_transform(name, document) for name in ("H_PC", "H_OB") if document.get(name)],
+        "transforms": [_transform(name, document) for names in NAMES.values() for name in names if document.get(name)],
+        "board_carried": bool(document.get("H_OC")),
         "clock": with_sigma(1000 * offset, None if std is None else 1000 * std, "ms") if offset is not None else None,
         "used": f"{len(used)} of {plural(len(views), 'view')}",
         "evidence": _evidence(document.get("evidence") or {}),

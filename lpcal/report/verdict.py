@@ -25,8 +25,8 @@ GATES = {
 GATE_WORDS = {
     "camera_rms_px": "rms ≤ {:g} px",
     "camera_focal_percent": "focal length ≤ {:g} %",
-    "handeye_deg": "H_PC ≤ {:g}°",
-    "handeye_mm": "H_PC ≤ {:g} mm",
+    "handeye_deg": "hand-eye ≤ {:g}°",
+    "handeye_mm": "hand-eye ≤ {:g} mm",
     "clock_ms": "clock ≤ {:g} ms",
     "light_deg": "direction ≤ {:g}°",
     "light_percent": "intensity ≤ {:g} %",
@@ -125,13 +125,14 @@ def _camera(document: Document, *, lights: bool) -> Verdict:
 def _handeye(document: Document) -> Verdict:
     if not document:
         return Verdict("handeye", "Hand-eye", "absent", "No hand-eye: lpcal handeye. A rig without motion capture needs none.")
-    sigma = origin_sigmas(array(document["H_PC"]), document.get("H_PC_covariance"))
+    name = "H_OC" if document.get("H_OC") else "H_PC"
+    sigma = origin_sigmas(array(document[name]), document.get(f"{name}_covariance"))
     turn, shift = np.degrees(sigma[:3].max()), 1000 * sigma[3:].max()
     offset, offset_std = document.get("clock_offset_s"), document.get("clock_offset_std_s")
     offset_ms, clock = (None, float("nan")) if offset is None else (1000 * offset, 1000 * (offset_std or float("nan")))
     views = items(document, "views")
     used = sum(bool(view.get("used")) for view in views)
-    found = f"H_PC within {sigma_of(turn, 3, '°')} and {sigma_of(shift, 2, 'mm')} an axis"
+    found = f"{name} within {sigma_of(turn, 3, '°')} and {sigma_of(shift, 2, 'mm')} an axis"
     found += f", clock offset {with_sigma(offset_ms, clock, 'ms')}" if offset_ms is not None else ", no clock offset"
     found += f", {used} of {plural(len(views), 'view')}" if views else ""
     measured = ((turn, "handeye_deg"), (shift, "handeye_mm"), (clock, "clock_ms"))

@@ -6,6 +6,7 @@ one about the distance that is given or designed.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
@@ -34,8 +35,10 @@ from lpcal.surface import (
     without_ambient,
 )
 from lpcal.surface.basins import Basins
+from lpcal.surface.exchanged import exchanged
 from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
+from lpcal.surface.sight import Sight
 
 AGREE_DEG = 2.0
 """A measured normal and that of the depth are averaged where they agree this well."""
@@ -116,7 +119,15 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
     found_by = background if wanted else None
     doubt = {} if found_by is None or found_by.doubt is None else {"mask_doubt": found_by.doubt}
-    return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **surface.figures})
+    places = _exchanged(state, seen, radiance.lights)
+    return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **places, **surface.figures})
+
+
+def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, object]:
+    """The images that fit another light than theirs, and which."""
+    matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
+    found = exchanged(matte, state.lit.B, state.found.b, seen.usable)
+    return {"images_exchanged": {names[image]: names[light] for image, light in found.items()}} if found else {}
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:

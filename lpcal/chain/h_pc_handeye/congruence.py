@@ -14,7 +14,7 @@ Source: screw congruence, Chen, A screw motion approach to uniqueness analysis o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,7 @@ import numpy as np
 from lpcal.errors import DisagreementError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Carries
 from lpcal.records.digits import fine
 
 FITS = 0.03
@@ -36,12 +37,25 @@ BOARD_SIGMAS = 3.0
 STUDENT = 1.28
 """Widens a sigma that comes from a dozen stretches of a session so that three of it are passed as rarely as three of a known one."""
 FAR_M = 1.0
-ON_BODY_M = 0.6
-"""Metres from the body's origin within which a board that it carries lies."""
 ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
 SHIFTS = (1, -1, 2, -2, 3, -3)
+ANGLES: dict[str, Callable[[Array], Array]] = {
+    "abc_deg": lambda v: se3.rotation_about_axes(v, "zyx"),
+    "xyz_deg": lambda v: se3.rotation_about_axes(v, "xyz"),
+    "zyz_deg": lambda v: se3.rotation_about_axes(v, "zyz"),
+    "rpy_deg": lambda v: se3.rotation_about_axes(v[:, ::-1], "zyx"),
+    "rotation_vector_deg": se3.rotation,
+}
+"""Rotations (N, 3, 3) of three numbers (N, 3) in radians, by what ``mocap.rotation`` calls them."""
+MEANT = {
+    "abc_deg": "angles about z, y', x''",
+    "xyz_deg": "angles about x, y', z''",
+    "zyz_deg": "angles about z, y', z''",
+    "rpy_deg": "roll, pitch, yaw",
+    "rotation_vector_deg": "a rotation vector",
+}
 UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm", 1 / 25.4: "1/inches"}
 
 
@@ -130,10 +144,6 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
             needed="a camera fixed to the tracked body, a board that stays put, poses that belong to the images",
             todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
         )
-    if "poses are inverted" in named.found and named.reach_m > FAR_M:
-        fixed = fixed_camera(*park.park(_turned_round(H_OP[agreed.inliers]), H_CB[agreed.inliers]), inverted=True)
-        if fixed is not None:
-            raise fixed
     raise DisagreementError(
         f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once mended)",
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
@@ -141,48 +151,23 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
     )
 
 
-def _turned_round(poses: Array) -> Array:
-    """Poses that were stated one way round, the other way."""
-    return se3.inv(poses)
-
-
-def board_size_warning(scale: float, sigma: float, H_PC: Array) -> str | None:
+def board_size_warning(scale: float, sigma: float, H_PC: Array, carries: Carries = "camera") -> str | None:
     """In words, where the mocap finds the board another size than it was said to have, by its scale and that one's sigma."""
     if abs(scale - 1) < max(BOARD_OFF, BOARD_SIGMAS * sigma):
         return None
     otherwise = ", ".join(f"{1e3 * value:.1f}" for value in H_PC[:3, 3] / scale)
+    name, place = ("H_OC", "room") if carries == "board" else ("H_PC", "body")
     return (
         f"the mocap measures the board as {100 * scale:.2f} +- {fine(100 * sigma)} % of its stated size; which of the two is right these "
-        f"data cannot tell. H_PC is in the mocap's metres: if those are right, board.square is wrong (measure it over many squares); if "
-        f"board.square is right, all of the mocap's lengths are wrong by as much and the camera is at {otherwise} mm in the body"
+        f"data cannot tell. {name} is in the mocap's metres: if those are right, board.square is wrong (measure it over many squares); if "
+        f"board.square is right, all of the mocap's lengths are wrong by as much and the camera is at {otherwise} mm in the {place}"
     )
 
 
-def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array) -> str | None:
+def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array, carries: Carries) -> str | None:
     """`board_size_warning` before any solve; None where the closed form cannot tell the board's size as well as that."""
     sigma = STUDENT * park.board_scale_sigma(H_OP, H_CB)
-    return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC)
-
-
-def fixed_camera(H_PC: Array, H_OB: Array, *, inverted: bool) -> DisagreementError | None:
-    """The error for a camera that stands in the room and a board that rides on the tracked body; None for a camera on the body.
-
-    With the poses inverted such a session fits as well as one of a camera on the body: then what is solved for as H_PC is H_OC, the camera
-    in the room, and what is solved for as H_OB is H_PB, the board on the body. Their sizes tell: a board rides within reach of the body.
-    """
-    camera_m, board_m = (float(np.linalg.norm(H[:3, 3])) for H in (H_PC, H_OB))
-    if not (inverted and camera_m > FAR_M and board_m < NEARER * camera_m and board_m < ON_BODY_M):
-        return None
-    return DisagreementError(
-        f"this looks like a camera that stands still in the room and a board that rides on the tracked body: camera in the room H_OC at "
-        f"{_mm(H_PC)} mm, board on the body H_PB at {_mm(H_OB)} mm",
-        needed="a camera on the tracked body and a board that stands still: lpcal solves no other set-up",
-        todo="if the camera is on the body after all, write mocap.direction: H_OP",
-    )
-
-
-def _mm(H: Array) -> str:
-    return ", ".join(f"{1e3 * value:.1f}" for value in H[:3, 3])
+    return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC, carries)
 
 
 def swapped_roles_warning(H_PC: Array, H_OB: Array) -> str | None:
@@ -209,10 +194,10 @@ def _scale(H_OP: Array, H_CB: Array) -> float:
 def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> Iterator[tuple[str | None, str, Array, Array]]:
     """What might have gone wrong, what to do, and the data with it undone."""
     yield None, "", H_OP, H_CB
-    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO)"
+    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO); or mocap.carries: board, if the camera stands still in the room"
     yield "the mocap poses are inverted: they take room to body", todo, se3.inv(H_OP), H_CB
     if not from_images:
-        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC)"
+        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC); or mocap.carries: board, if the camera stands still"
         yield "the board poses are inverted", todo, H_OP, se3.inv(H_CB)
     q = se3.quaternion(H_OP[:, :3, :3])
     for order, place, other in (("w, x, y, z", [1, 2, 3, 0], "wxyz"), ("x, y, z, w", [3, 0, 1, 2], "xyzw")):
@@ -221,6 +206,7 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
         words = f"the quaternions are in another order: they are {order}"
         yield words, f"write mocap.quaternion: {other}", H, H_CB
         yield f"{words}, and the poses are inverted", f"write mocap.quaternion: {other} and mocap.direction: H_PO", se3.inv(H), H_CB
+    yield from _other_angles(H_OP, H_CB)
     todo = "export the recording anew in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
     for axis in range(3):
         mirror = np.eye(4)
@@ -235,6 +221,26 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
         if len(poses) >= 6:
             words = f"the pairing is shifted by {abs(shift)}: view k belongs to the pose of view k{shift:+d}"
             yield words, "correct the images' names or times: mocap.poses or mocap.images", poses, boards
+
+
+def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, Array]]:
+    """Three numbers of a rotation read as one thing that are another; where poses hold no such numbers, none of it mends anything."""
+    R = H_OP[:, :3, :3]
+    zyx = se3.angles_about_zyx(R)
+    for read, v in (("abc_deg", zyx), ("rpy_deg", zyx[:, ::-1]), ("rotation_vector", se3.rotation_vector(R))):
+        for name, meant in ANGLES.items():
+            if name != read and (read, name) != ("rpy_deg", "abc_deg"):
+                H = H_OP.copy()
+                H[:, :3, :3] = meant(v)
+                words = f"the rotations' three numbers are of another order or kind than {read.split('_deg')[0]}: {MEANT[name]}"
+                yield words, f"write mocap.rotation: {name}{_other_way(read, name)}", H, H_CB
+
+
+def _other_way(read: str, name: str) -> str:
+    """What to add where the same mends the other mistake, and where a rotation vector, in radians, turned out to hold angles."""
+    if (read, name) == ("abc_deg", "rpy_deg"):
+        return " (or abc_deg, if it says rpy)"
+    return " (the numbers in degrees)" if read == "rotation_vector" else ""
 
 
 def _with_scale(found: str | None, scale: float) -> str:

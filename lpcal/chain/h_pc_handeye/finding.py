@@ -13,13 +13,15 @@ from lpcal.chain.h_pc_handeye.held_out import held_out
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.pose_errors import covariance_of_pose_errors
+from lpcal.chain.h_pc_handeye.set_up import SetUp
 from lpcal.chain.h_pc_handeye.state import State
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import TrackPoses
-from lpcal.records.calibration import HandEye, ViewVerdict
+from lpcal.records.calibration import Carries, HandEye, ViewVerdict
 
+ON_BODY = SetUp()
 MOST_BAD = 0.5
 """Share of the views that may not fit one rigid camera."""
 
@@ -34,6 +36,7 @@ class HandEyeFinding:
     """The clock offset at which they were taken, known or not."""
     drift: Drift | None = None
     """The clocks' drift, where it shows."""
+    set_up: SetUp = ON_BODY
 
     def mocap_times(self, t_camera_s: Array) -> Array:
         """Times of the mocap's clock (N,) of camera times (N,)."""
@@ -46,8 +49,7 @@ def finding_of(
     warnings: list[str],
     known_offset_s: float | None,
     drift: Drift | None = None,
-    *,
-    inverted: bool = False,
+    told: SetUp = ON_BODY,
 ) -> HandEyeFinding:
     """The record of a settled solve; `t_camera_s` are the views' times, freed of the `drift` that shows.
 
@@ -56,12 +58,12 @@ def finding_of(
     ConvergenceError
         Most views do not fit.
     DisagreementError
-        Board or camera moved between two views; or the camera stands in the room and the board is tracked.
+        Board or camera moved between two views.
     DegenerateError
         Those that are left cannot show H_PC.
     """
     found, views = state.estimate(), state.views()
-    spread, more = observability.refuse_what_cannot_show_it(views.H_OP)
+    spread, more = observability.refuse_what_cannot_show_it(state.measured()[state.inliers])
     factor = variance.block_factor(views, found, None if t_camera_s is None else t_camera_s[state.inliers])
     covariance = _with_pose_errors(found.covariance(), covariance_of_pose_errors(views, found), factor)
     bad = float(np.mean(~state.inliers[state.panel.trusted]))
@@ -70,13 +72,9 @@ def finding_of(
             f"{100 * bad:.0f} % of the views do not fit one rigid camera", needed="a majority that does", todo="look at: lpcal check"
         )
     _refuse_a_step(state)
-    fixed = congruence.fixed_camera(found.H_PC, found.H_OB, inverted=inverted)
-    if fixed is not None:
-        raise fixed
-    size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC)
-    roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
-    advised = advise(views.H_OP, found.in_mocap_metres(views.H_CB), found.H_PC, found.H_OB, covariance[:6, :6])
-    warnings += [each for each in (size, roles, advised.warning()) if each is not None]
+    carries: Carries = "board" if told.board_carried else "camera"
+    more_warnings, weakest = _weakest(found, views, covariance, factor, carries)
+    warnings += more_warnings
     clocked = state.clock and t_camera_s is not None
     offset = state.offset_s if clocked else known_offset_s
     handeye = HandEye(
@@ -90,15 +88,27 @@ def finding_of(
         clock_drift=drift.rate if drift is not None else 0.0,
         clock_middle_s=drift.middle_s if drift is not None else 0.0,
         warnings=(*warnings, *more),
-        evidence=_evidence(state, found, spread, factor) | {"weakest": advised.words()},
+        evidence=_evidence(state, found, spread, factor) | weakest,
+        carries=carries,
     )
-    return HandEyeFinding(handeye, state.panel, state.offset_s, drift)
+    return HandEyeFinding(handeye, state.panel, state.offset_s, drift, told)
+
+
+def _weakest(found: Estimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], dict[str, object]]:
+    """Warnings; and, where the body carries the camera, in which direction it is known worst, as evidence."""
+    size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC, carries)
+    if carries == "board":
+        return ([size] if size else []), {}
+    roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
+    advised = advise(views.H_OP, found.in_mocap_metres(views.H_CB), found.H_PC, found.H_OB, covariance[:6, :6])
+    return [each for each in (size, roles, advised.warning()) if each is not None], {"weakest": advised.words()}
 
 
 def _refuse_a_step(state: State) -> None:
     """Stop where board or camera moved between two views; their order is that of the images."""
     rows = np.flatnonzero(state.panel.trusted)
-    step = find_step(state.panel.H[rows], state.boards.H_CB[rows], [state.boards.images[row] for row in rows])
+    images = [state.boards.images[row] for row in rows]
+    step = find_step(state.panel.H[rows], state.boards.H_CB[rows], images, board_carried=state.board_carried)
     if step is not None:
         raise step.refusal()
 
@@ -151,7 +161,7 @@ def _evidence(state: State, found: Estimate, spread: observability.Spread, facto
         "rotation_spread_deg": np.degrees(spread.sigma_rad),
         "mocap_sigma_deg": np.degrees(s.mocap_rad[0]),
         "mocap_sigma_m": s.mocap_m[0],
-        "closed_form_H_PC": state.start[0],
+        "closed_form_H_OC" if state.board_carried else "closed_form_H_PC": state.start[0],
         "covariance_factor_of_shared_errors": factor,
         "board_size_by_mocap": found.scale,
         "board_size_by_mocap_std": found.scale_std * np.sqrt(factor),

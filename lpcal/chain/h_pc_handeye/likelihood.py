@@ -64,6 +64,8 @@ class Views:
     """(N, M) factor on the corners' sigma; None: 1."""
     pose_variance: Array | None = None
     """(N, 6) of each mocap pose, over that of the sigmas; None: 1."""
+    inverse: bool = False
+    """Whether `H_OP` is H_PO, of a board that the body carries: the mocap's errors are those of H_OP still."""
 
     @property
     def count(self) -> int:
@@ -85,6 +87,7 @@ class Views:
             self.points_B,
             scale,
             variance,
+            self.inverse,
         )
 
     def mocap_sigmas(self, sigmas: Sigmas) -> Array:
@@ -214,7 +217,9 @@ def _estimate(found: Solution, order: tuple[str, ...], sigmas: Sigmas) -> Estima
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
     weight = views.mocap_sigmas(sigmas) ** -2 / views.deflation[:, None]
     data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity], axis=1)
-    return Term(_mocap_model(), ("H_OP", "clock"), (np.arange(views.count), 0), data, weight=weight)
+    return Term(
+        _mocap_model_of_inverse() if views.inverse else _mocap_model(), ("H_OP", "clock"), (np.arange(views.count), 0), data, weight=weight
+    )
 
 
 def _corner_term(views: Views, sigmas: Sigmas) -> Term:
@@ -253,6 +258,19 @@ def _mocap_model() -> Model:
         H_seen, w, v = matrix(data[:16], 4, 4), data[16:19], data[19:22]
         R = H_OP[:3, :3] @ H_seen[:3, :3].T @ (ca.SX.eye(3) + ca.skew(w) * d)
         return ca.vertcat(small_rotation(R), H_OP[:3, 3] - H_seen[:3, 3] + v * d)
+
+    return compile_residual(residual, (POSE, 1), 22)
+
+
+@cache
+def _mocap_model_of_inverse() -> Model:
+    import casadi as ca
+
+    def residual(H_PO: Any, d: Any, data: Any) -> Any:
+        H_seen, w, v = matrix(data[:16], 4, 4), data[16:19], data[19:22]
+        R_seen, t_seen = (ca.SX.eye(3) - ca.skew(w) * d) @ H_seen[:3, :3], H_seen[:3, 3] - v * d
+        R_OP = H_PO[:3, :3].T
+        return ca.vertcat(small_rotation(R_OP @ R_seen), R_seen.T @ t_seen - R_OP @ H_PO[:3, 3])
 
     return compile_residual(residual, (POSE, 1), 22)
 

@@ -12,7 +12,7 @@ explains both parts best with the other one shared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,7 @@ NEEDED = 3.5
 """How many times smaller the mean square misplacement must be in two parts than in one; see tools/step_threshold.py."""
 PLACES = 24
 """Places in a long session at which a step is looked for first; then every place near the likeliest."""
+BOARD = "the board"
 TRIM = 0.9
 """Share of the views that count, those that fit best: a blurred or flipped one is no step."""
 
@@ -44,6 +45,7 @@ class Step:
     """Root mean square misplacement of all views taken as one session."""
     parted_m: float
     """The same of the two parts, each by itself."""
+    needed: str = "a board that stays put and a camera fixed to the tracked body, from the first view to the last"
 
     def refusal(self) -> DisagreementError:
         """The step as an error."""
@@ -51,13 +53,16 @@ class Step:
             f"{self.what} moved between {self.before} and {self.after}, by {1e3 * self.distance_m:.1f} mm and "
             f"{np.degrees(self.angle_rad):.2f} deg: as one session the board is misplaced by {1e3 * self.misplaced_m:.1f} mm rms, "
             f"each part by itself fits to {1e3 * self.parted_m:.1f} mm",
-            needed="a board that stays put and a camera fixed to the tracked body, from the first view to the last",
+            needed=self.needed,
             todo="use the views of one part alone, or take the session anew",
         )
 
 
-def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NEEDED) -> Step | None:
-    """The step in a session of views H_OP (N, 4, 4), H_CB (N, 4, 4) in their order; None where none shows."""
+def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NEEDED, board_carried: bool = False) -> Step | None:
+    """The step in a session of views H_OP (N, 4, 4), H_CB (N, 4, 4) in their order; None where none shows.
+
+    Where the board is carried, the poses are H_PO (see `set_up`), and a camera that moved has moved in the room.
+    """
     count = len(H_OP)
     if count < 2 * FEWEST:
         return None
@@ -75,7 +80,7 @@ def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NE
     if not together > needed * parted:
         return None
     what, H = _which(H_OP, H_CB, at)
-    return Step(
+    step = Step(
         images[at - 1],
         images[at],
         what,
@@ -84,6 +89,10 @@ def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NE
         float(np.sqrt(together)),
         float(np.sqrt(parted)),
     )
+    if not board_carried:
+        return step
+    what = "the board on the body" if what == BOARD else "the camera in the room"
+    return replace(step, what=what, needed="a camera that stays put and a board fixed to the tracked body, from the first view to the last")
 
 
 def _parted(H_OP: Array, H_CB: Array, at: int) -> float:
@@ -124,7 +133,7 @@ def _which(H_OP: Array, H_CB: Array, at: int) -> tuple[str, Array]:
         seen_OB = H_OP[other] @ H_PC @ H_CB[other]
         moved_OB = _mean(seen_OB)
         board = _trimmed(_squares(H_OP[other], H_CB[other], H_PC, moved_OB))
-        candidates.append((board, "the board", se3.inv(H_OB) @ moved_OB))
+        candidates.append((board, BOARD, se3.inv(H_OB) @ moved_OB))
         moved_PC = _mean(se3.inv(H_OP[other]) @ H_OB @ se3.inv(H_CB[other]))
         camera = _trimmed(_squares(H_OP[other], H_CB[other], moved_PC, H_OB))
         candidates.append((camera, "the camera in its mount", se3.inv(H_PC) @ moved_PC))

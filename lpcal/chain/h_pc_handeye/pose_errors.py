@@ -48,7 +48,7 @@ def covariance_of_pose_errors(views: Views, found: Estimate) -> Array:
     F = np.einsum("kf,cd->kcfd", _pose_features(views.H_OP), np.eye(6)).reshape(views.count, 6, -1)
     mocap = views.mocap_sigmas(found.sigmas) ** 2 * views.deflation[:, None]
     by_C = by_O @ se3.adjoint(H_OC)
-    S = by_C @ _board_covariance(views, found) @ np.swapaxes(by_C, 1, 2) + mocap[:, :, None] * np.eye(6)
+    S = by_C @ _board_covariance(views, found) @ np.swapaxes(by_C, 1, 2) + _mocap_covariance(views, mocap)
     white = np.swapaxes(np.linalg.cholesky(np.linalg.inv(S)), 1, 2)
     unit = np.sqrt(np.median(mocap, axis=0))
     J, F, e = (
@@ -70,6 +70,19 @@ def _board_covariance(views: Views, found: Estimate) -> Array:
     seen = np.isfinite(np.asarray(views.corners_px)).all(axis=2)
     J = np.where(seen[:, :, None, None], J, 0.0) / found.sigmas.px
     return np.asarray(np.linalg.inv(np.einsum("nmai,nmaj->nij", J, J)))
+
+
+def _mocap_covariance(views: Views, variance: Array) -> Array:
+    """(N, 6, 6) of turn and shift of the views' poses, of the variances (N, 6) of the mocap's; those of H_OP act on H_PO by its lever."""
+    diagonal = variance[:, :, None] * np.eye(6)
+    if not views.inverse:
+        return np.asarray(diagonal)
+    measured = se3.inv(views.H_OP)
+    back = -np.swapaxes(measured[:, :3, :3], 1, 2)
+    G = np.zeros((views.count, 6, 6))
+    G[:, :3, :3] = G[:, 3:, 3:] = back
+    G[:, 3:, :3] = back @ se3.hat(measured[:, :3, 3])
+    return np.asarray(G @ diagonal @ np.swapaxes(G, 1, 2))
 
 
 def _pose_features(H_OP: Array) -> Array:

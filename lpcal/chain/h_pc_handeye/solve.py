@@ -11,11 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye import observability, variance
+from lpcal.chain.h_pc_handeye import observability, set_up, variance
 from lpcal.chain.h_pc_handeye.clock import without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
 from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, estimate, misfit
+from lpcal.chain.h_pc_handeye.stamps import late_stamps
 from lpcal.chain.h_pc_handeye.start import start_moving, start_paired
 from lpcal.chain.h_pc_handeye.state import Options, State
 from lpcal.errors import ConvergenceError, DegenerateError
@@ -63,6 +64,9 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
     """
     stamped_s = np.asarray(boards.t_camera_s)
     t_camera_s, rate = without_rate(track, stamped_s, boards.H_CB) if options.clock_offset_s is None else (stamped_s, 0.0)
+    found = set_up.of_track(track, t_camera_s, boards.H_CB, options, from_images=boards.corners_px is not None)
+    options = replace(options, carries="board" if found.board_carried else "camera")
+    track = replace(track, inverse=found.board_carried != found.misstated)
     state = start_moving(boards, track, t_camera_s, camera, options)
     state = _refine(state, t_camera_s)
     state, t_camera_s, drift = _without_drift(state, t_camera_s)
@@ -70,21 +74,25 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
         middle = float(np.mean(stamped_s))
         rest = drift if drift is not None else Drift(0.0, COARSE_RATE, middle)
         drift = Drift(rate + rest.rate - rate * rest.rate, rest.std, rest.middle_s)
-    warnings: list[str] = []
+    warnings = found.warnings()
     if drift is not None:
         warnings.append(
             f"the camera's clock runs {1e6 * drift.rate:+.0f} +- {1e6 * drift.std:.1f} ppm fast: its times are corrected for it"
         )
+    late = late_stamps(state, t_camera_s)
+    warnings += [late] if late else []
     if options.clock_offset_s is None and not state.clock:
         warnings.append("the panel stood still in every view that was used: the data do not show the clock offset, it is left out")
-    return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift, inverted=options.inverted)
+    return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift, found)
 
 
 def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
-    panel = TrackPoses(np.full(count, np.nan), H_OP, np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
-    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, [], None, inverted=options.inverted)
+    found = set_up.of_pairs(H_OP, boards.H_CB, options, from_images=boards.corners_px is not None)
+    options = replace(options, carries="board" if found.board_carried else "camera")
+    panel = TrackPoses(np.full(count, np.nan), found.mover(H_OP), np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
+    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, found.warnings(), None, told=found)
 
 
 def _refine(state: State, t_camera_s: Array | None) -> State:

@@ -15,7 +15,7 @@ from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior
 from lpcal.chain.h_pc_handeye.ends import found_by_other_end, settled_ends, with_turned
 from lpcal.chain.h_pc_handeye.state import Options, State
 from lpcal.errors import DegenerateError, DisagreementError
-from lpcal.geometry import park
+from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.records.calibration import Camera
@@ -38,7 +38,7 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
             continue
         ended, _ = settled_ends(boards, panel.H, panel.trusted)
-        agreed = _agreed(ended, panel, options.seed)
+        agreed = _agreed(ended, panel, options)
         turned, agreed = _turned_back(ended, panel, agreed)
         score = agreed.scatter_m * len(t_camera_s) / panel.trusted.sum()
         if best is None or score < best[0]:
@@ -83,7 +83,7 @@ def _by_the_clock(
 def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
     """The closed form with one panel pose a view. Raises as `start_moving`."""
     boards, _ = settled_ends(boards, panel.H, panel.trusted)
-    boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options.seed))
+    boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options))
     state = _state(boards, panel, agreed, 0.0, camera, options, clock=False)
     _refuse(state, agreed)
     return state
@@ -96,12 +96,13 @@ def _refuse(state: State, agreed: park.Consensus) -> None:
     congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], of_trusted, from_images=state.boards.corners_px is not None)
 
 
-def _agreed(boards: BoardPoses, panel: TrackPoses, seed: int) -> park.Consensus:
+def _agreed(boards: BoardPoses, panel: TrackPoses, options: Options) -> park.Consensus:
     """The closed form on the trusted views, after the refusal of motions that cannot show H_PC; rows are all views."""
     trusted = panel.trusted
-    observability.refuse_what_cannot_show_it(panel.H[trusted])
-    found = park.consensus(panel.H[trusted], boards.H_CB[trusted], seed)
-    observability.refuse_what_cannot_show_it(panel.H[trusted][found.inliers])
+    measured = se3.inv(panel.H[trusted]) if options.carries == "board" else panel.H[trusted]
+    observability.refuse_what_cannot_show_it(measured)
+    found = park.consensus(panel.H[trusted], boards.H_CB[trusted], options.seed)
+    observability.refuse_what_cannot_show_it(measured[found.inliers])
     inliers = np.zeros(len(trusted), dtype=bool)
     inliers[trusted] = found.inliers
     angle, distance = park.residuals(panel.H, boards.H_CB, found.H_PC, found.H_OB)
@@ -143,4 +144,5 @@ def _state(
         deflation=np.ones(count),
         corners_px=corners,
         corner_scale=scale,
+        board_carried=options.carries == "board",
     )

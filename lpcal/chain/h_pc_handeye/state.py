@@ -8,8 +8,10 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye.likelihood import CameraPrior, Estimate, Sigmas, Views
 from lpcal.errors import ConvergenceError
+from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses
+from lpcal.records.calibration import Carries
 from lpcal.records.observations import BoardPoses
 
 FEWEST_OF_A_CLASS = 6
@@ -26,6 +28,8 @@ class Options:
     seed: int = 0
     inverted: bool = False
     """Whether the poses are stated to take room to body: a tracked board before a fixed camera looks so."""
+    carries: Carries | None = None
+    """What the tracked body carries; None: what the data say."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,12 @@ class State:
     corner_scale: Array | None = None
     """(N, M) by how much a pixel's error grew on the way to the pinhole of the likelihood; None: not at all."""
     track: PoseTrack | None = None
+    board_carried: bool = False
+    """Whether the panel's poses are inverted ones: see `set_up`."""
+
+    def measured(self) -> Array:
+        """H_OP (N, 4, 4) of all views, as the mocap measured it."""
+        return se3.inv(self.panel.H) if self.board_carried else self.panel.H
 
     def views(self) -> Views:
         """The inliers, as the likelihood takes them."""
@@ -62,6 +72,7 @@ class State:
             self.boards.points_B,
             self.corner_scale,
             self.panel.variance,
+            inverse=self.board_carried,
         )
         return whole.of(self.inliers)
 

@@ -1,0 +1,44 @@
+"""Images stamped at another time than they were taken at: said with by how much, and never of sound sessions or of lost poses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from handeye_scene import moving_session
+from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye.solve import Options, solve_moving
+
+
+def warnings(session, t_camera_s: np.ndarray) -> str:
+    found = solve_moving(replace(session.boards, t_camera_s=t_camera_s), track_of(session.stream), session.camera, Options())
+    return "\n".join(found.handeye.warnings)
+
+
+@pytest.mark.parametrize(("seed", "by_s"), [(0, 0.083), (1, 0.15), (2, -0.06)])
+def test_stamps_a_frame_off_are_named(seed: int, by_s: float) -> None:
+    session = moving_session(np.random.default_rng(seed), 48)
+    off = np.random.default_rng(seed + 10).random(48) < 0.25
+    words = warnings(session, session.boards.t_camera_s + by_s * off)
+    assert f"{abs(1e3 * by_s):.0f} ms {'earlier' if by_s > 0 else 'later'}" in words
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_right_stamps_are_not_doubted(seed: int) -> None:
+    session = moving_session(np.random.default_rng(seed), 48, flips=0.1 * (seed % 2))
+    assert "stamps" not in warnings(session, session.boards.t_camera_s)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_blurred_boards_are_no_wrong_stamps(seed: int) -> None:
+    session = moving_session(np.random.default_rng(seed), 72)
+    rng = np.random.default_rng(seed + 20)
+    blurred = rng.random(72) < 0.2
+    corners = session.boards.corners_px + blurred[:, None, None] * rng.normal(0, 4.0, (72, 1, 2))
+    shift = np.where(blurred[:, None], rng.normal(0, 0.004, (72, 3)), 0)
+    H_CB = session.boards.H_CB.copy()
+    H_CB[:, :3, 3] += shift
+    smeared = replace(session, boards=replace(session.boards, corners_px=corners, H_CB=H_CB))
+    assert "stamps" not in warnings(smeared, session.boards.t_camera_s)
