@@ -28,6 +28,8 @@ WIDTH2 = 9.0
 """Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
 ROUNDS = 6
 """Rounds of the robust regression."""
+CLEAR = 0.95
+"""Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,12 @@ class Gloss:
     ks: float
     roughness: float
     gain: float
+
+
+    @property
+    def clear(self) -> bool:
+        """Whether the lobe explains enough to be called gloss."""
+        return self.gain < CLEAR
 
 
 def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
@@ -63,7 +71,7 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     some = slice(None, None, max(1, len(n) // SAMPLE))
     r, w, s2 = residual[:, some], weight[:, some], spread2[:, some]
     best, least = None, _cost(r, w, s2)
-    plain = least
+    plain = _misfit(r, w, s2)
     for roughness in ROUGHNESSES:
         shape = lit.E[:, some] * lobe(lit.d[:, some], n[some], v[some], roughness)
         ks = 0.0
@@ -72,10 +80,14 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
             ks = max(float(np.sum(pull * r * shape) / max(np.sum(pull * shape**2), 1e-300)), 0.0)
         cost = _cost(r - ks * shape, w, s2 + (DOUBT * ks * shape) ** 2)
         if cost < least:
-            best, least = Gloss(ks, roughness, cost / max(plain, 1e-12)), cost
+            best, least = Gloss(ks, float(roughness), _misfit(r - ks * shape, w, s2) / max(plain, 1e-12)), cost
     return best
+
+
+def _misfit(residual: Array, weight: Array, spread2: Array) -> float:
+    return float(np.sum(weight * WIDTH2 * np.log1p(residual**2 / spread2 / WIDTH2)))
 
 
 def _cost(residual: Array, weight: Array, spread2: Array) -> float:
     """Twice the negative logarithm of Geman and McClure's likelihood."""
-    return float(np.sum(weight * (WIDTH2 * np.log1p(residual**2 / spread2 / WIDTH2) + np.log(spread2))))
+    return _misfit(residual, weight, spread2) + float(np.sum(weight * np.log(spread2)))

@@ -237,7 +237,7 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
 def _model_std(state: State, inside: Mask) -> float:
     """Of a piece (P,): see uncertainty.model_std."""
     shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
-    return uncertainty.model_std(glossy=state.field.gloss is not None, shaded_share=shaded)
+    return uncertainty.model_std(glossy=_gloss(state) is not None, shaded_share=shaded)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
@@ -264,7 +264,7 @@ def _figures(state: State) -> dict[str, object]:
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
         "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
-        "gloss": None if state.field.gloss is None else asdict(state.field.gloss),
+        "gloss": None if _gloss(state) is None else asdict(_gloss(state)),
         "reflectance": state.reflectance,
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }

@@ -107,9 +107,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     usable = normals.candidates(seen, lit.E, hidden)
     reflectance = None
     if shaped is not None:
-        J, unseen = bounce.thrown(seen, depth, replace(shaped.found, b=shaped.field.b), shaped.normals, scene.lights, scene.around)
-        reflectance, albedo = bounce.reflectance(seen, lit, J, usable, shaped.found)
-        lit = replace(lit, thrown=reflectance / albedo * J, unseen=unseen)
+        by = bounce.thrown(seen, depth, replace(shaped.found, b=shaped.field.b), shaped.normals, scene.lights, scene.around)
+        reflectance, albedo, beyond = bounce.reflectance(seen, lit, by, usable, shaped.found)
+        lit = replace(lit, thrown=reflectance / albedo * by.J(beyond), unseen=by.unseen)
     whole = _estimated(scene, lit, usable, hidden, before, k)
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)

@@ -60,15 +60,15 @@ class Around:
     seen: Patches
     unseen: Patches | None
 
-    def behind(self, relief: Relief, lights: Sequence[Light]) -> Patches:
-        """All of them, the unseen ones in the shadow of the object."""
+    def beyond(self, relief: Relief, lights: Sequence[Light]) -> Patches | None:
+        """The unseen ones in the shadow of the object."""
         if self.unseen is None:
-            return self.seen
+            return None
         signal = self.unseen.signal.copy()
         for k, light in enumerate(lights):
             if light.source_C is not None:
                 signal[k, relief.hidden_from(self.unseen.x_C, light.source_C, SHADOW_STEPS)] = 0.0
-        return Patches.together([self.seen, replace(self.unseen, signal=signal)])
+        return replace(self.unseen, signal=signal)
 
 
 @dataclass(frozen=True)
