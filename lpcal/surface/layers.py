@@ -256,7 +256,8 @@ def background_of(labels: Labels, planes: list[Array], image: Coarse, table: Lig
     """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
 
     A piece of a plane from which the object's matter goes on without a crease, by its normals in the sweep, is a flat part of the object,
-    cut by the border. A piece within the object is seen through it where it lies in the hindmost of these planes, and no plane nearer suits it better.
+    cut by the border. A piece within the object is seen through it where it lies in the hindmost of these planes, and no plane nearer
+    suits it better.
     """
     from scipy import ndimage
 
