@@ -96,9 +96,9 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     labels, found, cost = layers.label(
         image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m))
     )
-    count, n_free = len(found.planes), image.image(swept.normals)
-    mask = layers.object_of(labels, found.planes, n_free)
-    behind = layers.background_of(labels, found.planes, n_free)
+    count = len(found.planes)
+    mask = layers.object_of(labels, found.planes, image, table, swept)
+    behind = layers.background_of(labels, found.planes, image, table, swept)
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
