@@ -40,7 +40,6 @@ class Gloss:
     roughness: float
     gain: float
 
-
     @property
     def clear(self) -> bool:
         """Whether the lobe explains enough to be called gloss."""
