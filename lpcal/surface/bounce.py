@@ -106,7 +106,8 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
 def reflectance(seen: Sight, lit: Lit, by: Thrown, usable: Mask, found: Estimate) -> tuple[float, float, float]:
     """Reflectance of the object's median pixel, its albedo in the signals' units, and the share of what lies beyond that is there.
 
-    What is thrown acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does.
+    What is thrown acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does. They are
+    means over what the samples allow: these often tell little, and a least cost would jump.
     """
     known = np.flatnonzero(np.isfinite(found.b[:, 0]))
     some = known[:: max(1, len(known) // SAMPLE)]
@@ -122,8 +123,12 @@ def reflectance(seen: Sight, lit: Lit, by: Thrown, usable: Mask, found: Estimate
         trial = normals.estimate(sample, B, usable, normals.variances(sample, shine), shine)
         return INDEPENDENT * len(B) * normals.misfit(sample, B, usable, trial, shine) + ((one - COMMON) / COMMON_SIGMA) ** 2
 
-    best = min(((one, beyond) for beyond in ((0.0,) if by.beyond is None else BEYOND) for one in possible), key=misfit)
-    return best[0], float(middle), best[1]
+    trials = [(one, beyond) for beyond in ((0.0,) if by.beyond is None else BEYOND) for one in possible]
+    cost = np.array([misfit(both) for both in trials])
+    odds = np.exp(-(cost - cost.min()) / 2)
+    one, beyond = np.array(trials).T
+    mean = float(np.average(one, weights=odds))
+    return mean, float(middle), float(np.average(one * beyond, weights=odds)) / max(mean, 1e-9)
 
 
 def _areas(seen: Sight, depth: Array, n: Array) -> Array:

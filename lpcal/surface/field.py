@@ -41,8 +41,9 @@ WARM = 4.0
 """Temperature at which the states of the samples are soft in the first rounds."""
 JUNK, ACROSS = 0.5, 6.0
 """A start darker than this share of what lies around, over the object's extent by the second number, is taken for shadow."""
-FIRST_ROUNDS, ROUNDS = 6, 2
-"""Rounds from single pixels, and from a field found before."""
+FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
+"""Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
+slowly."""
 SOLVED, MOST_STEPS = 1e-3, 60
 """Residual at which the conjugate gradients stop, and how many steps they take at most."""
 TOWARDS = 0.02
@@ -81,14 +82,14 @@ def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimat
     shine = None if before is None else before.gloss
     J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
     direct = lit.d * lit.E[..., None]
-    rounds = FIRST_ROUNDS if before is None else ROUNDS
+    rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * glossy
     for k in range(rounds):
         shown = _shown(lit, b, v, shine)
         if glossy and (k > 1 or before is not None):
             state = _states(seen, direct, J, b, hidden, None, 1.0)
             shine = gloss.fit(state.lit, np.where(state.chance > 0.5, 1.0, 0.0) * seen.usable, state.spread2, lit, lambert.unit(b)[0], v)
             shown = _shown(lit, b, v, shine)
-        state = _states(seen, direct, J, b, hidden, shown, WARM if before is None and k < rounds // 3 else 1.0)
+        state = _states(seen, direct, J, b, hidden, shown, WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0)
         b = _solved(seen, grid, direct, J, b, state, shown)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
         b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v

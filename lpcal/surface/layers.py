@@ -11,7 +11,9 @@ Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -51,6 +53,10 @@ KEPT = 0.006
 """Share of the image under which a plane's own pixels do not keep it."""
 CEILING = 30.0
 """Cost over a pixel's cheapest layer beyond which layers are all alike."""
+
+
+Through = Callable[[Array, Mask, list[Array]], bool]
+"""Whether pixels (P,) of a plane (3,) are seen through the object, by all planes that reach the border: see `seen_through`."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +185,7 @@ def _learnt(
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
     labels = new[labels]
     of_object, of_rest = None, None
-    mine = object_of(labels, planes, image, table, swept).ravel()
+    mine = object_of(labels, planes, image.image(swept.normals), partial(seen_through, image, table)).ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
         both = bright[free | rest]
@@ -252,17 +258,16 @@ INNER = 0.15
 """Share of the largest piece from which one that does not touch the border goes before all that do."""
 
 
-def background_of(labels: Labels, planes: list[Array], image: Coarse, table: LightTable, swept: Sweep) -> Mask:
+def background_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
     """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
 
-    A piece of a plane from which the object's matter goes on without a crease, by its normals in the sweep, is a flat part of the object,
-    cut by the border. A piece within the object is seen through it where it lies in the hindmost of these planes, and no plane nearer
-    suits it better.
+    A piece of a plane from which the object's matter goes on without a crease, by its normals n_free (rows, columns, 3), is a flat part
+    of the object, cut by the border. A piece within the object is seen through it where `through` says so of it and all planes that reach
+    the border.
     """
     from scipy import ndimage
 
     found = labels > len(planes)
-    n_free = image.image(swept.normals)
     rim = _rim(labels.shape)
     pieces = [ndimage.label(labels == k)[0] for k in range(1, len(planes) + 1)]
     walls = []
@@ -277,7 +282,7 @@ def background_of(labels: Labels, planes: list[Array], image: Coarse, table: Lig
     for piece, q in zip(pieces, planes, strict=True):
         size = np.bincount(piece.ravel())
         for one in np.setdiff1d(np.flatnonzero(size >= LEAST_SEEN_THROUGH), [0, *np.unique(piece[rim])]):
-            if any(q is wall for wall in walls) and _seen_through(image, table, q, (piece == one).ravel(), walls):
+            if any(q is wall for wall in walls) and through(q, (piece == one).ravel(), walls):
                 found |= piece == one
     return np.asarray(found)
 
@@ -288,7 +293,7 @@ def _rim(shape: tuple[int, ...]) -> Mask:
     return rim
 
 
-def _seen_through(image: Coarse, table: LightTable, q: Array, inside: Mask, walls: list[Array]) -> bool:
+def seen_through(image: Coarse, table: LightTable, q: Array, inside: Mask, walls: list[Array]) -> bool:
     """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
     own = np.flatnonzero(inside)
     cost = float(flats.explained(image, table, q, own)[0].mean())
@@ -315,11 +320,11 @@ def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
     return float(np.sum(wrong)) / max(int(np.sum(mask)), 1)
 
 
-def object_of(labels: Labels, planes: list[Array], image: Coarse, table: LightTable, swept: Sweep) -> Mask:
+def object_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
     """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other."""
     from scipy import ndimage
 
-    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, image, table, swept)))
+    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, n_free, through)))
     if not count:
         return np.zeros(labels.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
