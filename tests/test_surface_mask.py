@@ -149,9 +149,9 @@ def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> Non
     labels = np.full((40, 60), 1)
     labels[10:25, 20:40] = 0
     labels[30:, 45:] = 0
-    assert iou(layers.object_of(labels, [WALL], slanting), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
+    assert iou(layers.object_of(labels, [WALL], slanting, lambda *_: False), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
     labels[10:25, 20:40] = 1
-    assert iou(layers.object_of(labels, [WALL], slanting), labels == 0) > 0.95
+    assert iou(layers.object_of(labels, [WALL], slanting, lambda *_: False), labels == 0) > 0.95
 
 
 def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> None:
@@ -161,10 +161,29 @@ def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> N
     flat = np.array([-0.6, 0.0, -0.8])
     n_free = np.broadcast_to(flat, (40, 60, 3)).copy()
     n_free[:, 24:] = [0.6, 0.0, -0.8]
-    found = layers.background_of(labels, [WALL, -flat / 0.3], n_free)
+    found = layers.background_of(labels, [WALL, -flat / 0.3], n_free, lambda *_: False)
     assert np.array_equal(found, labels == 1)
     n_free[:, 20:24] = [0.6, 0.0, -0.8]
-    assert np.array_equal(layers.background_of(labels, [WALL, -flat / 0.3], n_free), labels != 0)
+    assert np.array_equal(layers.background_of(labels, [WALL, -flat / 0.3], n_free, lambda *_: False), labels != 0)
+
+
+@pytest.mark.parametrize(("hole", "seen"), [(1.0, True), (0.88, False)])
+def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(hole: float, seen: bool) -> None:
+    """A slanting card with a hole, and behind it the wall, or a patch of the wall's direction nearer than the wall is."""
+    parts = scene(card=None)
+    on_card, inside = np.zeros((112, 160), bool), np.zeros((112, 160), bool)
+    on_card[20:92, 30:130], inside[40:72, 60:100] = True, True
+    parts.append((np.array([0.9, 0.3, 1 / 0.36]), np.full(on_card.shape, 0.7), on_card & ~inside))
+    parts.append((WALL / hole, np.full(on_card.shape, 0.35), inside))
+    maps, rays = picture(parts)
+    image = coarse_of(maps, rays, 2)
+    table = LightTable.of(image, calibration().lights, WORKING_M)
+    labels = np.where(on_card, 0, 1)
+    labels[inside] = 1
+    own = (labels[::2, ::2] == 1) & on_card[::2, ::2]
+    assert layers.seen_through(image, table, WALL, own.ravel(), [WALL]) == seen
+    found = layers.object_of(labels[::2, ::2], [WALL], np.broadcast_to([0.8, 0.0, -0.6], (56, 80, 3)), lambda *_: seen)
+    assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
 
 
 def test_the_doubt_rises_with_what_is_weak() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,11 +11,12 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import bounce, distance, normals, rounds, sides
+from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own
 from lpcal.surface.planes import Plane, foretold
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
-from lpcal.surface.surroundings import Patches, Whole, patches
+from lpcal.surface.surroundings import Around, Patches, Whole, patches
 
 FOCAL = 260.0
 
@@ -48,9 +51,9 @@ def bowl(half_angle_deg: float = 55.0) -> tuple[Sight, Array, Array, float]:
 
 def test_inside_a_sphere_every_place_gets_the_same_light_from_the_rest():
     seen, depth, n, share = bowl()
-    J, unseen = bounce.thrown(seen, depth, shown(n), n, [HIGH])
-    got = np.einsum("pi,pi->p", J[0], n)
-    assert unseen.mean() < 0.01
+    found = bounce.thrown(seen, depth, shown(n), n, [HIGH])
+    got = np.einsum("pi,pi->p", found.seen[0], n)
+    assert found.unseen.mean() < 0.01
     assert abs(np.median(got) / share - 1) < 0.07
     assert np.mean(np.abs(got / share - 1) < 0.15) > 0.9
 
@@ -70,8 +73,11 @@ def test_a_wall_behind_lights_what_is_turned_away_from_the_camera():
     side, spacing = np.meshgrid(np.linspace(-4.0, 4.0, 161), np.linspace(-4.0, 4.0, 161)), 0.05
     x_C = np.stack([side[0].ravel(), side[1].ravel(), np.full(161**2, 0.5)], axis=1)
     wall = Patches(x_C, np.tile([0.0, 0.0, -1.0], (len(x_C), 1)), np.full(len(x_C), spacing**2), np.ones((1, len(x_C))))
-    alone, _ = bounce.thrown(seen, depth, shown(n), n, [HIGH])
-    both, _ = bounce.thrown(seen, depth, shown(n), n, [HIGH], wall)
+    alone = bounce.thrown(seen, depth, shown(n), n, [HIGH]).seen
+    both = bounce.thrown(seen, depth, shown(n), n, [HIGH], Around(wall, None)).seen
+    out_of_sight = bounce.thrown(seen, depth, shown(n), n, [HIGH], Around(replace(wall, area=0 * wall.area), wall))
+    assert np.allclose(out_of_sight.J(1.0), both)
+    assert np.allclose(out_of_sight.J(0.0), alone)
     got = lambert.dot(both[0] - alone[0], n)
     assert abs(np.median(got) / ((1 - np.cos(tilt)) / 2) - 1) < 0.15  # of a plane without end, seen under that angle
     assert np.abs(lambert.dot(alone[0], n)).max() < 1e-9
@@ -85,8 +91,9 @@ def test_the_wall_is_taken_up_as_it_is_seen():
     signal = 0.5 * foretold(plane.q, bare.rays_C, lights)
     hidden = np.zeros((90, 120), bool)
     hidden[30:60, 40:80] = True
-    found = patches(Whole(sight_of(mask, signal), hidden, 1), [plane], lights)
-    assert found is not None
+    around = patches(Whole(sight_of(mask, signal), hidden, 1), [plane], lights)
+    assert around is not None
+    found = around.seen
     assert np.allclose(found.x_C @ plane.q, 1, atol=1e-3)
     corners = np.array([[-59.5, -44.5, FOCAL], [60.5, -44.5, FOCAL], [60.5, 45.5, FOCAL], [-59.5, 45.5, FOCAL]]) / FOCAL
     at = corners / (corners @ plane.q)[:, None]
@@ -94,6 +101,15 @@ def test_the_wall_is_taken_up_as_it_is_seen():
     left_out = (30 + 2 * 2) * (40 + 2 * 2) / (90 * 120)
     assert abs(found.area.sum() / whole_area - (1 - left_out)) < 0.03
     assert np.allclose(found.signal, 0.5 * foretold(plane.q, found.x_C / found.x_C[:, 2:], lights), rtol=0.05)
+    beyond = around.unseen
+    assert beyond is not None  # what the object hides, and what goes on outside the image, lit as the rest
+    assert np.allclose(beyond.x_C @ plane.q, 1, atol=1e-3)
+    assert np.allclose(beyond.signal, 0.5 * foretold(plane.q, beyond.x_C / beyond.x_C[:, 2:], lights), rtol=0.05)
+    pixel = beyond.x_C[:, :2] / beyond.x_C[:, 2:] * FOCAL + [59.5, 44.5]
+    inside = np.all((pixel > [-0.5, -0.5]) & (pixel < [119.5, 89.5]), axis=1)
+    assert inside.any()
+    assert np.all(np.abs(pixel[inside] - [59.5, 44.5]) < 24)
+    assert beyond.area[~inside].sum() > found.area.sum()
 
 
 def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind():
@@ -144,10 +160,11 @@ def test_light_that_bounces_no_longer_flattens_a_bowl():
     seen, lit, depth, n = bowl_under_lights(0.8)
     usable, variance = normals.candidates(seen, lit.E), normals.variances(seen)
     plain = normals.estimate(seen, lit.B, usable, variance)
-    J, _ = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
-    found, albedo = bounce.reflectance(seen, lit, J, usable, plain)
+    by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
+    found, albedo, beyond = bounce.reflectance(seen, lit, by, usable, plain)
     assert 0.5 <= found <= 0.9
-    better = normals.estimate(seen, lit.B + found / albedo * J, usable, variance)
+    assert beyond == 0
+    better = normals.estimate(seen, lit.B + found / albedo * by.seen, usable, variance)
     assert error_deg(plain.b, n) > 1.5
     assert error_deg(better.b, n) < 0.5 * error_deg(plain.b, n)
 
@@ -181,7 +198,8 @@ def test_a_light_that_the_depth_hides_is_left_out():
     seen = sight_of(mask, signal)
     scene = rounds.Scene("step", seen, Grid.of(mask), lights, None)
     plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
-    before = rounds.State(np.log(depth), np.ones(len(scene.grid.a)), n, plain, Own(np.ones(mask.size), np.log(depth)), lit)
+    whole = Field(np.nan_to_num(plain.b), plain, None)
+    before = rounds.State(np.log(depth), np.ones(len(scene.grid.a)), n, plain, Own(np.ones(mask.size), np.log(depth)), lit, whole)
     hidden = rounds.hidden_lights(scene, depth, before, lit)
     assert np.mean(hidden[0] == shadow) > 0.95
     assert not hidden[1:].any()

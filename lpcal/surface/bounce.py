@@ -16,6 +16,7 @@ with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kana
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from lpcal.surface import normals, sides
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
-from lpcal.surface.surroundings import Patches
+from lpcal.surface.surroundings import Around, Patches
 
 PATCHES = 2000
 STEPS = 6
@@ -39,6 +40,8 @@ STEEPEST = 0.1
 """Least cosine to the viewer by which a pixel's area is told."""
 REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 """Of the object's median pixel."""
+BEYOND = (0.0, 0.5, 1.0)
+"""Shares of what is taken to go on around the object out of sight that are tried."""
 COMMON, COMMON_SIGMA = 0.6, 0.3
 """Reflectance of objects as prior."""
 SAMPLE = 900
@@ -46,13 +49,24 @@ INDEPENDENT = 25.0
 """Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
 
 
-def thrown(
-    seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Patches | None = None
-) -> tuple[Array, Array]:
-    """J (L, P, 3) of a surface of depths (P,), normals n (P, 3) and an estimate of its albedo, and of what stands around it.
+@dataclass(frozen=True)
+class Thrown:
+    """Light that surfaces throw on P pixels under L lights, before the reflectance that makes it one."""
 
-    Besides the share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see.
-    """
+    seen: Array
+    """J (L, P, 3) of the object's own parts and of what is seen around it."""
+    beyond: Array | None
+    """J (L, P, 3) of what is taken to go on around it where the camera sees nothing of it."""
+    unseen: Array
+    """Share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see."""
+
+    def J(self, beyond: float) -> Array:
+        """All of it (L, P, 3), with a share of what lies beyond."""
+        return self.seen if self.beyond is None or not beyond else self.seen + beyond * self.beyond
+
+
+def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
+    """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
     from scipy import ndimage
 
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
@@ -71,8 +85,10 @@ def thrown(
     albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
     by_unseen, unseen = sides.thrown(own.x_C, own.n, relief, albedo, lights)
     at_patches = _received(own, own, relief) + by_unseen
+    beyond = None
     if around is not None:
-        at_patches = at_patches + _received(own, around, relief)
+        at_patches = at_patches + _received(own, around.seen, relief)
+        beyond = around.beyond(relief, lights)
     inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2)[seen.mask]
     blank = np.zeros(seen.mask.shape, np.float32)
 
@@ -81,29 +97,38 @@ def thrown(
         blank[seen.mask] = values[of_pixel]
         return np.asarray(ndimage.gaussian_filter(blank, size / 2)[seen.mask] / np.maximum(inside, 1e-6))
 
-    J = np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in at_patches])
-    return J, spread(unseen)
+    def at_pixels(values: Array) -> Array:
+        return np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in values])
+
+    return Thrown(at_pixels(at_patches), None if beyond is None else at_pixels(_received(own, beyond, relief)), spread(unseen))
 
 
-def reflectance(seen: Sight, lit: Lit, J: Array, usable: Mask, found: Estimate) -> tuple[float, float]:
-    """Reflectance of the object's median pixel and its albedo in the signals' units: J (L, P, 3) acts by their ratio.
+def reflectance(seen: Sight, lit: Lit, by: Thrown, usable: Mask, found: Estimate) -> tuple[float, float, float]:
+    """Reflectance of the object's median pixel, its albedo in the signals' units, and the share of what lies beyond that is there.
 
-    `lit` is the light without J.
+    What is thrown acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does. They are
+    means over what the samples allow: these often tell little, and a least cost would jump.
     """
     known = np.flatnonzero(np.isfinite(found.b[:, 0]))
     some = known[:: max(1, len(known) // SAMPLE)]
-    sample, light, J, usable = seen.at(some), lit.at(some), J[:, some], usable[:, some]
+    sample, light, usable = seen.at(some), lit.at(some), usable[:, some]
     shine = None if found.gloss is None else found.gloss[:, some]
     albedo = np.linalg.norm(found.b[some], axis=1)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
     possible = [one for one in REFLECTANCES if one * bright <= middle]
 
-    def misfit(one: float) -> float:
-        B = light.B + one / middle * J
+    def misfit(both: tuple[float, float]) -> float:
+        one, beyond = both
+        B = light.B + one / middle * by.J(beyond)[:, some]
         trial = normals.estimate(sample, B, usable, normals.variances(sample, shine), shine)
         return INDEPENDENT * len(B) * normals.misfit(sample, B, usable, trial, shine) + ((one - COMMON) / COMMON_SIGMA) ** 2
 
-    return min(possible, key=misfit), float(middle)
+    trials = [(one, beyond) for beyond in ((0.0,) if by.beyond is None else BEYOND) for one in possible]
+    cost = np.array([misfit(both) for both in trials])
+    odds = np.exp(-(cost - cost.min()) / 2)
+    one, beyond = np.array(trials).T
+    mean = float(np.average(one, weights=odds))
+    return mean, float(middle), float(np.average(one * beyond, weights=odds)) / max(mean, 1e-9)
 
 
 def _areas(seen: Sight, depth: Array, n: Array) -> Array:

@@ -4,33 +4,32 @@ Symbols: normal n, light d, viewer v, half vector h between d and v, roughness a
 
     ks E (D G) / (4 n.v)        D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),   G = Smith's shadowing of both sides
 
-(ks, a) are found on a sample of pixels: at each trial the normals are estimated anew from what is left of the signal, and the robust cost
-of all samples decides. It is kept only where it explains much of the misfit: at a false depth a lobe can fit by chance.
+ks is the robust regression of what the Lambertian part leaves on the lobe, at each of a few roughnesses; the normals are those of the field
+(surface.field), which fits it anew in every round: highlights that bend a pixel's normal are told by its neighbours.
 Source: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface import normals
-from lpcal.surface.normals import Estimate
-from lpcal.surface.sight import Lit, Sight
+from lpcal.geometry.arrays import Array
+from lpcal.surface.sight import Lit
 
-SAMPLE = 900
-ROUGHNESSES = (0.08, 0.15, 0.3)
-STRENGTHS = (0.003, 0.01, 0.03, 0.1)
-"""Of ks, by the object's median albedo."""
-KEPT_BELOW = 0.95
-"""Share of the cost without gloss under which a lobe is kept: by how much it falls hangs on the number of lights, so the gate is wide."""
-ROUNDS = 3
-TRIAL_STEPS = 30
-CLEAN = 0.25
-"""A cost this low without gloss leaves nothing for it to explain."""
+SAMPLE = 4000
+"""Pixels of an object that its gloss is fitted to, spread over it."""
+ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
+"""Roughnesses that are tried: a quarter apart, as far as a lobe's width can be told."""
+DOUBT = 0.2
+"""What a lobe is known to, as a share of itself."""
+WIDTH2 = 9.0
+"""Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
+ROUNDS = 6
+"""Rounds of the robust regression."""
+CLEAR = 0.95
+"""Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +39,11 @@ class Gloss:
     ks: float
     roughness: float
     gain: float
+
+    @property
+    def clear(self) -> bool:
+        """Whether the lobe explains enough to be called gloss."""
+        return self.gain < CLEAR
 
 
 def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
@@ -57,42 +61,32 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     return np.asarray(np.where(nd > 0, D * smith(np.maximum(nd, 0)) * smith(nv) / (4 * nv), 0.0))
 
 
-def estimate(seen: Sight, lit: Lit, usable: Mask, gloss: Gloss, start: Estimate) -> Estimate:
-    """Normals and albedo (see surface.normals) with the gloss taken off, from those at the start; a few rounds."""
-    found, v = start, -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
-    for _ in range(ROUNDS):
-        n = lambert.unit(np.where(np.isfinite(found.b), found.b, v))[0]
-        shine = gloss.ks * lit.E * lobe(lit.d, n, v, gloss.roughness)
-        found = replace(normals.estimate(seen, lit.B, usable, normals.variances(seen, shine), shine), gloss=shine)
-    return found
+def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array) -> Gloss | None:
+    """The lobe that explains residuals (L, P) of variances `spread2` best, by normals n and directions v to the viewer (P, 3).
+
+    `weight` (L, P) is 1 for samples that count. For each roughness the strength is the robust regression of the residuals on the lobe; the
+    least cost wins, None where no gloss costs as little.
+    """
+    some = slice(None, None, max(1, len(n) // SAMPLE))
+    r, w, s2 = residual[:, some], weight[:, some], spread2[:, some]
+    best, least = None, _cost(r, w, s2)
+    plain = _misfit(r, w, s2)
+    for roughness in ROUGHNESSES:
+        shape = lit.E[:, some] * lobe(lit.d[:, some], n[some], v[some], roughness)
+        ks = 0.0
+        for _ in range(ROUNDS):
+            pull = w / (1 + (r - ks * shape) ** 2 / s2 / WIDTH2) ** 2 / s2
+            ks = max(float(np.sum(pull * r * shape) / max(np.sum(pull * shape**2), 1e-300)), 0.0)
+        cost = _cost(r - ks * shape, w, s2 + (DOUBT * ks * shape) ** 2)
+        if cost < least:
+            best, least = Gloss(ks, float(roughness), _misfit(r - ks * shape, w, s2) / max(plain, 1e-12)), cost
+    return best
 
 
-def fit(seen: Sight, lit: Lit, usable: Mask, start: Estimate, before: Gloss | None = None) -> Gloss | None:
-    """The lobe of the object, None where it has none to speak of; the search begins from the one `before`."""
-    from scipy import optimize
+def _misfit(residual: Array, weight: Array, spread2: Array) -> float:
+    return float(np.sum(weight * WIDTH2 * np.log1p(residual**2 / spread2 / WIDTH2)))
 
-    known = np.flatnonzero(np.isfinite(start.b[:, 0]))
-    if len(known) < normals.LEAST * 100:
-        return None
-    some = known[:: max(1, len(known) // SAMPLE)]
-    sample, light, usable = seen.at(some), lit.at(some), usable[:, some]
-    begin = Estimate(start.b[some], start.inliers[:, some], start.covariance[some], start.chi2[some], start.cost[some])
-    albedo = float(np.median(np.linalg.norm(begin.b, axis=1)))
-    plain = normals.misfit(sample, light.B, usable, normals.estimate(sample, light.B, usable, normals.variances(sample)))
 
-    if plain < CLEAN:
-        return None
-
-    def cost(x: Array) -> float:
-        trial = Gloss(albedo * float(np.exp(x[0])), float(np.clip(np.exp(x[1]), 0.03, 1.0)), 1.0)
-        found = estimate(sample, light, usable, trial, begin)
-        return normals.misfit(sample, light.B, usable, found, found.gloss)
-
-    trials = [np.log([strength, roughness]) for strength in STRENGTHS for roughness in ROUGHNESSES]
-    best = min(trials, key=cost) if before is None else np.log([before.ks / albedo, before.roughness])
-    if cost(best) > plain:
-        return None
-    simplex = best + np.array([[0, 0], [0.5, 0], [0, 0.25]])
-    found = optimize.minimize(cost, best, method="Nelder-Mead", options={"maxfev": TRIAL_STEPS, "initial_simplex": simplex})
-    gain = float(found.fun) / plain
-    return Gloss(albedo * float(np.exp(found.x[0])), float(np.clip(np.exp(found.x[1]), 0.03, 1.0)), gain) if gain < KEPT_BELOW else None
+def _cost(residual: Array, weight: Array, spread2: Array) -> float:
+    """Twice the negative logarithm of Geman and McClure's likelihood."""
+    return _misfit(residual, weight, spread2) + float(np.sum(weight * np.log(spread2)))

@@ -11,7 +11,9 @@ Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -27,6 +29,8 @@ OTHER_PRICE = 2.0
 """Cost of matter like a plane's that lies in none of the planes, above that of the object's matter."""
 NOTHING_PRICE = 6.0
 """Cost of saying, where no light comes back, that matter is there."""
+LEAST_NOTHING = 0.003
+"""Share of the image's rim that is taken to show nothing at least."""
 BOUNDARY = 10.0
 """Cost of a boundary between two layers along one pixel, where the picture shows no edge."""
 EDGE = 6.0
@@ -49,6 +53,10 @@ KEPT = 0.006
 """Share of the image under which a plane's own pixels do not keep it."""
 CEILING = 30.0
 """Cost over a pixel's cheapest layer beyond which layers are all alike."""
+
+
+Through = Callable[[Array, Mask, list[Array]], bool]
+"""Whether pixels (P,) of a plane (3,) are seen through the object, by all planes that reach the border: see `seen_through`."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +96,8 @@ class Layers:
     of_object: Appearance | None = None
     of_rest: list[Appearance] | None = None
     """The appearances of all else, by the log of the brightest shading, as that of the object."""
+    nothing: float = 0.0
+    """Cost of a place that no light comes back from: twice the negative logarithm of how much of the image's rim is such."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +141,7 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
             cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
         found.append(cost + matter)
     other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
-    total = np.stack([*found, nothing, other])
+    total = np.stack([*found, nothing + layers.nothing, other])
     blind = at.usable.sum(axis=0) < 3
     total[:, blind], total[-2, blind] = NOTHING_PRICE, 0.0  # brighter than the camera holds: none of the object
     return np.asarray(np.minimum(total, total.min(axis=0) + CEILING))
@@ -153,12 +163,12 @@ def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], l
         cost = with_planes(layers, at, table, swept.least, E).reshape(-1, *image.shape)
         labels = cheapest(cost, *weights)
         if k + 1 < ROUNDS:
-            labels, layers = _learnt(image, table, layers, labels, lit, bright, image.image(swept.normals))
+            labels, layers = _learnt(image, table, swept, layers, labels, lit, bright)
     return labels, layers, cost
 
 
 def _learnt(
-    image: Coarse, table: LightTable, layers: Layers, labels: Labels, lit: Mask, bright: Array, n_free: Array
+    image: Coarse, table: LightTable, swept: Sweep, layers: Layers, labels: Labels, lit: Mask, bright: Array
 ) -> tuple[Labels, Layers]:
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     flat, count = labels.ravel(), len(layers.planes)
@@ -175,7 +185,7 @@ def _learnt(
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
     labels = new[labels]
     of_object, of_rest = None, None
-    mine = object_of(labels, planes, n_free).ravel()
+    mine = object_of(labels, planes, image.image(swept.normals), partial(seen_through, image, table)).ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
         both = bright[free | rest]
@@ -183,7 +193,9 @@ def _learnt(
         each = [_appearance(bright[rest & (labels.ravel() == k + 1)], both) for k in range(len(kept))]
         of_rest = [one for one in each if one is not None]
     brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST else layers.brightest
-    return labels, Layers(planes, of_plane, brightest, of_object, of_rest)
+    rim = labels[_rim(labels.shape)]
+    nothing = -2 * np.log(max(float(np.mean(rim == len(kept) + 1)), LEAST_NOTHING))
+    return labels, Layers(planes, of_plane, brightest, of_object, of_rest, nothing)
 
 
 def _appearance(values: Array, over: Array) -> Appearance | None:
@@ -236,29 +248,61 @@ HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
 NO_CREASE, MOSTLY, BESIDE = 0.97, 0.5, 2
 """Cosine (14 degrees) of normals that go on smoothly, share of a plane's edge along which they do, and its width in coarse pixels."""
+LEAST_SEEN_THROUGH = 6
+"""Coarse pixels of a piece of a wall from which it is asked whether it is seen through the object."""
+SEEN_THROUGH = 2.5
+"""Cost a light of such a piece at most."""
+NEARER = (0.85, 0.7)
+"""Distances, by that of the wall, from which a plane of the piece's own is looked for."""
 INNER = 0.15
 """Share of the largest piece from which one that does not touch the border goes before all that do."""
 
 
-def background_of(labels: Labels, planes: list[Array], n_free: Array) -> Mask:
+def background_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
     """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
 
     A piece of a plane from which the object's matter goes on without a crease, by its normals n_free (rows, columns, 3), is a flat part
-    of the object, cut by the border.
+    of the object, cut by the border. A piece within the object is seen through it where `through` says so of it and all planes that reach
+    the border.
     """
     from scipy import ndimage
 
     found = labels > len(planes)
-    rim = np.ones(labels.shape, bool)
-    rim[RIM:-RIM, RIM:-RIM] = False
-    for k, q in enumerate(planes, 1):
-        piece, _ = ndimage.label(labels == k)
+    rim = _rim(labels.shape)
+    pieces = [ndimage.label(labels == k)[0] for k in range(1, len(planes) + 1)]
+    walls = []
+    for piece, q in zip(pieces, planes, strict=True):
         smooth = n_free @ (-q / np.linalg.norm(q)) > NO_CREASE
         for one in np.setdiff1d(piece[rim], [0]):
             beside = ndimage.binary_dilation(piece == one, iterations=BESIDE) & (labels == 0)
             if not (beside.sum() > FEWEST and smooth[beside].mean() > MOSTLY):
                 found |= piece == one
+        if np.any(found & (piece > 0)):
+            walls.append(q)
+    for piece, q in zip(pieces, planes, strict=True):
+        size = np.bincount(piece.ravel())
+        for one in np.setdiff1d(np.flatnonzero(size >= LEAST_SEEN_THROUGH), [0, *np.unique(piece[rim])]):
+            if any(q is wall for wall in walls) and through(q, (piece == one).ravel(), walls):
+                found |= piece == one
     return np.asarray(found)
+
+
+def _rim(shape: tuple[int, ...]) -> Mask:
+    rim = np.ones(shape, bool)
+    rim[RIM:-RIM, RIM:-RIM] = False
+    return rim
+
+
+def seen_through(image: Coarse, table: LightTable, q: Array, inside: Mask, walls: list[Array]) -> bool:
+    """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
+    own = np.flatnonzero(inside)
+    cost = float(flats.explained(image, table, q, own)[0].mean())
+    if cost > SEEN_THROUGH * len(image.signal) or any(
+        np.median(image.rays_C[own] @ (wall - q)) < 0 < np.median(image.rays_C[own] @ wall) for wall in walls
+    ):
+        return False
+    trials = [flats.fitted(image, table, q / share, inside, rounds=3) for share in (1.0, *NEARER)]
+    return bool(cost - min(float(flats.explained(image, table, one, own)[0].mean()) for one in trials) < flats.CLEARLY_EACH)
 
 
 def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
@@ -276,11 +320,11 @@ def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
     return float(np.sum(wrong)) / max(int(np.sum(mask)), 1)
 
 
-def object_of(labels: Labels, planes: list[Array], n_free: Array) -> Mask:
+def object_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
     """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other."""
     from scipy import ndimage
 
-    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, n_free)))
+    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, n_free, through)))
     if not count:
         return np.zeros(labels.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -96,9 +97,9 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     labels, found, cost = layers.label(
         image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m))
     )
-    count, n_free = len(found.planes), image.image(swept.normals)
-    mask = layers.object_of(labels, found.planes, n_free)
-    behind = layers.background_of(labels, found.planes, n_free)
+    count, n_free, through = len(found.planes), image.image(swept.normals), partial(layers.seen_through, image, table)
+    mask = layers.object_of(labels, found.planes, n_free, through)
+    behind = layers.background_of(labels, found.planes, n_free, through)
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])

@@ -237,7 +237,8 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
 def _model_std(state: State, inside: Mask) -> float:
     """Of a piece (P,): see uncertainty.model_std."""
     shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
-    return uncertainty.model_std(glossy=state.gloss is not None, shaded_share=shaded)
+    shine = state.field.gloss
+    return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
@@ -259,12 +260,13 @@ def _figures(state: State) -> dict[str, object]:
     found = state.found
     known = np.isfinite(found.b[:, 0])
     freedom = np.maximum(found.used - 3, 0)
+    shine = state.field.gloss
     return {
         "pixels": len(found.b),
         "pixels_with_three_lights": int(known.sum()),
         "median_lights_used": float(np.median(found.used)),
         "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
-        "gloss": None if state.gloss is None else asdict(state.gloss),
+        "gloss": asdict(shine) if shine is not None and shine.clear else None,
         "reflectance": state.reflectance,
         "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     }

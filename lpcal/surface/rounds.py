@@ -5,7 +5,8 @@ From the third round on the depth tells more: which lights the surface hides fro
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+import dataclasses
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,15 +15,17 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress
-from lpcal.surface import bounce, distance, gloss, normals, pieces, shadow_anchor, sight
+from lpcal.surface import bounce, distance, field, normals, pieces, shadow_anchor, sight
+from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
-from lpcal.surface.surroundings import Patches
+from lpcal.surface.surroundings import Around
 
 ROUNDS = 5
-GLOSS_ROUNDS = (1, 3)
+GLOSS_ROUND = 1
+"""From which on a gloss is looked for: at a false depth a lobe can fit by chance."""
 SHAPE_ROUND = 2
 """From which on the depth is good enough to tell which lights it hides and what its parts throw on each other."""
 SHADOW_STEPS = 64
@@ -44,10 +47,11 @@ class State:
     own: Own
     lit: Lit
     """The light that the normals were found in."""
-    gloss: gloss.Gloss | None = None
+    field: Field
+    """Of the normals, and the gloss of the object."""
     reflectance: float | None = None
     """Of the object's median pixel, by the light that its parts throw on each other; None where that was not asked."""
-    anchors: dict[int, shadow_anchor.Anchor] = field(default_factory=dict)
+    anchors: dict[int, shadow_anchor.Anchor] = dataclasses.field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
 
 
@@ -63,7 +67,7 @@ class Scene:
     """Where lights act as they do there; None: they are near."""
     distance_m: float | None = None
     """Median depth of the largest piece, where it is known."""
-    around: Patches | None = None
+    around: Around | None = None
     """What stands round the object and throws light on it."""
 
     @property
@@ -99,15 +103,15 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)
     shaped = before if k >= SHAPE_ROUND else None
-    usable = normals.candidates(seen, lit.E, None if shaped is None else hidden_lights(scene, depth, shaped, lit))
+    hidden = None if shaped is None else hidden_lights(scene, depth, shaped, lit)
+    usable = normals.candidates(seen, lit.E, hidden)
     reflectance = None
     if shaped is not None:
-        J, unseen = bounce.thrown(seen, depth, shaped.found, shaped.normals, scene.lights, scene.around)
-        reflectance, albedo = bounce.reflectance(seen, lit, J, usable, shaped.found)
-        lit = replace(lit, thrown=reflectance / albedo * J, unseen=unseen)
-    found, shine = _estimated(scene, lit, usable, before, k)
-    known = np.isfinite(found.b[:, 0])
-    n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
+        by = bounce.thrown(seen, depth, replace(shaped.found, b=shaped.field.b), shaped.normals, scene.lights, scene.around)
+        reflectance, albedo, beyond = bounce.reflectance(seen, lit, by, usable, shaped.found)
+        lit = replace(lit, thrown=reflectance / albedo * by.J(beyond), unseen=by.unseen)
+    whole = _estimated(scene, lit, usable, hidden, before, k)
+    found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
         own = distance.own_distance(lambda z: scene.lit_at(z, lit.thrown).B, depth, seen, found)
@@ -123,14 +127,14 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
-    return State(u, weight, n, found, own, lit, shine, reflectance)
+    return State(u, weight, n, found, own, lit, whole, reflectance)
 
 
 def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
     """Samples (L, P) whose light the surface hides, by its depths (P,) and by the picture: they are darker than with that light."""
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
-    albedo = np.linalg.norm(before.found.b, axis=1)
+    albedo = np.linalg.norm(before.field.b, axis=1)
     expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), 0.0)
     dark = ~(seen.signal > SHADED * expected)
     for k, light in enumerate(scene.lights):
@@ -142,16 +146,11 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
     return dark
 
 
-def _estimated(scene: Scene, lit: Lit, usable: Mask, before: State | None, k: int) -> tuple[Estimate, gloss.Gloss | None]:
-    """Normals and albedo, and the gloss that was taken off."""
+def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, k: int) -> Field:
+    """Normals, albedo and gloss."""
     seen = scene.seen
-    found = normals.estimate(seen, lit.B, usable, normals.variances(seen))
-    shine = before.gloss if before else None
-    if k in GLOSS_ROUNDS or not scene.near:
-        shine = gloss.fit(seen, lit, usable, found, shine)
-    if shine is not None:
-        found = gloss.estimate(seen, lit, usable, shine, found)
-    lit_pixels = int(np.isfinite(found.b[:, 0]).sum())
+    start = normals.estimate(seen, lit.B, usable, normals.variances(seen))
+    lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:
         raise DegenerateError(
             f"{lit_pixels} pixels are lit by three lights",
@@ -159,4 +158,5 @@ def _estimated(scene: Scene, lit: Lit, usable: Mask, before: State | None, k: in
             needed=f"{FEWEST_PIXELS} at least",
             todo="check the mask, the exposure and the ambient image",
         )
-    return found, shine
+    glossy = k >= GLOSS_ROUND or not scene.near
+    return field.solve(seen, scene.grid, lit, hidden, start, None if before is None else before.field, glossy=glossy)

@@ -1,24 +1,32 @@
 """What stands round the object and throws light on it: the wall behind it and the support under it, as patches on the planes found there.
 
 A plane's pixels show its radiance under every light, shadows and all, so nothing of the planes' own reflectance has to be known. What the
-object hides of a plane, and what lies outside the image, throws nothing here.
+object hides of a plane, and what of it lies outside the image, is taken for the plane's common matter, lit by the lights that the object
+leaves to it: a table throws most of its light from where the camera does not see it, under the object and before the picture's lower edge.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import mask, planes
-from lpcal.surface.sight import Grey, Indices, Sight, look_at
+from lpcal.surface.relief import Relief
+from lpcal.surface.sight import Grey, Indices, Sight, light_vectors, look_at
 
 PATCHES = 600
 MARGIN = 2
 """Coarse pixels about the object that count as neither."""
+BEYOND = 0.6
+"""How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
+NEAREST, FURTHEST = 0.5, 2.0
+"""Least and largest depth of what is not seen of a plane, by the median depth of what is seen of it."""
+SHADOW_STEPS = 32
+"""Places at which it is asked whether the object stands between a light and an unseen patch."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,34 @@ class Patches:
     """(Q,) m^2."""
     signal: Array
     """(L, Q) what they show the camera, a unit of light."""
+
+    @staticmethod
+    def together(some: Sequence[Patches]) -> Patches:
+        """All patches of several."""
+        return Patches(
+            np.concatenate([one.x_C for one in some]),
+            np.concatenate([one.n for one in some]),
+            np.concatenate([one.area for one in some]),
+            np.concatenate([one.signal for one in some], axis=1),
+        )
+
+
+@dataclass(frozen=True)
+class Around:
+    """The planes' patches: those that the camera sees, and those of which it sees nothing, with the signals of full light."""
+
+    seen: Patches
+    unseen: Patches | None
+
+    def beyond(self, relief: Relief, lights: Sequence[Light]) -> Patches | None:
+        """The unseen ones in the shadow of the object."""
+        if self.unseen is None:
+            return None
+        signal = self.unseen.signal.copy()
+        for k, light in enumerate(lights):
+            if light.source_C is not None:
+                signal[k, relief.hidden_from(self.unseen.x_C, light.source_C, SHADOW_STEPS)] = 0.0
+        return replace(self.unseen, signal=signal)
 
 
 @dataclass(frozen=True)
@@ -55,35 +91,85 @@ def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
     return Whole(seen, hidden, factor)
 
 
-def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]) -> Patches | None:
+def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]) -> Around | None:
     """Patches of the planes `found`; None where nothing is seen of them."""
     from scipy import ndimage
 
     seen, free = image.seen, ~ndimage.binary_dilation(image.hidden, iterations=MARGIN).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
+    albedo = []
     for k, plane in enumerate(found):
-        square, count = planes.misfit(seen, planes.foretold(plane.q, seen.rays_C, lights))
+        m = planes.foretold(plane.q, seen.rays_C, lights)
+        square, count = planes.misfit(seen, m)
         better = free & (count >= 2) & (square < least)
         of_plane[better], least[better] = k, square[better]
+        albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
     height, width = seen.mask.shape
     size = max(1, int(np.ceil(np.sqrt(height * width / PATCHES))))
-    row, column = np.indices((height, width)).reshape(2, -1)
-    block = row // size * (width // size + 1) + column // size
-    step = float(np.linalg.norm(np.diff(seen.rays_C[:2], axis=0)))
-    parts = [_of_plane(seen, plane.q, np.flatnonzero(of_plane == k), block, step) for k, plane in enumerate(found) if np.any(of_plane == k)]
-    if not parts:
+    shown = _joined(seen.rays_C, of_plane, found, _blocks(height, width, size), seen.signal)
+    if shown is None:
         return None
-    return Patches(
-        np.concatenate([part.x_C for part in parts]),
-        np.concatenate([part.n for part in parts]),
-        np.concatenate([part.area for part in parts]),
-        np.concatenate([part.signal for part in parts], axis=1),
-    )
+    pad = int(np.ceil(BEYOND * max(height, width) / size)) * size
+    here = np.pad(of_plane.reshape(height, width), pad, constant_values=-1)
+    nearest = ndimage.distance_transform_edt(here < 0, return_distances=False, return_indices=True)
+    beyond = np.where(here < 0, here[tuple(nearest)], -1).ravel()
+    beyond[np.pad(~image.hidden, pad).ravel()] = -1
+    rays_C = _rays_beyond(seen, pad)
+    for k, plane in enumerate(found):
+        depth = 1 / np.maximum(rays_C @ plane.q, planes.BEHIND)
+        least_depth = (
+            NEAREST * np.median(1 / np.maximum(seen.rays_C[of_plane == k] @ plane.q, planes.BEHIND)) if np.any(of_plane == k) else 0
+        )
+        beyond[
+            (beyond == k) & ((rays_C @ plane.q < planes.BEHIND) | (depth < least_depth) | (depth > FURTHEST * least_depth / NEAREST))
+        ] = -1
+    blank = np.zeros((len(lights), len(beyond)))
+    unseen = _joined(rays_C, beyond, found, _blocks(height + 2 * pad, width + 2 * pad, size), blank)
+    if unseen is not None:
+        kinds = np.concatenate(
+            [np.full(len(np.unique(_blocks(height + 2 * pad, width + 2 * pad, size)[beyond == k])), k) for k in range(len(found))]
+        )
+        d, E = light_vectors(lights, unseen.x_C)
+        lit = E * np.maximum(np.einsum("kpi,pi->kp", d, unseen.n), 0.0)
+        unseen = replace(unseen, signal=np.asarray(albedo)[kinds] * lit)
+    return Around(shown, unseen)
 
 
-def _of_plane(seen: Sight, q: Array, inside: Indices, block: Indices, step: float) -> Patches:
+def _albedo(signal: Array, m: Array) -> float:
+    """The common albedo of pixels of a plane, in the signals' units: the median over those of each pixel's most lit sample."""
+    return float(np.median(np.max(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), 0.0), axis=0)))
+
+
+def _blocks(height: int, width: int, size: int) -> Indices:
+    row, column = np.indices((height, width)).reshape(2, -1)
+    return np.asarray(row // size * (width // size + 1) + column // size)
+
+
+def _rays_beyond(seen: Sight, pad: int) -> Array:
+    """Rays (N, 3) of the image with a margin of `pad` pixels: those of a camera without distortion that is like it on the whole."""
+    height, width = seen.mask.shape
+    row, column = np.indices((height, width)).reshape(2, -1)
+    waves = np.column_stack([column, row, np.ones(len(row))])
+    slope = np.linalg.lstsq(waves, seen.rays_C[:, :2], rcond=None)[0]
+    row, column = np.indices((height + 2 * pad, width + 2 * pad)).reshape(2, -1) - pad
+    return np.column_stack([np.column_stack([column, row, np.ones(len(row))]) @ slope, np.ones(len(row))])
+
+
+def _joined(rays_C: Array, of_plane: Indices, found: Sequence[planes.Plane], block: Indices, signal: Array) -> Patches | None:
+    """Patches of all planes, of pixels whose plane's number `of_plane` (P,) is not -1; None where there is none."""
+    middle = len(rays_C) // 2
+    step = float(np.linalg.norm(rays_C[middle + 1] - rays_C[middle]))
+    parts = [
+        _of_plane(rays_C, signal, plane.q, np.flatnonzero(of_plane == k), block, step)
+        for k, plane in enumerate(found)
+        if np.any(of_plane == k)
+    ]
+    return Patches.together(parts) if parts else None
+
+
+def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Indices, block: Indices, step: float) -> Patches:
     """The pixels `inside` of a plane q (3,), joined by their `block` (P,); neighbouring rays lie `step` apart at depth 1."""
-    unit, rays = q / np.linalg.norm(q), seen.rays_C[inside]
+    unit, rays = q / np.linalg.norm(q), rays_C[inside]
     depth = 1 / (rays @ q)
     area = (depth * step) ** 2 / (rays @ unit)
     _, of_block = np.unique(block[inside], return_inverse=True)
@@ -94,4 +180,4 @@ def _of_plane(seen: Sight, q: Array, inside: Indices, block: Indices, step: floa
         return np.stack([np.bincount(of_block, area * one) for one in values]) / total
 
     x_C = joined((depth[:, None] * rays).T).T
-    return Patches(x_C, np.broadcast_to(-unit, x_C.shape), total, joined(np.maximum(seen.signal[:, inside], 0)))
+    return Patches(x_C, np.broadcast_to(-unit, x_C.shape), total, joined(np.maximum(signal[:, inside], 0)))

@@ -1,0 +1,192 @@
+r"""Normals and albedo of all pixels together: each by its own samples, and by its neighbours where these leave it open.
+
+Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or in shadow (v = 0), with B_k the light, J_k what is thrown on
+it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviation::
+
+    sum_pk  rho((I_k - g_k - (v B_k + J_k) . b_p) / s_k)  +  PRICE [v = 0]   +   sum_pq  rho(|b_p - b_q| / (TURN sqrt(a_p a_q)))
+
+rho is Geman and McClure's. A pixel that three or more lights reach is left as it is: its samples weigh a hundred times what its neighbours
+do. One that two lights reach is told the third direction by its neighbours' albedo and normal, and one in shadow by the light that its
+surroundings throw on it. Solved in turn for the states of the samples (softly at first), for the weights, and for b by conjugate gradients,
+from the estimates of single pixels, without those so dark that they are taken for shadows. The gloss of the object is fitted on the way.
+
+Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
+Cipolla 2008 (shadows, and the neighbours' part in what they hide).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface import gloss, pieces
+from lpcal.surface.integrate import Grid
+from lpcal.surface.normals import Estimate
+from lpcal.surface.sight import Lit, Sight
+
+TURN = 0.15
+"""Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): .1 and .25 give the same normals to 2 %."""
+MODEL, SHARED, DARK = 0.02, 0.02, 0.01
+"""What the model lacks, a standard deviation: as a share of a sample, and as shares of a pixel's brightest one in light and in shadow."""
+THROWN_DOUBT, GLOSS_DOUBT = 0.27, 0.2
+"""What light thrown by surfaces, and gloss, are known to, as shares of themselves."""
+PRICE, HIDDEN = 5.0, 4.0
+"""Cost of a sample in shadow that no shape explains, and of a lit one where the depth says that something stands in the way."""
+WIDTH2 = 9.0
+"""Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
+WARM = 4.0
+"""Temperature at which the states of the samples are soft in the first rounds."""
+JUNK, ACROSS = 0.5, 6.0
+"""A start darker than this share of what lies around, over the object's extent by the second number, is taken for shadow."""
+FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
+"""Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
+slowly."""
+SOLVED, MOST_STEPS = 1e-3, 60
+"""Residual at which the conjugate gradients stop, and how many steps they take at most."""
+TOWARDS = 0.02
+"""Least cosine of a normal to the viewer."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """b of all pixels, and what was found on the way."""
+
+    b: Array
+    """(P, 3)."""
+    estimate: Estimate
+    """By each pixel's own samples among those that the field says are lit; NaN where they are fewer than three or in a plane."""
+    gloss: gloss.Gloss | None
+
+
+@dataclass(frozen=True)
+class _States:
+    """The samples (L, P): residuals and variances as lit and as in shadow, and the chance of each to be lit."""
+
+    lit: Array
+    spread2: Array
+    shadow: Array
+    shadow_spread2: Array
+    chance: Array
+
+
+def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimate, before: Field | None, *, glossy: bool) -> Field:
+    """The field from estimates of single pixels, or from a field found before at a depth nearby.
+
+    `hidden` (L, P) are samples whose light the depth hides; `glossy` says whether a gloss is looked for.
+    """
+    v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+    b = _begin(seen, grid, start.b) if before is None else before.b
+    shine = None if before is None else before.gloss
+    J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
+    direct = lit.d * lit.E[..., None]
+    rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * glossy
+    for k in range(rounds):
+        shown = _shown(lit, b, v, shine)
+        if glossy and (k > 1 or before is not None):
+            state = _states(seen, direct, J, b, hidden, None, 1.0)
+            shine = gloss.fit(state.lit, np.where(state.chance > 0.5, 1.0, 0.0) * seen.usable, state.spread2, lit, lambert.unit(b)[0], v)
+            shown = _shown(lit, b, v, shine)
+        state = _states(seen, direct, J, b, hidden, shown, WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0)
+        b = _solved(seen, grid, direct, J, b, state, shown)
+        towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
+        b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
+    shown = _shown(lit, b, v, shine)
+    return Field(b, _by_pixels(seen, direct, J, b, hidden, shown), shine)
+
+
+def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
+    """A start (P, 3): estimates of single pixels without shadows, the rest filled from around."""
+    from scipy import ndimage
+
+    known = np.isfinite(b[:, 0])
+    albedo = np.where(known, np.linalg.norm(np.nan_to_num(b), axis=1), 0.0)
+    reach = np.sqrt(seen.pixels) / ACROSS
+    picture = np.zeros(seen.mask.shape)
+    picture[seen.mask] = albedo
+    square, plain = (np.asarray(ndimage.gaussian_filter(one, reach))[seen.mask] for one in (picture**2, picture))
+    return pieces.fill(grid, b, known & (albedo > JUNK * square / np.maximum(plain, 1e-12)))
+
+
+def _shown(lit: Lit, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
+    """Gloss (L, P) that the lobe shows."""
+    return None if shine is None else shine.ks * lit.E * gloss.lobe(lit.d, lambert.unit(b)[0], v, shine.roughness)
+
+
+def _states(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> _States:
+    """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
+    bright = np.maximum(lambert.dot(direct, b), 0.0)
+    thrown = np.maximum(lambert.dot(J, b), 0.0)
+    top = seen.signal.max(axis=0)
+    left = seen.signal - thrown if shown is None else seen.signal - thrown - shown
+    noise2 = seen.sigma**2 + (THROWN_DOUBT * thrown) ** 2
+    spread2 = noise2 + (MODEL * seen.signal) ** 2 + (SHARED * top) ** 2
+    if shown is not None:
+        spread2 = spread2 + (GLOSS_DOUBT * shown) ** 2
+    dark, dark2 = seen.signal - thrown, noise2 + (DARK * top) ** 2
+    against = dark**2 / dark2 + np.where(bright > 0, PRICE, 0.0) - (left - bright) ** 2 / spread2
+    if hidden is not None:
+        against = np.where(hidden, dark**2 / dark2 - (left - bright) ** 2 / spread2 - HIDDEN, against)
+    chance = 1 / (1 + np.exp(-np.clip(against / (2 * warmth), -30, 30)))
+    return _States(left - bright, spread2, dark, dark2, chance)
+
+
+def _solved(seen: Sight, grid: Grid, direct: Array, J: Array, b: Array, state: _States, shown: Array | None) -> Array:
+    """b (P, 3) of least energy for fixed states and weights."""
+    from scipy import sparse
+    from scipy.sparse import linalg
+
+    def weights(chance: Array, residual: Array, spread2: Array) -> Array:
+        return np.where(seen.usable, chance / (1 + residual**2 / spread2 / WIDTH2) ** 2 / spread2, 0.0)
+
+    as_lit = weights(state.chance, state.lit, state.spread2)
+    in_shadow = weights(1 - state.chance, state.shadow, state.shadow_spread2)
+    B = np.where((lambert.dot(direct, b) > 0)[..., None], direct + J, J)
+    signal = seen.signal if shown is None else seen.signal - shown
+    own = np.einsum("kp,kpi,kpj->pij", as_lit, B, B) + np.einsum("kp,kpi,kpj->pij", in_shadow, J, J)
+    right = np.einsum("kp,kpi->pi", as_lit * signal, B) + np.einsum("kp,kpi->pi", in_shadow * seen.signal, J)
+    albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
+    both = albedo[grid.a] * albedo[grid.b]
+    apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
+    link = 1 / (both * TURN**2) / (1 + apart / 4) ** 2
+    P = seen.pixels
+    links = sparse.coo_array((link, (grid.a, grid.b)), shape=(P, P)).tocsr()
+    links = links + links.T
+    block = own + np.asarray(links.sum(axis=1)).reshape(-1, 1, 1) * np.eye(3)
+    inverse = np.linalg.inv(block + 1e-12 * np.trace(block, axis1=1, axis2=2).max() * np.eye(3))
+
+    def energy(x: Array) -> Array:
+        y = x.reshape(P, 3)
+        return np.asarray((np.einsum("pij,pj->pi", block, y) - links @ y).ravel())
+
+    def near(x: Array) -> Array:
+        return np.asarray(np.einsum("pij,pj->pi", inverse, x.reshape(P, 3)).ravel())
+
+    shape = (3 * P, 3 * P)
+    A, M = linalg.LinearOperator(shape, matvec=energy, dtype=float), linalg.LinearOperator(shape, matvec=near, dtype=float)
+    found, _ = linalg.cg(A, right.ravel(), x0=b.ravel(), M=M, rtol=SOLVED, maxiter=MOST_STEPS)
+    return np.asarray(found.reshape(P, 3))
+
+
+def _by_pixels(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | None, shown: Array | None) -> Estimate:
+    """What each pixel's own samples say, of those that are lit by the field and agree with it."""
+    state = _states(seen, direct, J, b, hidden, shown, 1.0)
+    square = state.lit**2 / state.spread2
+    lit = seen.usable & (lambert.dot(direct, b) > 0)
+    inliers = lit & (state.chance > 0.5) & (square < WIDTH2)
+    signal = seen.signal if shown is None else seen.signal - shown
+    B = direct + J
+    own, covariance = lambert.weighted(B, signal, inliers / state.spread2)
+    square = (signal - lambert.predicted(B, np.nan_to_num(own))) ** 2 / state.spread2
+    far = lambert.dot(np.nan_to_num(own), b) < 0
+    good = (inliers.sum(axis=0) >= 3) & np.isfinite(own[:, 0]) & ~far
+    return Estimate(
+        np.where(good[:, None], own, np.nan),
+        inliers,
+        covariance,
+        np.sum(np.where(inliers, square, 0.0), axis=0),
+        np.sum(np.where(lit, np.minimum(square, WIDTH2), 0.0), axis=0),
+        shown,
+    )

@@ -1,0 +1,104 @@
+"""Normals of all pixels together, against a sphere whose samples are hidden, few or glossy by construction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface import field, gloss, normals
+from lpcal.surface.integrate import Grid
+from lpcal.surface.sight import Lit, Sight
+
+SIZE = 70
+ALBEDO = 0.5
+
+
+def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None) -> tuple[Sight, Lit, Array, Array]:
+    """A sphere far away under distant lights of 35 degrees: what is seen, the light, normals (P, 3) and signals without noise (L, P)."""
+    row, column = np.indices((SIZE, SIZE)).reshape(2, -1)
+    x, y = (column - SIZE / 2) / (0.45 * SIZE), (row - SIZE / 2) / (0.45 * SIZE)
+    inside = x**2 + y**2 < 0.95
+    n = np.stack([x, y, -np.sqrt(np.maximum(1 - x**2 - y**2, 0))], axis=1)[inside]
+    angle, slant = 2 * np.pi * np.arange(lights) / lights + 0.2, np.radians(35)
+    to = np.stack([np.sin(slant) * np.cos(angle), np.sin(slant) * np.sin(angle), np.full(lights, -np.cos(slant))], axis=1)
+    d = np.repeat(to[:, None], len(n), axis=1)
+    lit = Lit(d, np.ones((lights, len(n))))
+    clean = ALBEDO * np.maximum(np.einsum("kpi,pi->kp", d, n), 0)
+    if shine is not None:
+        clean = clean + shine[0] * gloss.lobe(d, n, np.tile([0.0, 0.0, -1.0], (len(n), 1)), shine[1])
+    signal = clean + 2e-3 * np.random.default_rng(seed).standard_normal(clean.shape)
+    rays = np.tile([0.0, 0.0, 1.0], (len(n), 1))
+    mask = inside.reshape(SIZE, SIZE)
+    return Sight(mask, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True), lit, n, clean
+
+
+def found(seen: Sight, lit: Lit, *, hidden: Mask | None = None, glossy: bool = False) -> tuple[field.Field, normals.Estimate]:
+    alone = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
+    return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, None, glossy=glossy), alone
+
+
+def errors_deg(b: Array, n: Array) -> Array:
+    return np.degrees(np.arccos(np.clip(np.sum(lambert.unit(b)[0] * n, axis=1), -1, 1)))
+
+
+@pytest.mark.parametrize("lights", [4, 6, 12])
+def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights):
+    seen, lit, n, clean = ball(lights)
+    whole, alone = found(seen, lit)
+    many = np.sum(clean > 0.02, axis=0) == lights
+    assert np.median(errors_deg(whole.b, n)[many]) <= 1.02 * np.nanmedian(errors_deg(alone.b, n)[many])
+    bias = np.mean(lambert.unit(whole.b)[0] - n, axis=0)
+    assert np.linalg.norm(bias) < np.radians(0.3)
+
+
+@pytest.mark.parametrize("left", [(0, 1), (0, 3), (2, 4)])
+def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left):
+    seen, lit, n, _ = ball(6)
+    strip = np.abs(n[:, 0] - 0.2) < 0.1
+    signal = seen.signal.copy()
+    dark = np.setdiff1d(np.arange(6), left)
+    signal[np.ix_(dark, np.flatnonzero(strip))] *= 0.02
+    whole, _ = found(replace(seen, signal=signal), lit)
+    assert np.median(errors_deg(whole.b, n)[strip]) < 4
+    assert np.median(errors_deg(whole.b, n)[~strip]) < 0.5
+
+
+def test_a_shadow_lit_from_around_is_no_dark_matter():
+    """Inside a dark patch a tenth of the light is left, as if all lights reached matter of a tenth of the albedo turned elsewhere."""
+    seen, lit, n, _ = ball(6)
+    patch = (np.abs(n[:, 0]) < 0.25) & (np.abs(n[:, 1] - 0.3) < 0.2)
+    around = np.array([0.0, 0.9, -0.43])
+    signal = seen.signal.copy()
+    signal[:, patch] = 0.08 * ALBEDO * np.maximum(n[patch] @ around, 0) + 0.002 * np.random.default_rng(1).standard_normal((6, patch.sum()))
+    whole, alone = found(replace(seen, signal=signal), lit)
+    ours, theirs = (np.mean(np.nan_to_num(errors_deg(b, n)[patch], nan=90.0)) for b in (whole.b, alone.b))
+    assert ours < 8
+    assert ours < 0.5 * theirs
+
+
+def test_gloss_is_found_and_taken_off():
+    seen, lit, n, _ = ball(6, shine=(0.15, 0.19))
+    whole, alone = found(seen, lit, glossy=True)
+    assert whole.gloss is not None
+    assert whole.gloss.clear
+    assert np.mean(errors_deg(whole.b, n)) < 0.8 * np.mean(errors_deg(alone.b, n))
+
+
+def test_where_there_is_no_gloss_next_to_none_is_taken_off():
+    seen, lit, _, _ = ball(6)
+    whole, _ = found(seen, lit, glossy=True)
+    assert whole.gloss is None or not whole.gloss.clear
+    assert whole.estimate.gloss is None or np.abs(whole.estimate.gloss).max() < 0.02 * ALBEDO
+
+
+def test_a_tenth_of_the_noise_moves_no_normal_far():
+    seen, lit, _, clean = ball(4)
+    shake = 2e-4 * np.random.default_rng(9).standard_normal(clean.shape)
+    one, _ = found(seen, lit)
+    other, _ = found(replace(seen, signal=seen.signal + shake), lit)
+    moved = errors_deg(one.b, lambert.unit(other.b)[0])
+    assert np.quantile(moved, 0.99) < 0.5
