@@ -34,6 +34,7 @@ def test_no_mutated_file_ends_in_a_traceback_a_crash_or_a_hang(fuzz: ModuleType)
     assert sum(result.code != 0 for result in results) > CASES / 2, "most mutations are noticed"
 
 
+@pytest.mark.slow
 def test_every_sample_is_valid_before_it_is_mutated(fuzz: ModuleType, tmp_path: Path) -> None:
     """Each is read: what ends a command is that the data are few, never that the file cannot be read."""
     from lpcal.cli.main import main

@@ -95,7 +95,7 @@ def write_near_ps(folder):
     return [str(k + 1) for k in range(6)]
 
 
-@pytest.mark.parametrize("write", [write_luces, write_near_ps])
+@pytest.mark.parametrize("write", [pytest.param(write_luces, marks=pytest.mark.slow), write_near_ps])
 def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path, lpcal, write):
     names = write(tmp_path)
     raw = draw(Scene(), calibration())

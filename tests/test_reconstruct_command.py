@@ -217,7 +217,7 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_image_size, 6, "images of 160x104"),
         (spoil_one_images_size, 6, "L2.png: 156x112 grey, but L0.png is 160x112 grey"),
         (spoil_saturated, 4, "saturated"),
-        (spoil_distance, 4, "outside the working volume"),
+        pytest.param(spoil_distance, 4, "outside the working volume", marks=pytest.mark.slow),
         (spoil_ambient, 6, "the ambient image is brighter than the lit ones"),
         (spoil_calibration_nan, 3, "light L0"),
         (spoil_calibration_cut, 3, "calibration.yaml"),

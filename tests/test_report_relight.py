@@ -291,7 +291,7 @@ def test_the_browser_draws_the_report(browse: Any) -> None:
         assert 0.005 < (shown(canvas)[1] > 0).mean() < 0.9
 
 
-@pytest.mark.parametrize("side", [0.35, 0.65])
+@pytest.mark.parametrize("side", [0.35, pytest.param(0.65, marks=pytest.mark.slow)])
 def test_the_light_follows_the_pointer_and_the_wheel(browse: Any, side: float) -> None:
     act = f"""<script>
     window.act = () => {{

@@ -23,7 +23,7 @@ BESIDE: dict[str, Painter] = {
     "can": turned(265, 120, 60, np.ones_like),
 }
 
-SLOW = ("box", "vase", "larger round picture", "can")
+SLOW = ("box", "vase", "larger round picture", "can", "picture frame")
 
 
 def place_of(view: SphereView) -> tuple[float, float, float]:

@@ -13,7 +13,7 @@ from lpcal.surface import sight
 from lpcal.surface.basins import Basin, Basins, search
 
 
-@pytest.mark.parametrize("about", [0.6, 1.0, 1.9])
+@pytest.mark.parametrize("about", [*(pytest.param(one, marks=pytest.mark.slow) for one in (0.6, 1.0)), 1.9])
 def test_the_object_is_found_from_afar(about: float) -> None:
     """The sphere's distance within 3 per cent, though the working distance is stated up to twice as large."""
     given = calibration()

@@ -95,8 +95,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
 
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve)
     wanted = _is_wanted(radiance, options)
+    given_mask = None if wanted else _object(None, radiance, options)
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if wanted or near else None
-    object_mask = _object(background if wanted else None, radiance, options)
+    object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
     if gain is not None:
