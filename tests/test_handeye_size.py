@@ -14,7 +14,7 @@ from lpcal.geometry.arrays import Array
 
 
 def warned(H_OP: Array, H_CB: Array) -> str | None:
-    return closed_form_size_warning(H_OP, H_CB, park.consensus(H_OP, H_CB).H_PC)
+    return closed_form_size_warning(H_OP, H_CB, park.consensus(H_OP, H_CB).H_PC, "camera")
 
 
 def drifting(seed: int) -> tuple[Array, Array]:

@@ -83,6 +83,7 @@ def test_every_file_of_the_contract(lpcal, rig):
     assert len(summary["inputs"]["L0.png"]) == 64
 
 
+@pytest.mark.slow
 def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, rig, drawn, quick):
     write_capture(rig / "elsewhere", drawn)
     code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, cwd=rig)
@@ -117,6 +118,7 @@ def test_an_image_that_is_no_lights_is_left_out_and_named(lpcal, rig, quick):
     assert "left out: lamp9.png is no light's" in told
 
 
+@pytest.mark.slow
 def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
     dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
     write_capture(rig / "objects/dark", dark)

@@ -65,6 +65,7 @@ def test_the_mesh_faces_the_camera_and_is_cut_at_the_outline(sphere):
     assert len(made.vertices_C) > 0.97 * sphere.mask.sum()
 
 
+@pytest.mark.slow
 def test_colour_gives_the_same_shape_and_the_colours():
     scene = Scene(albedo=(0.8, 0.5, 0.2))
     mask, _, n = truth(scene)
