@@ -114,7 +114,9 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
 
 
 def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
-    """Stop where blocks of pixels are darker than no light at all, by more than their noise makes them."""
+    """Stop where blocks of pixels are darker than no light at all, by more than their noise makes them; images of nothing tell none."""
+    if raw.images.max() <= BLACK_OFF:
+        return
     mean, scatter = _blocks(linear)
     below = mean < -(BLACK_OFF + BLACK_SIGMAS * scatter / BLACK_BLOCK)
     if below.size == 0 or below.mean() < BLACK_SHARE:
