@@ -8,9 +8,9 @@ p to j at the distance r. A patch of reflectance a emits its signal, so point p 
 with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
-camera does not see are guessed (surface.sides). s is the one number that the signals do not state: it is chosen by the robust misfit,
-with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg
-1985 (form factors).
+camera does not see are guessed (surface.sides). The signals do not state s, nor how much goes on out of sight: both are means over a grid,
+weighted by the robust misfit and by the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer
+Vision 6; Cohen and Greenberg 1985 (form factors).
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
 def reflectance(seen: Sight, lit: Lit, by: Thrown, usable: Mask, found: Estimate) -> tuple[float, float, float]:
     """Reflectance of the object's median pixel, its albedo in the signals' units, and the share of what lies beyond that is there.
 
-    What is thrown acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does. They are
-    means over what the samples allow: these often tell little, and a least cost would jump.
+    J acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does. Both choices are posterior
+    means: the samples often constrain them weakly, and the place of the least cost would jump.
     """
     known = np.flatnonzero(np.isfinite(found.b[:, 0]))
     some = known[:: max(1, len(known) // SAMPLE)]

@@ -5,7 +5,7 @@ Symbols: normal n, light d, viewer v, half vector h between d and v, roughness a
     ks E (D G) / (4 n.v)        D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),   G = Smith's shadowing of both sides
 
 ks is the robust regression of what the Lambertian part leaves on the lobe, at each of a few roughnesses; the normals are those of the field
-(surface.field), which fits it anew in every round: highlights that bend a pixel's normal are told by its neighbours.
+(surface.field), which fits it anew in every round: a highlight that would bend one pixel's normal contradicts its neighbours.
 Source: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX).
 """
 
@@ -21,9 +21,9 @@ from lpcal.surface.sight import Lit
 SAMPLE = 4000
 """Pixels of an object that its gloss is fitted to, spread over it."""
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
-"""Roughnesses that are tried: a quarter apart, as far as a lobe's width can be told."""
+"""Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
 DOUBT = 0.2
-"""What a lobe is known to, as a share of itself."""
+"""Standard deviation of a lobe, as a share of itself."""
 WIDTH2 = 9.0
 """Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
 ROUNDS = 6

@@ -104,35 +104,42 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
         better = free & (count >= 2) & (square < least)
         of_plane[better], least[better] = k, square[better]
         albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
-    height, width = seen.mask.shape
-    size = max(1, int(np.ceil(np.sqrt(height * width / PATCHES))))
-    shown = _joined(seen.rays_C, of_plane, found, _blocks(height, width, size), seen.signal)
-    if shown is None:
+    size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
+    block = _blocks(seen.mask.shape, size)
+    shown = [_of_plane(seen.rays_C, seen.signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
+    if not shown:
         return None
-    pad = int(np.ceil(BEYOND * max(height, width) / size)) * size
-    here = np.pad(of_plane.reshape(height, width), pad, constant_values=-1)
-    nearest = ndimage.distance_transform_edt(here < 0, return_distances=False, return_indices=True)
-    beyond = np.where(here < 0, here[tuple(nearest)], -1).ravel()
-    beyond[np.pad(~image.hidden, pad).ravel()] = -1
-    rays_C = _rays_beyond(seen, pad)
+    pad = int(np.ceil(BEYOND * max(seen.mask.shape) / size)) * size
+    rays_C, beyond = _rays_beyond(seen, pad), _goes_on(image, of_plane, pad)
+    block = _blocks((seen.mask.shape[0] + 2 * pad, seen.mask.shape[1] + 2 * pad), size)
+    blank = np.zeros((len(lights), len(rays_C)))
+    unseen = []
     for k, plane in enumerate(found):
-        depth = 1 / np.maximum(rays_C @ plane.q, planes.BEHIND)
-        least_depth = (
-            NEAREST * np.median(1 / np.maximum(seen.rays_C[of_plane == k] @ plane.q, planes.BEHIND)) if np.any(of_plane == k) else 0
-        )
-        beyond[
-            (beyond == k) & ((rays_C @ plane.q < planes.BEHIND) | (depth < least_depth) | (depth > FURTHEST * least_depth / NEAREST))
-        ] = -1
-    blank = np.zeros((len(lights), len(beyond)))
-    unseen = _joined(rays_C, beyond, found, _blocks(height + 2 * pad, width + 2 * pad, size), blank)
-    if unseen is not None:
-        kinds = np.concatenate(
-            [np.full(len(np.unique(_blocks(height + 2 * pad, width + 2 * pad, size)[beyond == k])), k) for k in range(len(found))]
-        )
-        d, E = light_vectors(lights, unseen.x_C)
-        lit = E * np.maximum(np.einsum("kpi,pi->kp", d, unseen.n), 0.0)
-        unseen = replace(unseen, signal=np.asarray(albedo)[kinds] * lit)
-    return Around(shown, unseen)
+        inside = (beyond == k) & _within_reach(rays_C @ plane.q, seen.rays_C[of_plane == k] @ plane.q)
+        if inside.any():
+            part = _of_plane(rays_C, blank, plane.q, inside, block)
+            d, E = light_vectors(lights, part.x_C)
+            unseen.append(replace(part, signal=albedo[k] * (E * np.maximum(np.einsum("kpi,pi->kp", d, part.n), 0.0))))
+    return Around(Patches.together(shown), Patches.together(unseen) if unseen else None)
+
+
+def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
+    """The plane that goes on at each pixel of the image with a margin of `pad`, the nearest of those seen; -1 where the image shows it."""
+    from scipy import ndimage
+
+    here = np.pad(of_plane.reshape(image.seen.mask.shape), pad, constant_values=-1)
+    nearest = ndimage.distance_transform_edt(here < 0, return_distances=False, return_indices=True)
+    plane = np.where(here < 0, here[tuple(nearest)], -1)
+    plane[np.pad(~image.hidden, pad)] = -1
+    return np.asarray(plane.ravel())
+
+
+def _within_reach(slope: Array, seen: Array) -> Mask:
+    """Where (N,) rays meet a plane at depths about those seen of it, by q . r of all rays and of those that show the plane."""
+    if not seen.size:
+        return np.zeros(len(slope), bool)
+    depth, middle = 1 / np.maximum(slope, planes.BEHIND), np.median(1 / np.maximum(seen, planes.BEHIND))
+    return np.asarray((slope >= planes.BEHIND) & (depth >= NEAREST * middle) & (depth <= FURTHEST * middle))
 
 
 def _albedo(signal: Array, m: Array) -> float:
@@ -140,9 +147,10 @@ def _albedo(signal: Array, m: Array) -> float:
     return float(np.median(np.max(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), 0.0), axis=0)))
 
 
-def _blocks(height: int, width: int, size: int) -> Indices:
-    row, column = np.indices((height, width)).reshape(2, -1)
-    return np.asarray(row // size * (width // size + 1) + column // size)
+def _blocks(shape: tuple[int, ...], size: int) -> Indices:
+    """The number (N,) of the block of `size` x `size` pixels that each pixel lies in."""
+    row, column = np.indices(shape).reshape(2, -1)
+    return np.asarray(row // size * (shape[1] // size + 1) + column // size)
 
 
 def _rays_beyond(seen: Sight, pad: int) -> Array:
@@ -155,20 +163,10 @@ def _rays_beyond(seen: Sight, pad: int) -> Array:
     return np.column_stack([np.column_stack([column, row, np.ones(len(row))]) @ slope, np.ones(len(row))])
 
 
-def _joined(rays_C: Array, of_plane: Indices, found: Sequence[planes.Plane], block: Indices, signal: Array) -> Patches | None:
-    """Patches of all planes, of pixels whose plane's number `of_plane` (P,) is not -1; None where there is none."""
+def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Mask, block: Indices) -> Patches:
+    """The pixels `inside` (P,) of a plane q (3,), joined by their `block` (P,)."""
     middle = len(rays_C) // 2
-    step = float(np.linalg.norm(rays_C[middle + 1] - rays_C[middle]))
-    parts = [
-        _of_plane(rays_C, signal, plane.q, np.flatnonzero(of_plane == k), block, step)
-        for k, plane in enumerate(found)
-        if np.any(of_plane == k)
-    ]
-    return Patches.together(parts) if parts else None
-
-
-def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Indices, block: Indices, step: float) -> Patches:
-    """The pixels `inside` of a plane q (3,), joined by their `block` (P,); neighbouring rays lie `step` apart at depth 1."""
+    step = float(np.linalg.norm(rays_C[middle + 1] - rays_C[middle]))  # of neighbouring rays at depth 1
     unit, rays = q / np.linalg.norm(q), rays_C[inside]
     depth = 1 / (rays @ q)
     area = (depth * step) ** 2 / (rays @ unit)

@@ -49,7 +49,7 @@ def finding_of(
     warnings: list[str],
     known_offset_s: float | None,
     drift: Drift | None = None,
-    told: SetUp = ON_BODY,
+    set_up: SetUp = ON_BODY,
 ) -> HandEyeFinding:
     """The record of a settled solve; `t_camera_s` are the views' times, freed of the `drift` that shows.
 
@@ -72,7 +72,7 @@ def finding_of(
             f"{100 * bad:.0f} % of the views do not fit one rigid camera", needed="a majority that does", todo="look at: lpcal check"
         )
     _refuse_a_step(state)
-    carries: Carries = "board" if told.board_carried else "camera"
+    carries: Carries = "board" if set_up.board_carried else "camera"
     more_warnings, weakest = _weakest(found, views, covariance, factor, carries)
     warnings += more_warnings
     clocked = state.clock and t_camera_s is not None
@@ -91,7 +91,7 @@ def finding_of(
         evidence=_evidence(state, found, spread, factor) | weakest,
         carries=carries,
     )
-    return HandEyeFinding(handeye, state.panel, state.offset_s, drift, told)
+    return HandEyeFinding(handeye, state.panel, state.offset_s, drift, set_up)
 
 
 def _weakest(found: Estimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], dict[str, object]]:

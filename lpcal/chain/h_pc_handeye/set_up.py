@@ -23,7 +23,7 @@ CARRIED_M = 0.6
 NEARER = 0.7
 """Share of the camera's distance from the room's origin within which a board that is carried lies to the body's."""
 FEWEST = 6
-"""Views from which it is told."""
+"""Least number of views that decide it."""
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
     found = set_up.of_pairs(H_OP, boards.H_CB, options, from_images=boards.corners_px is not None)
     options = replace(options, carries="board" if found.board_carried else "camera")
     panel = TrackPoses(np.full(count, np.nan), found.mover(H_OP), np.zeros((count, 6)), (None,) * count, np.zeros(count, dtype=bool))
-    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, found.warnings(), None, told=found)
+    return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, found.warnings(), None, set_up=found)
 
 
 def _refine(state: State, t_camera_s: Array | None) -> State:

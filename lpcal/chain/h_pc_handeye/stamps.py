@@ -1,8 +1,8 @@
 """Views left out of the solve whose pose fits at another time: images stamped late, on arrival and not at exposure.
 
 Symbols: the pose that a view's board shows, ``H_OP = H_OB inv(H_PC H_CB)``, against the track at ``t - offset - d``; a lost or flipped pose
-fits at no d, one of a wrong stamp at its own. Few views are late by chance, and in slow motion a late one is not told from the others, so
-that it stays in and pulls the offset: hence a warning, though the views that show it are left out.
+fits at no d, one of a wrong stamp at its own. Few views are late by chance, and in slow motion a late one cannot be distinguished from the
+others, so it stays in and pulls the offset: hence a warning, though the views that show it are left out.
 """
 
 from __future__ import annotations
