@@ -14,7 +14,7 @@ from lpcal import __version__
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
+from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
@@ -31,6 +31,7 @@ from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface import mesh
 from lpcal.surface.flatness import flatness
+from lpcal.surface.mask import NO_HINTS, Hints, Keep
 from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
@@ -57,6 +58,9 @@ class Wishes:
     distance_m: float | None = None
     mask: str = "auto"
     """auto | none | a file."""
+    hints: Hints = NO_HINTS
+    """Where the object is, by the user."""
+    keep: Keep = "object"
     use: tuple[str, ...] | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What the command's words say of the sensor."""
@@ -160,7 +164,17 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     radiance = replace(radiance, notes=(*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, sensor)))
     given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
-    options = Options(wishes.near, wishes.distance_m, given, wishes.mask == "auto", raw.ambient is not None, settled.linear)
+    refuse_hints(wishes, radiance.signal.shape[1:3], radiance.name)
+    options = Options(
+        near=wishes.near,
+        distance_m=wishes.distance_m,
+        mask=given,
+        automatic_mask=wishes.mask == "auto",
+        hints=wishes.hints,
+        keep=wishes.keep,
+        ambient_known=raw.ambient is not None,
+        linear=settled.linear,
+    )
     if wishes.mask == "none":
         radiance = replace(radiance, mask=None)
     read = time.perf_counter()
@@ -177,6 +191,26 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         document["flatness_distant"] = flatness(distant)
     write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
     return document
+
+
+def refuse_hints(wishes: Wishes, shape: tuple[int, ...], name: str) -> None:
+    """Refuse places of the object that do not lie in the images, or in the box.
+
+    Raises
+    ------
+    DisagreementError
+        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
+    """
+    height, width = shape
+    x, y, across, down = wishes.hints.box or (0, 0, width, height)
+    if x + across > width or y + down > height:
+        raise DisagreementError(
+            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
+        )
+    for at in wishes.hints.points:
+        if not (x <= at[0] < x + across and y <= at[1] < y + down):
+            inside = "the box" if wishes.hints.box else f"the images of {width}x{height}"
+            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")
 
 
 def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
@@ -224,6 +258,7 @@ def document_of(
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
         "mask_doubt": surface.figures.get("mask_doubt"),
+        "mask_doubt_why": surface.figures.get("mask_doubt_why"),
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),

@@ -55,3 +55,5 @@ class Surface:
     """Residuals and counts for summary.json."""
     breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""
+    layer: Labels = field(default_factory=lambda: np.zeros((0, 0), np.uint8))
+    """(H, W): 0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it; all 1 where nothing tells them apart."""
