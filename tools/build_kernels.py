@@ -1,0 +1,80 @@
+"""Compiles lpcal/kernels/*.c when the package is built: hatchling calls it for wheels and for `uv sync` in a clone (docs/kernels.md).
+
+The compiler is zig's, which comes by pip for the build alone; where it is not to be had, the system's `cc`. With neither, the package is
+built without the library, which is said, and the kernels' twins in numpy do the work. No relaxed arithmetic: no -ffast-math, no
+contraction, so that the same source gives the same numbers wherever it is compiled.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import runpy
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+FLAGS = ("-O3", "-std=c11", "-shared", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Wextra", "-Werror")
+LONGEST_S = 600
+"""Seconds after which a compiler is given up; zig's first run on a machine builds its own run time and takes some ten of them."""
+TARGETS = {
+    ("linux", "x86_64"): ("x86_64-linux-gnu.2.17", "manylinux_2_17_x86_64"),
+    ("linux", "aarch64"): ("aarch64-linux-gnu.2.17", "manylinux_2_17_aarch64"),
+    ("darwin", "arm64"): ("aarch64-macos.11.0", "macosx_11_0_arm64"),
+    ("darwin", "x86_64"): ("x86_64-macos.11.0", "macosx_11_0_x86_64"),
+    ("win32", "AMD64"): ("x86_64-windows-gnu", "win_amd64"),
+}
+"""Target of the compiler and tag of the wheel, by system and machine."""
+
+
+class KernelsHook(BuildHookInterface[Any]):
+    """Builds the library into lpcal/kernels and puts it into the wheel, whose tag then names the system but no version of Python."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002 - hatchling names it
+        """Compile, if that has not been done for these sources."""
+        home = runpy.run_path(str(Path(self.root) / "lpcal" / "kernels" / "library.py"))
+        library: Path = home["built"]()
+        target, tag = TARGETS.get((sys.platform, platform.machine()), (None, None))
+        failures = [] if library.exists() else compiled(home["sources"](), library, target)
+        if failures:
+            self.app.display_warning(f"lpcal is built without its compiled kernels; numpy does their work, slower: {'; '.join(failures)}")
+            return
+        for old in library.parent.glob(f"kernels-*{library.suffix}"):
+            if old != library:
+                old.unlink(missing_ok=True)
+        build_data["artifacts"].append(f"lpcal/kernels/{library.name}")
+        build_data["pure_python"] = False
+        build_data["tag"] = f"py3-none-{tag or f'{sys.platform}_{platform.machine()}'}"
+
+
+def compiled(sources: list[Path], library: Path, target: str | None) -> list[str]:
+    """Compile the sources to the library; what went wrong with each compiler, empty where one did it."""
+    zig = [sys.executable, "-m", "ziglang", "cc", *(("-target", target) if target else ())]
+    failures = []
+    with tempfile.TemporaryDirectory(dir=library.parent) as folder:  # beside the library: it is moved into place whole
+        made = Path(folder) / library.name
+        for compiler in (zig, ["cc", "-fPIC"]):
+            words = [
+                *compiler,
+                *FLAGS,
+                "-o",
+                str(made),
+                *(str(path) for path in sources if path.suffix == ".c"),
+                *(() if sys.platform == "win32" else ("-lm",)),
+            ]
+            try:
+                run = subprocess.run(
+                    words, capture_output=True, text=True, timeout=LONGEST_S, check=False, env={**os.environ, "ZIG_LOCAL_CACHE_DIR": folder}
+                )
+            except (OSError, subprocess.TimeoutExpired) as error:
+                failures.append(f"{compiler[0]}: {error}")
+                continue
+            if run.returncode == 0:
+                made.replace(library)
+                return []
+            failures.append(f"{' '.join(compiler[:4])}: {run.stderr.strip()[-300:]}")
+    return failures
