@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from lpcal.geometry import lambert
+from lpcal.geometry import camera, lambert, park, se3
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.surface import bounce, multigrid, normals
@@ -83,6 +83,26 @@ def solved(rng):
     return np.concatenate([multigrid.solve(A, right, np.zeros(pixels), grid.prolongations, precision=1e-12), few])
 
 
+def rotations(rng, *shape):
+    return se3.exp(np.concatenate([rng.normal(size=(*shape, 3)), np.zeros((*shape, 3))], axis=-1))
+
+
+def turns(rng):
+    one, other = (rotations(rng, 40, 9)[..., :3, :3] for _ in range(2))
+    one[0] = one[0, 0]  # no turn at all
+    other[1, 0] = other[1, 1] @ np.diag([1.0, -1.0, -1.0])  # half a turn
+    return np.concatenate([park._rotations(one, other).ravel(), park._rotations(one[3], other[3]).ravel()])
+
+
+def misses(rng):
+    return np.concatenate([each.ravel() for each in park._misses(*(rotations(rng, count) for count in (30, 30, 20, 20)))])
+
+
+def distort(rng):
+    found, J = camera._distort_with_jacobian(rng.normal(size=(2, 500, 2)), np.array([-0.3, 0.12, 1e-3, -2e-3, 0.01, 0.02, 0.03, 0.001]))
+    return np.concatenate([found.ravel(), J.ravel()])
+
+
 CASES: dict[Callable, tuple[float, set[str]]] = {
     hidden: (0.0, {"hidden"}),
     behind: (1e-13, {"behind"}),
@@ -90,6 +110,9 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     weighted: (1e-9, {"weighted"}),
     best_three: (1e-9, {"best_three"}),
     cubic: (1e-14, {"cubic"}),
+    turns: (1e-10, {"turns"}),
+    misses: (1e-13, {"misses"}),
+    distort: (1e-13, {"distort"}),
     solved: (1e-8, {"hierarchy", "multigrid"}),
 }
 """Each kernel's work, the share of the largest value by which the twin may differ (of badly conditioned sums rounding makes more), and the

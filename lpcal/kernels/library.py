@@ -24,10 +24,13 @@ SIGNATURES = {
     "behind": "i f i i f f f",
     "best_three": "i i f f b f d d f",
     "cubic": "i i i i s s n n f f n f s",
+    "distort": "i f f f f",
     "hierarchy": "i i n n n n f f n",
     "hidden": "i f f i i i f f d d b",
+    "misses": "i i f f f f f f",
     "received": "i i i f f f f f f f i i f f i d d d d",
     "multigrid": "i i n n n n f f i f f f f d i d d",
+    "turns": "i i i f f n n f",
     "weighted": "i i f f f d f f",
 }
 """Of each kernel: d a number, i a whole one; contiguous arrays: f, s of doubles and singles, n of 64-bit integers, b of booleans."""
