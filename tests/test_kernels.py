@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from lpcal.geometry import camera, lambert, park, se3
+from lpcal.geometry import camera, lambert, led_cluster, park, se3
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.surface import bounce, multigrid, normals
@@ -83,6 +83,14 @@ def solved(rng):
     return np.concatenate([multigrid.solve(A, right, np.zeros(pixels), grid.prolongations, precision=1e-12), few])
 
 
+def cluster(rng):
+    axes = led_cluster.led_axes(19)
+    x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
+    power = rng.uniform(0.9, 1.1, 19)
+    found = [led_cluster.cluster_field(at, 0.01 * axes, axes, power, led_cluster.exponent(led_cluster.HALF_POWER_RAD)) for at in (x_L, x_L[:5])]
+    return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
+
+
 def rotations(rng, *shape):
     return se3.exp(np.concatenate([rng.normal(size=(*shape, 3)), np.zeros((*shape, 3))], axis=-1))
 
@@ -110,6 +118,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     weighted: (1e-9, {"weighted"}),
     best_three: (1e-9, {"best_three"}),
     cubic: (1e-14, {"cubic"}),
+    cluster: (1e-12, {"cluster"}),
     turns: (1e-10, {"turns"}),
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),

@@ -23,6 +23,7 @@ SWITCH = "LPCAL_KERNELS"
 SIGNATURES = {
     "behind": "i f i i f f f",
     "best_three": "i i f f b f d d f",
+    "cluster": "i i f f f f d f f",
     "cubic": "i i i i s s n n f f n f s",
     "distort": "i f f f f",
     "hierarchy": "i i n n n n f f n",
