@@ -87,7 +87,9 @@ def cluster(rng):
     axes = led_cluster.led_axes(19)
     x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
     power = rng.uniform(0.9, 1.1, 19)
-    found = [led_cluster.cluster_field(at, 0.01 * axes, axes, power, led_cluster.exponent(led_cluster.HALF_POWER_RAD)) for at in (x_L, x_L[:5])]
+    found = [
+        led_cluster.cluster_field(at, 0.01 * axes, axes, power, led_cluster.exponent(led_cluster.HALF_POWER_RAD)) for at in (x_L, x_L[:5])
+    ]
     return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
 
 

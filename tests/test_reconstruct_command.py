@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -81,6 +83,18 @@ def test_every_file_of_the_contract(lpcal, rig):
     assert {"label", "pixels", "mean_depth_m", "scale_std", "alternatives"} == set(summary["components"][0])
     assert {"times_s", "peak_memory_mb", "counts_and_residuals", "versions", "inputs"} <= set(summary)
     assert len(summary["inputs"]["L0.png"]) == 64
+
+
+@pytest.mark.slow
+def test_it_imports_only_what_it_uses(rig, quick):
+    words = ["reconstruct", "--mask", str(quick)]
+    program = (
+        f"import sys\nfrom lpcal.cli.main import main\nassert main({words!r}) == 0\nprint('imported:', *{{name for name in sys.modules}})"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], cwd=rig, capture_output=True, text=True, check=True)
+    imported = ended.stdout.rpartition("imported: ")[2].split()
+    assert {"trimesh", "scipy", "tifffile"} <= set(imported)
+    assert not {"matplotlib", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "networkx"} & set(imported)
 
 
 @pytest.mark.slow

@@ -48,6 +48,11 @@ def built() -> Path:
     return FOLDER / f"kernels-{digest[:16]}{ENDING}"
 
 
+def who_works() -> str:
+    """Who does the kernels' work, in a word or two."""
+    return "compiled" if built().exists() and os.environ.get(SWITCH) != "numpy" else "not compiled, numpy does their work"
+
+
 def kernel(name: str) -> Callable[..., None] | None:
     """The compiled kernel of a name, which checks the types of what it is given; None where its twin has to do."""
     return None if os.environ.get(SWITCH) == "numpy" else _loaded().get(name)
