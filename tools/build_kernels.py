@@ -19,8 +19,8 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 FLAGS = ("-O3", "-std=c11", "-shared", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Wextra", "-Werror")
-LONGEST_S = 600
-"""Seconds after which a compiler is given up; zig's first run on a machine builds its own run time and takes some ten of them."""
+LONGEST_S = 180
+"""Seconds after which a compiler is given up: zig builds its own run time first, some ten of them on one core."""
 TARGETS = {
     ("linux", "x86_64"): ("x86_64-linux-gnu.2.17", "manylinux_2_17_x86_64"),
     ("linux", "aarch64"): ("aarch64-linux-gnu.2.17", "manylinux_2_17_aarch64"),
@@ -54,9 +54,10 @@ class KernelsHook(BuildHookInterface[Any]):
 def compiled(sources: list[Path], library: Path, target: str | None) -> list[str]:
     """Compile the sources to the library; what went wrong with each compiler, empty where one did it."""
     zig = [sys.executable, "-m", "ziglang", "cc", *(("-target", target) if target else ())]
-    failures = []
+    failures: list[str] = []
     with tempfile.TemporaryDirectory(dir=library.parent) as folder:  # beside the library: it is moved into place whole
         made = Path(folder) / library.name
+        private = {**os.environ, "ZIG_LOCAL_CACHE_DIR": folder, "ZIG_GLOBAL_CACHE_DIR": folder}  # zig never ends where it cannot write
         for compiler in (zig, ["cc", "-fPIC"]):
             words = [
                 *compiler,
@@ -67,9 +68,7 @@ def compiled(sources: list[Path], library: Path, target: str | None) -> list[str
                 *(() if sys.platform == "win32" else ("-lm",)),
             ]
             try:
-                run = subprocess.run(
-                    words, capture_output=True, text=True, timeout=LONGEST_S, check=False, env={**os.environ, "ZIG_LOCAL_CACHE_DIR": folder}
-                )
+                run = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST_S, check=False, env=private)
             except (OSError, subprocess.TimeoutExpired) as error:
                 failures.append(f"{compiler[0]}: {error}")
                 continue
