@@ -34,46 +34,41 @@ TARGETS = {
 class KernelsHook(BuildHookInterface[Any]):
     """Builds the library into lpcal/kernels and puts it into the wheel, whose tag then names the system but no version of Python."""
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002 - hatchling names it
-        """Compile, if that has not been done for these sources."""
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Compile; in a clone only if that has not been done for these sources."""
         home = runpy.run_path(str(Path(self.root) / "lpcal" / "kernels" / "library.py"))
         library: Path = home["built"]()
-        target, tag = TARGETS.get((sys.platform, platform.machine()), (None, None))
-        failures = [] if library.exists() else compiled(home["sources"](), library, target)
-        if failures:
-            self.app.display_warning(f"lpcal is built without its compiled kernels; numpy does their work, slower: {'; '.join(failures)}")
+        if version == "editable" and library.exists():
             return
-        for old in library.parent.glob(f"kernels-*{library.suffix}"):
-            if old != library:
+        target, tag = TARGETS.get((sys.platform, platform.machine()), (None, None))
+        plain = f"{sys.platform}_{platform.machine()}".lower()
+        zig = [sys.executable, "-m", "ziglang", "cc", *(("-target", target) if target else ())]
+        failures: list[str] = []
+        for compiler, its_tag in ((zig, tag or plain), (["cc", "-fPIC"], plain)):
+            if failure := compiled(compiler, home["sources"](), library):
+                failures.append(f"{' '.join(compiler[:4])}: {failure}")
+                continue
+            for old in set(library.parent.glob(f"kernels-*{library.suffix}")) - {library}:
                 old.unlink(missing_ok=True)
-        build_data["artifacts"].append(f"lpcal/kernels/{library.name}")
-        build_data["pure_python"] = False
-        build_data["tag"] = f"py3-none-{tag or f'{sys.platform}_{platform.machine()}'}"
+            build_data["artifacts"].append(f"lpcal/kernels/{library.name}")
+            build_data["pure_python"] = False
+            build_data["tag"] = f"py3-none-{its_tag}"
+            return
+        self.app.display_warning(f"lpcal is built without its compiled kernels; numpy does their work, slower: {'; '.join(failures)}")
 
 
-def compiled(sources: list[Path], library: Path, target: str | None) -> list[str]:
-    """Compile the sources to the library; what went wrong with each compiler, empty where one did it."""
-    zig = [sys.executable, "-m", "ziglang", "cc", *(("-target", target) if target else ())]
-    failures: list[str] = []
+def compiled(compiler: list[str], sources: list[Path], library: Path) -> str:
+    """Compile the sources to the library; what went wrong, empty where nothing did."""
     with tempfile.TemporaryDirectory(dir=library.parent) as folder:  # beside the library: it is moved into place whole
         made = Path(folder) / library.name
         private = {**os.environ, "ZIG_LOCAL_CACHE_DIR": folder, "ZIG_GLOBAL_CACHE_DIR": folder}  # zig never ends where it cannot write
-        for compiler in (zig, ["cc", "-fPIC"]):
-            words = [
-                *compiler,
-                *FLAGS,
-                "-o",
-                str(made),
-                *(str(path) for path in sources if path.suffix == ".c"),
-                *(() if sys.platform == "win32" else ("-lm",)),
-            ]
-            try:
-                run = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST_S, check=False, env=private)
-            except (OSError, subprocess.TimeoutExpired) as error:
-                failures.append(f"{compiler[0]}: {error}")
-                continue
-            if run.returncode == 0:
-                made.replace(library)
-                return []
-            failures.append(f"{' '.join(compiler[:4])}: {run.stderr.strip()[-300:]}")
-    return failures
+        libraries = [] if sys.platform == "win32" else ["-lm"]
+        words = [*compiler, *FLAGS, "-o", str(made), *(str(path) for path in sources if path.suffix == ".c"), *libraries]
+        try:
+            run = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST_S, check=False, env=private)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            return str(error)
+        if run.returncode:
+            return run.stderr.strip()[-300:]
+        made.replace(library)
+    return ""
