@@ -106,14 +106,16 @@ def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, ri
     assert (rig / "surfaces/elsewhere/surface.npz").is_file()
 
 
-def test_without_a_rig_a_calibration_will_do(lpcal, rig, quick, tmp_path_factory):
+def test_without_a_rig_a_calibration_will_do_and_an_image_that_is_no_lights_is_named(lpcal, rig, quick, tmp_path_factory):
     away = tmp_path_factory.mktemp("away")
-    code, told, _ = lpcal(
+    cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
+    code, told, warned = lpcal(
         "reconstruct", rig / "objects/first", "-c", rig / "calib/calibration.yaml", "-o", away / "out", "--mask", quick, "--json", cwd=away
     )
     assert code == 0
     assert json.loads(told)["surfaces"][0]["units"] == "metres"
     assert (away / "out/surface.npz").is_file()
+    assert "left out: lamp9.png is no light's" in told + warned
 
 
 def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, quick):
@@ -123,13 +125,6 @@ def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, 
     surface = read_surface(rig / "surfaces/ball")
     assert np.array_equal(surface.mask, truth(Scene())[0])
     assert surface.lights_used.max() == 4
-
-
-def test_an_image_that_is_no_lights_is_left_out_and_named(lpcal, rig, quick):
-    cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
-    code, _, told = lpcal("reconstruct", "--mask", quick, cwd=rig)
-    assert code == 0, told
-    assert "left out: lamp9.png is no light's" in told
 
 
 @pytest.mark.slow
