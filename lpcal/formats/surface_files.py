@@ -18,7 +18,7 @@ from lpcal.errors import InputError
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
 from lpcal.geometry.arrays import Image
-from lpcal.records.surface import Component, Surface
+from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
@@ -76,12 +76,19 @@ def read_surface(folder: Path) -> Surface:
         with np.load(folder / "surface.npz") as stored:
             maps = {name: stored[name] for name in (*MAPS, "rays", "breaks")}
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-        components = tuple(Component(**entry) for entry in summary["components"])
+        components = tuple(_component(entry) for entry in summary["components"])
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(
             f"no whole surface ({error})", where=str(folder), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct"
         ) from error
-    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, **maps)
+    said = tuple(str(note) for note in summary.get("notes") or ())
+    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, warnings=said, **maps)
+
+
+def _component(entry: dict[str, Any]) -> Component:
+    """A piece as summary.json has it."""
+    others = tuple(Alternative(**other) for other in entry.get("alternatives") or ())
+    return Component(**(entry | {"alternatives": others}))
 
 
 def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:

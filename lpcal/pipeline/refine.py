@@ -8,11 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.refine_lights import refine_judged
-from lpcal.detect.ambient import ambient_changes, refuse_auto_exposure
-from lpcal.detect.exposures import with_short_exposures
-from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.detect.spheres import Expected, observe_sphere
+from lpcal.api.lights import find_sphere, refine_lights
+from lpcal.api.sensor import BY_CAPTURE, sensor_of_camera, unlike_plain
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import check_lights, read_capture
@@ -21,18 +18,7 @@ from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
-from lpcal.pipeline.sensor import (
-    BY_CAPTURE,
-    BY_LARGEST,
-    check_sweep,
-    flat_field_path,
-    has_lens,
-    sensor_of_camera,
-    sensor_of_capture,
-    sensor_of_panel,
-    sweep_path,
-    unlike_plain,
-)
+from lpcal.pipeline.sensor import check_sweep, flat_field_path, has_lens, sensor_of_panel, sweep_path
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
 from lpcal.records.digits import fine
@@ -98,10 +84,18 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         raw = _images(workspace, name, section, lights, camera)
         sizes[name] = (raw.images.shape[2], raw.images.shape[1])
         try:
-            used = sensor_of_capture(raw, [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))])
-            views.append(_view(raw, used.sensor, section, camera, distance_m))
-            own = {BY_CAPTURE, BY_LARGEST} & {*used.said_by.values()}
-            notes += [*([f"{name}: sensor: {used.document()['in_words']}"] if own else []), *views[-1].notes]
+            view = find_sphere(
+                raw,
+                section.kind,
+                section.radius,
+                camera,
+                hint_px=section.hint,
+                distance_m=distance_m,
+                sensor=[(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))],
+                name=name,
+            )
+            views.append(view)
+            notes += view.notes
         except (DegenerateError, DisagreementError) as error:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
@@ -109,14 +103,15 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         raise next(iter(bad.values()))
     panel = workspace.rig_file.rig.panel
     read = {path: read_lobe(path) for _, path in _lobe_files(workspace)}
-    solution = refine_judged(
+    solution = refine_lights(
         views,
         lights,
         camera,
         wings,
-        intensity_sd=panel.tolerance.intensity if panel else 0.5,
+        intensity_std=panel.tolerance.intensity if panel else 0.5,
         lobes={name: read[path] for name, path in _lobe_files(workspace)},
-        free_core=workspace.rig_file.rig.joint_solve,
+        joint=workspace.rig_file.rig.joint_solve,
+        progress=progress,
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
@@ -181,19 +176,6 @@ def _images(workspace: Workspace, name: str, section: SphereSection, lights: lis
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
     return read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
-
-
-def _view(
-    raw: RawCapture, sensor: Sensor, section: SphereSection, camera: Camera | None, distance_m: tuple[float, float] | None
-) -> SphereView:
-    """What the images of a sphere show, and what is to be said of them."""
-    plain = to_radiance(raw, sensor)
-    refuse_auto_exposure(plain, raw, sensor)
-    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, sensor))
-    radiance = with_short_exposures(plain, raw, sensor) if section.kind == "matte" else plain
-    hint = None if section.hint is None else np.array(section.hint)
-    view = observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
-    return replace(view, notes=(*(f"sphere {raw.name}: {note}" for note in told), *view.notes))
 
 
 def _numbers(values: Any, digits: int) -> str:

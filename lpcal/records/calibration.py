@@ -140,6 +140,14 @@ class HandEye:
     warnings: tuple[str, ...] = ()
     evidence: dict[str, object] = field(default_factory=dict)
     carries: Carries = "camera"
+    taken_offset_s: float = 0.0
+    """The clock offset at which the body's poses were taken, where the data do not show it too."""
+    misread: bool = False
+    """Whether the body's poses turned out to take the room to the body, or the body to the room where they were stated not to."""
+
+    def mocap_times(self, t_camera_s: Array) -> Array:
+        """Times (N,) on the mocap's clock of times (N,) on the camera's, seconds."""
+        return np.asarray(t_camera_s - self.clock_drift * (t_camera_s - self.clock_middle_s) - self.taken_offset_s)
 
     @property
     def names(self) -> tuple[str, str]:
@@ -320,3 +328,7 @@ class Calibration:
     focus_C: Array | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What is stated of the sensor where there is no camera; else the camera holds it."""
+
+    def of_images(self, size: tuple[int, int]) -> Calibration:
+        """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""
+        return self if self.camera is None else replace(self, camera=self.camera.of_images(size))

@@ -81,6 +81,8 @@ class BoardPoses:
     """(N,) residual of the corners, a coordinate."""
     corner_sigma_px: float = float("nan")
     """One standard deviation of a corner coordinate."""
+    without: dict[str, str] = field(default_factory=dict)
+    """Images that have no pose, and why."""
 
     def of(self, rows: npt.NDArray[np.intp]) -> BoardPoses:
         """Some of the views."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.records.sensor import SensorInUse
 
 
 @dataclass(frozen=True)
@@ -55,3 +56,12 @@ class Surface:
     """Residuals and counts for summary.json."""
     breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""
+    warnings: tuple[str, ...] = ()
+    """What is to be said of the capture and of what was made of it, in words."""
+    sensor: SensorInUse | None = None
+    """What the capture was made linear by; None: it was linear already, or there was none."""
+
+    @property
+    def metric(self) -> bool:
+        """Whether depths are metres; else, without a camera, they are pixels."""
+        return bool(self.rays_C[..., :2].any())
