@@ -9,21 +9,32 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api import given
 from lpcal.api.board_search import grey_of, look_at, refuse_another_board, refuse_two_sizes
 from lpcal.api.staged import staged
 from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
 from lpcal.chain.k_camera import board_shape, solve_camera
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Array, Image
+from lpcal.records import given
 from lpcal.records.calibration import Camera, CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardView, BoardViews
 from lpcal.records.outcome import Progress, silent
+from lpcal.records.rig import BoardSection
 
 type Model = Literal["auto", "opencv4", "opencv5", "opencv8", "splined"]
 
 ASSUMED_SIGMA_PX = 0.1
 """One standard deviation of a corner coordinate, in pixels, where the camera was not solved here and nothing tells it."""
+
+
+def board_of(section: BoardSection | None) -> Board | None:
+    """The board that a section of panel.yaml describes."""
+    if section is None:
+        return None
+    marker_m = float("nan") if section.marker is None else section.marker
+    return Board(
+        section.corners, section.square, section.warp == "auto", section.kind, marker_m, section.dictionary or "", section.corner_fit
+    )
 
 
 @staged("board")
@@ -60,9 +71,8 @@ def find_boards(
     Examples
     --------
     >>> import lpcal
-    >>> rig = lpcal.read_rig("lightpanel-6")
-    >>> session = lpcal.simulate(rig, image_size=(320, 200), stations=4)
-    >>> views = lpcal.find_boards([image for image in session.board_images()], session.board)
+    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
+    >>> views = lpcal.find_boards(list(session.board_images()), session.board)
     >>> sum(view.corners_px is not None for view in views.views)
     4
     """
@@ -199,7 +209,7 @@ def locate_boards(
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("lightpanel-6"), image_size=(320, 200), stations=4)
+    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
     >>> views = lpcal.find_boards(list(session.board_images()), session.board)
     >>> poses = lpcal.locate_boards(views, session.camera, session.board)
     >>> poses.H_CB.shape

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api import given
 from lpcal.api.staged import staged
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
-from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.errors import DisagreementError, InputError
 from lpcal.geometry.arrays import Array
+from lpcal.records import given
 from lpcal.records.calibration import Camera, Carries, HandEye
 from lpcal.records.observations import BoardPoses, MarkerStream, PoseStream
 from lpcal.records.outcome import Progress, silent
@@ -107,35 +107,12 @@ def _stream(H_OP: PoseStream | MarkerStream | npt.ArrayLike, t_mocap_s: npt.Arra
     if isinstance(H_OP, MarkerStream):
         return body_of(H_OP, None)
     if isinstance(H_OP, PoseStream):
-        return checked(H_OP)
+        return given.stream(H_OP, "H_OP")
     if t_mocap_s is None:
         return None
     poses = given.transforms(H_OP, "H_OP")
     t_s = given.times(t_mocap_s, len(poses), "t_mocap_s", "H_OP")
-    return checked(PoseStream("", t_s, poses, np.full(len(poses), np.nan)))
-
-
-def checked(stream: PoseStream) -> PoseStream:
-    """A recording that somebody else has made, where it is one.
-
-    Raises
-    ------
-    InputError, DisagreementError
-        A transform is not rigid, times do not increase, or there are more or fewer of them.
-    DegenerateError
-        It is empty.
-    """
-    poses = given.transforms(stream.H_OP, "H_OP")
-    if not len(poses):
-        raise DegenerateError("no pose", where="H_OP", needed="a recording of some seconds")
-    t_s = given.times(stream.t_s, len(poses), "t_s", "H_OP")
-    if np.any(np.diff(t_s) <= 0):
-        row = int(np.flatnonzero(np.diff(t_s) <= 0)[0]) + 1
-        raise InputError(
-            f"{t_s[row]:g} s after {t_s[row - 1]:g} s", where=f"t_s[{row}]", needed="times that increase", todo="sort the poses"
-        )
-    rate_hz = 1 / float(np.median(np.diff(t_s))) if len(t_s) > 1 else float("nan")
-    return replace(stream, t_s=t_s, H_OP=poses, rate_hz=rate_hz if np.isnan(stream.rate_hz) else stream.rate_hz)
+    return given.stream(PoseStream("", t_s, poses, np.full(len(poses), np.nan)), "H_OP")
 
 
 def _boards(H_CB: BoardPoses | npt.ArrayLike, t_camera_s: npt.ArrayLike | None) -> BoardPoses:

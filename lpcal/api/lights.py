@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api import given
+from lpcal.api import stacks
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, BY_LARGEST, Statements, sensor_of_camera, sensor_of_capture, unlike_plain
 from lpcal.api.staged import staged
 from lpcal.chain.h_pl_wings import design_lights as wings_of
@@ -20,6 +20,7 @@ from lpcal.detect.radiometry import to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
+from lpcal.records import given
 from lpcal.records.calibration import Calibration, Camera, Light, LightsSolution, Lobe, Wing, Wings
 from lpcal.records.light_field import LightField
 from lpcal.records.observations import RawCapture, SphereView
@@ -175,16 +176,16 @@ def find_sphere(
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("dome"), image_size=(240, 180), seed=2)
-    >>> name, capture = next(session.sphere_captures())
-    >>> view = lpcal.find_sphere(capture, "chrome", session.sphere(name).radius_m, session.camera, name=name)
-    >>> len(view.highlights_px) == len(session.calibration.lights)
-    True
+    >>> rig = lpcal.read_rig("demo")
+    >>> images = lpcal.read_capture(rig.folder / "spheres/chrome_0", list(rig.rig.lights))
+    >>> view = lpcal.find_sphere(images, "chrome")
+    >>> sorted(view.highlights_px)
+    ['L0', 'L1', 'L2', 'L3', 'L4', 'L5']
     """
     if kind not in {"chrome", "matte"}:
         raise InputError(repr(kind), where="kind", needed='"chrome" or "matte"')
     count = len(images.lights) if isinstance(images, RawCapture) else len(np.asarray(images))
-    raw = given.capture(images, lights or [f"L{k}" for k in range(count)], name=name, ambient=ambient, mask=mask)
+    raw = stacks.capture(images, lights or [f"L{k}" for k in range(count)], name=name, ambient=ambient, mask=mask)
     in_use = sensor_of_capture(raw, _saying(sensor, raw, camera))
     used = in_use.sensor
     plain = to_radiance(raw, used)
@@ -257,13 +258,15 @@ def refine_lights(
     Examples
     --------
     >>> import lpcal, numpy as np
-    >>> session = lpcal.simulate(lpcal.read_rig("dome"), image_size=(240, 180), seed=2)
-    >>> views = [lpcal.find_sphere(capture, "chrome", session.sphere(name).radius_m, session.camera, name=name)
-    ...          for name, capture in session.sphere_captures() if session.sphere(name).kind == "chrome"]
-    >>> names = [light.name for light in session.calibration.lights]
-    >>> found = lpcal.refine_lights(views, names, session.camera)
-    >>> off = [a.direction_C @ b.direction_C for a, b in zip(found.lights, session.calibration.lights)]
-    >>> bool(np.degrees(np.arccos(min(off))) < 1)
+    >>> from lpcal.records.observations import SphereView
+    >>> S = {f"L{k}": np.array([0.5 * np.cos(k), 0.5 * np.sin(k), -1]) / np.sqrt(1.25) for k in range(6)}
+    >>> half = {name: (s - [0, 0, 1]) / np.linalg.norm(s - [0, 0, 1]) for name, s in S.items()}
+    >>> turn = np.linspace(0, 2 * np.pi, 90)
+    >>> outline = [120, 90] + 50 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    >>> spots = {name: [120, 90] + 50 * n[:2] for name, n in half.items()}
+    >>> view = SphereView("ball", "chrome", np.nan, outline, 0.05, spots, dict.fromkeys(S, 0.05))
+    >>> found = lpcal.refine_lights([view], list(S))
+    >>> bool(min(light.direction_C @ S[light.name] for light in found.lights) > 0.9999)
     True
     """
     progress("lights", 0, 1)

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api import given
+from lpcal.api import stacks
 from lpcal.api.curve import settle_sensor
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
@@ -19,6 +19,7 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Image, Mask
+from lpcal.records import given
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import RawCapture
 from lpcal.records.outcome import Progress, silent
@@ -114,7 +115,7 @@ def reconstruct(
     """
     own = [light.name for light in calibration.lights] if lights is None else list(lights)
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
-    raw = given.capture(images, own, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
+    raw = stacks.capture(images, own, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     _refuse_unknown_words(mask, method)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
     saying = _saying(sensor, raw, calibration)
@@ -129,7 +130,7 @@ def reconstruct(
     options = solver.Options(
         near=method == "near",
         distance_m=distance_m or raw.distance_m,
-        mask=None if mask_given is None else given.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
+        mask=None if mask_given is None else stacks.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
         automatic_mask=mask_given is None and mask == "auto",
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
@@ -233,7 +234,7 @@ def integrate(
     length = np.linalg.norm(map_C, axis=2)
     inside = np.asarray(np.isfinite(length) & (length > 0))
     if mask is not None:
-        inside &= given.of_image_size(mask, inside.shape, "mask")
+        inside &= stacks.of_image_size(mask, inside.shape, "mask")
     return _integrated(map_C, inside, camera, distance_m, green, name)
 
 

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
@@ -62,6 +64,22 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
         (draft / SUMMARY).write_text(json.dumps(plain(summary), indent=1) + "\n", encoding="utf-8")
         if page is not None:
             (draft / PAGE).write_text(page, encoding="utf-8")
+
+
+def summary_of(surface: Surface) -> dict[str, Any]:
+    """What summary.json says of a surface itself; whoever made it adds times, inputs and options."""
+    return {
+        "lpcal": 1,
+        "kind": "surface",
+        "name": surface.name,
+        "units": "metres" if surface.metric else "pixels",
+        "components": [asdict(component) for component in surface.components],
+        "counts_and_residuals": surface.figures,
+        "mask_doubt": surface.figures.get("mask_doubt"),
+        "versions": {"lpcal": __version__},
+        "sensor": None if surface.sensor is None else surface.sensor.document(),
+        "notes": list(surface.warnings),
+    }
 
 
 def read_surface(folder: Path) -> Surface:

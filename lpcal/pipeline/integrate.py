@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 import time
-from dataclasses import asdict
 from pathlib import Path
 
-from lpcal import __version__
 from lpcal.api.surfaces import DISTANCE_M, Green, integrate, mesh
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
@@ -16,7 +14,7 @@ from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SURFACE, write_surface
+from lpcal.formats.surface_files import SURFACE, summary_of, write_surface
 from lpcal.pipeline.reconstruct import from_here
 from lpcal.records.calibration import Camera
 from lpcal.records.outcome import Outcome
@@ -45,18 +43,11 @@ def integrate_file(
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
     convention = surface.figures["convention"]
-    document = {
-        "lpcal": 1,
-        "kind": "surface",
-        "name": surface.name,
-        "units": "metres" if surface.metric else "pixels",
-        "components": [asdict(component) for component in surface.components],
+    document = summary_of(surface) | {
         "convention": convention,
         "counts_and_residuals": {key: value for key, value in surface.figures.items() if key != "convention"},
         "times_s": {"solving": seconds},
-        "versions": {"lpcal": __version__},
         "inputs": inputs,
-        "notes": list(surface.warnings),
     }
     write_surface(target, surface, mesh(surface), document)
     count = len(surface.components)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from lpcal.api.board_search import refuse_another_board, refuse_two_sizes
-from lpcal.api.boards import as_given, calibrate_camera, locate_boards
+from lpcal.api.boards import as_given, board_of, calibrate_camera, locate_boards
 from lpcal.detect.radiometry import fit_flat_field
 from lpcal.errors import InputError
 from lpcal.formats.camera_files import read_camera_file
@@ -30,7 +30,7 @@ from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardViews
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.records.rig import BoardSection, CameraSection
+from lpcal.records.rig import CameraSection
 from lpcal.records.sensor import Sensor
 
 CAMERAMODEL = "camera.cameramodel"
@@ -69,16 +69,6 @@ def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None 
     provenance = workspace.provenance(_inputs(workspace, own, others), settings(workspace))
     _write(workspace, solution, poses, board, provenance)
     return summarise(solution, poses, poses.without, workspace.rig_file.rig)
-
-
-def board_of(section: BoardSection | None) -> Board | None:
-    """The board that a section of panel.yaml describes."""
-    if section is None:
-        return None
-    marker_m = float("nan") if section.marker is None else section.marker
-    return Board(
-        section.corners, section.square, section.warp == "auto", section.kind, marker_m, section.dictionary or "", section.corner_fit
-    )
 
 
 def camera_images(workspace: Workspace) -> list[Path]:

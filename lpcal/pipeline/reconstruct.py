@@ -20,7 +20,7 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
+from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
@@ -165,22 +165,13 @@ def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
 
 def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
-    return {
-        "lpcal": 1,
-        "kind": "surface",
-        "name": surface.name,
-        "units": "metres" if surface.metric else "pixels",
-        "components": [asdict(component) for component in surface.components],
-        "counts_and_residuals": surface.figures,
-        "mask_doubt": surface.figures.get("mask_doubt"),
+    return summary_of(surface) | {
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
-        "sensor": surface.sensor.document() if surface.sensor is not None else None,
         "options": asdict(replace(wishes, panel=StatedSensor())),
         "inputs": hashes(task, calibration_path),
-        "notes": list(surface.warnings),
     }
 
 

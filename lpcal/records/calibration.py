@@ -328,6 +328,8 @@ class Calibration:
     focus_C: Array | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What is stated of the sensor where there is no camera; else the camera holds it."""
+    warnings: tuple[str, ...] = ()
+    """What is to be said of the file that it comes from, in words."""
 
     def of_images(self, size: tuple[int, int]) -> Calibration:
         """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""
