@@ -95,6 +95,7 @@ def evaluate(
         scale=scale,
         mask_iou=float("nan") if true.mask is None else float((surface.mask & true.mask).sum() / (surface.mask | true.mask).sum()),
         angle_deg=angle_deg,
+        metric=surface.metric,
         normal_z_rms=_z_rms(angle, surface.normal_std_deg[both].astype(float)),
     )
 

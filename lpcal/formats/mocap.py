@@ -93,7 +93,8 @@ def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> Pos
     if isinstance(found, MarkerStream):
         return found
     stream = given.stream(found, str(path))
-    return replace(stream, H_OP=se3.inv(stream.H_OP)) if direction == "H_PO" else stream
+    poses = stream.H_OP
+    return replace(stream, H_OP=se3.inv(poses) if direction == "H_PO" else poses)
 
 
 @reader("a csv of poses")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lpcal.geometry.arrays import Image
+from lpcal.records.shown import Shown
 
 
-@dataclass(frozen=True)
-class Evaluation:
+@dataclass(frozen=True, repr=False)
+class Evaluation(Shown):
     """Differences of a surface from the truth, over the pixels that both hold."""
 
     name: str
@@ -28,5 +29,7 @@ class Evaluation:
     """Pixels that both masks hold, over those that either holds. NaN where the truth has no mask."""
     angle_deg: Image
     """(H, W) the angle between the normals; NaN where nothing is compared."""
+    metric: bool
+    """Whether depths are metres; else they are pixels."""
     normal_z_rms: float
     """Rms of the angles over what the surface's own sigmas predict; 1 is right, NaN without sigmas."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.shown import Shown
 
 
-@dataclass(frozen=True)
-class LightField:
+@dataclass(frozen=True, repr=False)
+class LightField(Shown):
     """The field of L lights at points (...): row k of the arrays is the light ``names[k]``."""
 
     names: tuple[str, ...]

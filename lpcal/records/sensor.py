@@ -41,7 +41,23 @@ class FlatField:
 
 @dataclass(frozen=True)
 class StatedSensor:
-    """What is said of a sensor in one place; None where nothing is."""
+    """What is said of a sensor in one place; None where nothing is.
+
+    Parameters
+    ----------
+    gamma : float or "srgb", optional
+        ``stored = linear^(1/gamma)``, or sRGB's curve.
+    black_level, white_level : float, optional
+        Stored numbers of no light and of saturation, as fractions of full scale.
+    flat_field : FlatField, optional
+        How lens and sensor weaken light over the image.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> lpcal.StatedSensor(gamma="srgb", black_level=0.01).said
+    {'gamma': 'srgb', 'black_level': 0.01}
+    """
 
     gamma: Gamma | None = None
     black_level: float | None = None

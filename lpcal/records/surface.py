@@ -8,6 +8,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.sensor import SensorInUse
+from lpcal.records.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -30,9 +31,38 @@ class Component:
     alternatives: tuple[Alternative, ...] = ()
 
 
-@dataclass(frozen=True)
-class Surface:
-    """Maps (H, W); NaN outside the mask."""
+@dataclass(frozen=True, repr=False)
+class Surface(Shown):
+    """Maps (H, W); NaN outside the mask.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    normals : ndarray (H, W, 3)
+        Unit normals in C, turned towards the camera.
+    depth : ndarray (H, W)
+        Along z of C, metres; pixels, relative, where there is no camera.
+    albedo : ndarray (H, W) or (H, W, 3)
+        Relative.
+    mask : ndarray (H, W) of bool
+        The object's pixels.
+    normal_std_deg, depth_std : ndarray (H, W)
+        Standard deviations: of the normal in degrees an axis, of the depth's shape in metres.
+    lights_used, component : ndarray (H, W) of uint8
+        Lights that a pixel rests on; 0 outside, 1.. a connected piece each.
+    rays_C : ndarray (H, W, 3)
+        Rays of length 1 in z: a point is ``depth * ray``.
+    components : tuple of Component
+        The pieces, each with its distance and that distance's relative standard deviation.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> surface = lpcal.integrate(np.zeros((12, 12, 3)) + [0, 0, -1.0], name="flat")
+    >>> surface.mask.sum(), surface.metric, len(surface.components)
+    (np.int64(144), False, 1)
+    """
 
     name: str
     normals: Image
