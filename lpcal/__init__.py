@@ -8,9 +8,9 @@ callback ``progress(what, done, total)``; the log is called ``lpcal``. Nothing i
 Read the chain in the file list of ``lpcal/chain``, the frames in README.md.
 """
 
-from typing import TYPE_CHECKING
-
 __version__ = "0.1.0"
+
+TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import here
 
 if TYPE_CHECKING:
     from lpcal import errors as errors

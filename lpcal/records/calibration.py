@@ -12,11 +12,26 @@ import numpy as np
 
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.records.camera import Camera as Camera
-from lpcal.records.camera import CameraSolution as CameraSolution
-from lpcal.records.camera import ViewVerdict as ViewVerdict
+from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
+
+__all__ = [
+    "NAMES",
+    "Calibration",
+    "Camera",
+    "CameraSolution",
+    "Carries",
+    "HandEye",
+    "LedCluster",
+    "Light",
+    "LightsSolution",
+    "Lobe",
+    "SphereFinding",
+    "ViewVerdict",
+    "Wing",
+    "Wings",
+]
 
 Carries = Literal["camera", "board"]
 NAMES: dict[Carries, tuple[str, str]] = {"camera": ("H_PC", "H_OB"), "board": ("H_OC", "H_PB")}
