@@ -17,7 +17,7 @@ from lpcal.api.surface_notes import notes_of
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records import given
 from lpcal.records.calibration import Calibration, Camera
@@ -117,6 +117,7 @@ def reconstruct(
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, own, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     _refuse_unknown_words(mask, method)
+    _refuse_unknown_lights(raw, calibration)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
     saying = _saying(sensor, raw, calibration)
     settled = settle_sensor(raw, calibration, saying)
@@ -155,6 +156,18 @@ def _refuse_unknown_words(mask: npt.ArrayLike | str, method: str) -> None:
         raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
     if method not in {"near", "distant"}:
         raise InputError(repr(method), where="method", needed='"near" or "distant"')
+
+
+def _refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
+    """Refuse images of lights that the calibration does not hold, or two of one light."""
+    known = {light.name for light in calibration.lights}
+    strange = [name for k, name in enumerate(raw.lights) if name not in known or name in raw.lights[:k]]
+    if strange:
+        raise DisagreementError(
+            f"no light of the calibration is called {', '.join(strange[:8])}, or two images are its",
+            where=f"{raw.name}, lights",
+            needed=f"some of {', '.join(sorted(known))}, each once",
+        )
 
 
 def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
