@@ -195,7 +195,11 @@ def find_sphere(
     radiance = with_short_exposures(plain, raw, used) if kind == "matte" else plain
     hint = None if hint_px is None else given.numbers(hint_px, "hint_px")
     view = observe_sphere(radiance, Expected(kind, radius_m, hint, distance_m), camera)
-    return replace(view, notes=(*own, *(f"sphere {raw.name}: {note}" for note in told), *view.notes))
+    return replace(
+        view,
+        notes=(*own, *(f"sphere {raw.name}: {note}" for note in told), *view.notes),
+        image_size=(raw.images.shape[2], raw.images.shape[1]),
+    )
 
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, camera: Camera | None) -> Statements:

@@ -76,48 +76,41 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     swept = check_sweep(workspace, sensor)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
     views: list[SphereView] = []
-    sizes: dict[str, tuple[int, int]] = {}
-    notes: list[str] = []
     bad: dict[str, LpcalError] = {}
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
         raw = _images(workspace, name, section, lights, camera)
-        sizes[name] = (raw.images.shape[2], raw.images.shape[1])
+        said = [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))]
         try:
-            view = find_sphere(
-                raw,
-                section.kind,
-                section.radius,
-                camera,
-                hint_px=section.hint,
-                distance_m=distance_m,
-                sensor=[(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))],
-                name=name,
+            views.append(
+                find_sphere(raw, section.kind, section.radius, camera, hint_px=section.hint, distance_m=distance_m, sensor=said, name=name)
             )
-            views.append(view)
-            notes += view.notes
         except (DegenerateError, DisagreementError) as error:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
     if not views:
         raise next(iter(bad.values()))
     panel = workspace.rig_file.rig.panel
-    read = {path: read_lobe(path) for _, path in _lobe_files(workspace)}
     solution = refine_lights(
         views,
         lights,
         camera,
         wings,
         intensity_std=panel.tolerance.intensity if panel else 0.5,
-        lobes={name: read[path] for name, path in _lobe_files(workspace)},
+        lobes={name: read_lobe(path) for name, path in _lobe_files(workspace)},
         joint=workspace.rig_file.rig.joint_solve,
         progress=progress,
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
     evidence = solution.evidence | ({"exposure_sweep": swept} if swept else {})
-    found = tuple(_with_outline(sphere, views, sizes[sphere.name]) for sphere in solution.spheres)
-    solution = replace(solution, spheres=(*found, *left_out), warnings=(*notes, *solution.warnings), evidence=evidence)
+    found = tuple(_with_outline(sphere, views) for sphere in solution.spheres)
+    solution = replace(
+        solution,
+        spheres=(*found, *left_out),
+        warnings=(*(note for view in views for note in view.notes), *solution.warnings),
+        evidence=evidence,
+    )
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
         summary=[*summary_of(solution), *summary_of_handeye(workspace, solution), *_advice(solution)],
@@ -132,11 +125,11 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
 
 
-def _with_outline(finding: SphereFinding, views: list[SphereView], size: tuple[int, int]) -> SphereFinding:
+def _with_outline(finding: SphereFinding, views: list[SphereView]) -> SphereFinding:
     """A finding with what was seen of its sphere, as the report draws it."""
     view = next(view for view in views if view.name == finding.name)
     every = max(1, len(view.outline_px) // OUTLINE_POINTS)
-    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=size)
+    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=view.image_size)
 
 
 def summary_of(solution: LightsSolution) -> list[str]:

@@ -262,3 +262,5 @@ class SphereView(Shown):
     """Matte: the linear images."""
     notes: tuple[str, ...] = ()
     """What of it could not be used, in words."""
+    image_size: tuple[int, int] | None = None
+    """Width and height of its images, pixels."""
