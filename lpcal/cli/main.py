@@ -30,6 +30,7 @@ COMMANDS = {
     "export": "calibration.yaml, the product, from whatever stages are up to date",
     "reconstruct": "normals, albedo, depth and mesh of a capture",
     "integrate": "depth and mesh of a normal map from elsewhere",
+    "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
