@@ -13,8 +13,9 @@ from typing import Protocol, cast
 
 from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
+from lpcal.cli.log import add_log_options, logged
 from lpcal.cli.stops import Stopped, received, say_stopped
-from lpcal.errors import DegenerateError, InputError, LpcalError
+from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
@@ -63,7 +64,7 @@ def main(words: list[str] | None = None) -> int:
     open_streams()
     try:
         options, command = _parse(words)
-        with progress_bars() as progress, ExitStack() as options.until_done:
+        with logged(options), progress_bars(quiet=options.quiet) as progress, ExitStack() as options.until_done:
             outcome = command.run(options, progress)
         return _said(outcome, as_json=options.json)
     except LpcalError as error:
@@ -133,7 +134,9 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
         if name == chosen:
             module = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
             module.add_arguments(subparser)
-            subparser.add_argument("--json", action="store_true", help="print one JSON document instead of the summary")
+            add_log_options(subparser)
+    if chosen is not None and module is None:
+        _refuse_unknown(chosen)
     if not words:
         parser.print_help(sys.stderr)
         parser.exit(USAGE)
@@ -141,6 +144,20 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
     if module is None:  # argparse has already ended the run for an unknown or missing command
         parser.error("no command")
     return options, module
+
+
+def _refuse_unknown(word: str) -> None:
+    """Say that there is no such command, and which may be meant.
+
+    Raises
+    ------
+    UsageError
+    """
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), COMMANDS, n=3)
+    todo = f"did you mean {' or '.join(f'lpcal {name}' for name in near)}?" if near else "lpcal --help lists them"
+    raise UsageError(f"no command is called {word}", needed=f"one of {', '.join(COMMANDS)}", todo=todo)
 
 
 class _Versions(argparse.Action):
