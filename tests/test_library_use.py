@@ -221,3 +221,14 @@ def test_the_command_finds_what_the_library_finds(request: pytest.FixtureRequest
         np.testing.assert_array_equal(found.normals, by_command.normals)
         np.testing.assert_array_equal(found.depth, by_command.depth)
         assert found.warnings == by_command.warnings
+
+
+def test_a_box_and_points_say_where_the_object_is() -> None:
+    whole = np.ones_like(BALL)
+    found = lpcal.reconstruct(IMAGES + 0.05, DOME, ambient=ROOM + 0.05, mask=whole, box=(4, 4, 30, 40), points=[(24, 24)])
+    assert found.mask.sum() == 30 * 40
+    for wrong in ({"box": (40, 4, 30, 40)}, {"box": (-1, 4, 30, 40)}, {"box": (4, 4, 0, 1)}, {"points": [(48, 3)]}):
+        with pytest.raises(DisagreementError, match="images"):
+            lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=whole, **wrong)
+    with pytest.raises(InputError, match="'most'"):
+        lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=whole, keep="most")

@@ -104,10 +104,12 @@ def test_without_a_rig_a_calibration_will_do(lpcal, rig, quick, tmp_path_factory
 
 def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, quick):
     quick.rename(rig / "objects/first/mask.png")
-    code, _, told = lpcal("reconstruct", "--use", "L0,L2,L4,L5", cwd=rig)
+    code, _, told = lpcal("reconstruct", "--use", "L0,L2,L4,L5", "--box", "0,0,160,60", cwd=rig)
     assert code == 0, told
     surface = read_surface(rig / "surfaces/ball")
-    assert np.array_equal(surface.mask, truth(Scene())[0])
+    row, _ = np.indices(surface.mask.shape)
+    assert np.array_equal(surface.mask, truth(Scene())[0] & (row < 60))
+    assert np.array_equal(surface.layer, surface.mask.astype(np.uint8))
     assert surface.lights_used.max() == 4
 
 
@@ -244,6 +246,12 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
         (("--distance", "352"), 2, "bare number"),
         (("--distance", "0mm"), 2, "in front of the camera"),
         (("--mask", "nowhere.png"), 3, "nowhere.png"),
+        (("--box", "10,10,80"), 2, "10,10,80 is not 4 whole numbers"),
+        (("--box", "10,10,0,20"), 2, "holds no pixel"),
+        (("--box", "10,10,800,20"), 6, "goes beyond the images"),
+        (("--point", "a,b"), 2, "a,b is not 2 whole numbers"),
+        (("--point", "400,20"), 6, "outside the images of 160x112"),
+        (("--box", "0,0,40,40", "--point", "60,20"), 6, "outside the box"),
         (("objects/nothing",), 3, "no such folder"),
     ],
 )

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from lit_scene import calibration
-from lpcal.surface import cut, flats, layers, mask, planes, samples
-from lpcal.surface.coarse import LightTable, coarse_of
+from lpcal.surface import background, cut, flats, layers, mask, planes, samples
+from lpcal.surface.background import View
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of
+from lpcal.surface.flats import Sweep
 from lpcal.surface.sight import Grey, light_vectors, ray_map
 
 CARD = (slice(36, 74), slice(50, 105))
@@ -144,14 +146,22 @@ def test_labels_are_smooth_and_end_at_edges() -> None:
     assert np.mean(layers.cheapest(cost, *layers.boundary(bright)) == true) > 0.95
 
 
+def view_of(n_free: np.ndarray, **hints: object) -> View:
+    """A view of which nothing is known but the normals (rows, columns, 3) of matter of any normal."""
+    pixels = n_free[..., 0].size
+    image = Coarse(np.zeros((0, pixels)), np.zeros((0, pixels)), np.zeros((0, pixels), bool), np.ones((pixels, 3)), n_free.shape[:2], 1)
+    no_light = LightTable(0.0, 1.0, np.zeros((0, 1, 3, pixels)), np.zeros((0, 1, pixels)))
+    return View(image, no_light, Sweep(np.zeros(1), n_free.reshape(1, -1, 3), np.zeros((1, pixels))), **hints)  # type: ignore[arg-type]
+
+
 def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> None:
-    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
+    view = view_of(np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3)))
     labels = np.full((40, 60), 1)
     labels[10:25, 20:40] = 0
     labels[30:, 45:] = 0
-    assert iou(layers.object_of(labels, [WALL], slanting, lambda *_: False), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
+    assert iou(background.object_of(labels, [WALL], view), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
     labels[10:25, 20:40] = 1
-    assert iou(layers.object_of(labels, [WALL], slanting, lambda *_: False), labels == 0) > 0.95
+    assert iou(background.object_of(labels, [WALL], view), labels == 0) > 0.95
 
 
 def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> None:
@@ -161,10 +171,10 @@ def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> N
     flat = np.array([-0.6, 0.0, -0.8])
     n_free = np.broadcast_to(flat, (40, 60, 3)).copy()
     n_free[:, 24:] = [0.6, 0.0, -0.8]
-    found = layers.background_of(labels, [WALL, -flat / 0.3], n_free, lambda *_: False)
+    found = background.background_of(labels, [WALL, -flat / 0.3], view_of(n_free))
     assert np.array_equal(found, labels == 1)
     n_free[:, 20:24] = [0.6, 0.0, -0.8]
-    assert np.array_equal(layers.background_of(labels, [WALL, -flat / 0.3], n_free, lambda *_: False), labels != 0)
+    assert np.array_equal(background.background_of(labels, [WALL, -flat / 0.3], view_of(n_free)), labels != 0)
 
 
 @pytest.mark.parametrize(("hole", "seen"), [(1.0, True), (0.88, False)])
@@ -180,10 +190,95 @@ def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(
     table = LightTable.of(image, calibration().lights, WORKING_M)
     labels = np.where(on_card, 0, 1)
     labels[inside] = 1
-    own = (labels[::2, ::2] == 1) & on_card[::2, ::2]
-    assert layers.seen_through(image, table, WALL, own.ravel(), [WALL]) == seen
-    found = layers.object_of(labels[::2, ::2], [WALL], np.broadcast_to([0.8, 0.0, -0.6], (56, 80, 3)), lambda *_: seen)
+    found = background.object_of(labels[::2, ::2], [WALL], View(image, table, flats.sweep(image, table, WORKING_M)))
     assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
+
+
+def test_what_lies_beyond_the_box_is_not_the_object() -> None:
+    labels = np.full((40, 60), 1)
+    labels[10:25, 10:20], labels[10:30, 35:50] = 0, 0
+    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
+    allowed = np.zeros(labels.shape, bool)
+    allowed[5:30, 5:25] = True
+    assert iou(background.object_of(labels, [WALL], view_of(slanting)), labels == 0) > 0.95
+    found = background.object_of(labels, [WALL], view_of(slanting, allowed=allowed))
+    assert iou(found, (labels == 0) & allowed) > 0.95
+
+
+def test_a_plane_that_leaves_the_box_is_background_though_it_does_not_reach_the_border() -> None:
+    labels = np.full((40, 60), 1)
+    labels[6:34, 6:54], labels[15:25, 25:35] = 2, 0
+    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
+    planes_found = [WALL, WALL / 0.7]
+    assert iou(background.object_of(labels, planes_found, view_of(slanting)), labels != 1) > 0.95
+    allowed = np.zeros(labels.shape, bool)
+    allowed[10:30, 20:40] = True
+    assert iou(background.object_of(labels, planes_found, view_of(slanting, allowed=allowed)), labels == 0) > 0.9
+
+
+def test_a_point_makes_a_plane_at_the_border_the_object_and_chooses_among_pieces() -> None:
+    labels = np.full((40, 60), 1)
+    labels[:, 40:] = 2
+    labels[10:25, 10:20] = 0
+    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
+    planes_found = [WALL, WALL / 0.7]
+    assert iou(background.object_of(labels, planes_found, view_of(slanting)), labels == 0) > 0.95
+    assert iou(background.object_of(labels, planes_found, view_of(slanting, points=((30, 50),))), labels == 2) > 0.95
+    both = background.object_of(labels, planes_found, view_of(slanting, points=((30, 50), (12, 12))))
+    assert iou(both, labels != 1) > 0.95
+
+
+def test_hints_in_pixels_bound_a_mask() -> None:
+    given = np.zeros((30, 40), bool)
+    given[5:15, 5:15], given[20:28, 20:35] = True, True
+    assert np.array_equal(mask.Hints().of(given), given)
+    boxed = mask.Hints(box=(0, 0, 10, 30)).of(given)
+    assert boxed.sum() == 50
+    assert not boxed[:, 10:].any()
+    pointed = mask.Hints(points=((22, 21),)).of(given)
+    assert np.array_equal(pointed, given & (np.indices(given.shape)[0] >= 20))
+    assert not mask.Hints(box=(0, 0, 18, 18), points=((1, 1),)).of(given).any()
+
+
+def test_a_box_helps_where_two_things_stand_before_the_wall() -> None:
+    """Of two cards the left one alone is wanted."""
+    row, column = np.indices((112, 160))
+    left, right = ((row > 36) & (row < 74) & (column > at) & (column < at + 40) for at in (20, 95))
+    parts = [(WALL, np.full(row.shape, 0.35), np.ones(row.shape, bool))]
+    parts += [(WALL * 0.45 / 0.4, np.full(row.shape, 0.7), one) for one in (left, right)]
+    maps, rays = picture(parts)
+    lights = calibration().lights
+    assert iou(mask.automatic(maps, rays, lights, WORKING_M, mask.Hints(box=(10, 20, 70, 70))).mask, left) > 0.95
+    assert iou(mask.automatic(maps, rays, lights, WORKING_M, mask.Hints(points=((40, 50),))).mask, left) > 0.95
+
+
+def test_the_floor_carries_the_object_and_the_wall_does_not() -> None:
+    parts = scene(floor=True)
+    maps, rays = picture(parts)
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
+    card, floor = parts[-1][2], parts[1][2]
+    assert found.layer is not None
+    clear = ~cut.shrunk(~card, 3) == card  # away from the card's outline
+    for value, true in ((background.WALL, ~card & ~floor), (background.SUPPORT, floor & ~card)):
+        assert np.mean(found.layer[true & clear] == value) > 0.95
+    assert np.array_equal(found.kept("object"), found.mask)
+    assert iou(found.kept("support"), card | floor) > 0.9
+    assert found.kept("all").mean() > 0.97
+
+
+def test_why_a_mask_is_doubted_names_the_rival_and_the_place() -> None:
+    labels = np.full((30, 40), 1)
+    labels[10:20, 10:30] = 0
+    cost = np.stack([np.where(labels == 0, 0.0, 20.0), np.where(labels == 0, 20.0, 0.0), np.full(labels.shape, 30.0)])
+    sure = background.doubt_of(labels, cost, labels == 0, 1, 30.0)
+    assert sure.share < 0.05
+    cost[1, 10:20, 24:30] = 2.0
+    doubt = background.doubt_of(labels, cost, labels == 0, 1, 30.0)
+    assert doubt.rival == 1
+    assert 0.15 < doubt.share < 0.4
+    said = mask._in_words(doubt, "support", 5)
+    assert "the support under it" in said
+    assert "y 50 to 100" in said
 
 
 def test_the_doubt_rises_with_what_is_weak() -> None:

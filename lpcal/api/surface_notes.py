@@ -38,7 +38,11 @@ def _mask_said(surface: Surface) -> tuple[str, ...]:
     odds: Any = surface.figures.get("mask_doubt", 0.0)
     if odds < IN_DOUBT:
         return ()
-    return (f"the automatic mask may be wrong (odds {100 * odds:.0f} %): look at mask.png, and give a mask with --mask FILE where it is",)
+    why: Any = surface.figures.get("mask_doubt_why", "")
+    return (
+        f"the automatic mask may be wrong (odds {100 * odds:.0f} %{': ' if why else ''}{why}): look at mask.png; where it is, help with "
+        "--box X,Y,W,H round the object, --point X,Y on it, or --mask FILE",
+    )
 
 
 def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:

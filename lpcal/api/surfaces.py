@@ -28,6 +28,7 @@ from lpcal.records.surface import Surface
 from lpcal.surface import convention
 from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
+from lpcal.surface.mask import Hints, Keep
 from lpcal.surface.mesh import Mesh
 from lpcal.surface.of_normals import check, surface_of_normals
 
@@ -48,6 +49,9 @@ def reconstruct(
     lights: Sequence[str] | None = None,
     ambient: npt.ArrayLike | None = None,
     mask: npt.ArrayLike | str = "auto",
+    box: tuple[int, int, int, int] | None = None,
+    points: Sequence[tuple[int, int]] = (),
+    keep: Keep = "object",
     method: Literal["near", "distant"] = "near",
     distance_m: float | None = None,
     exposure_s: npt.ArrayLike | None = None,
@@ -71,6 +75,12 @@ def reconstruct(
         The scene with no light on; without it the room's light is estimated.
     mask : ndarray (H, W), "auto" or "none"
         Which pixels are the object, not zero there. "auto" finds it where the capture has no mask; "none" takes every pixel.
+    box : (int, int, int, int), optional
+        x, y, width and height in pixels of a box that holds the object, where the automatic mask errs.
+    points : sequence of (int, int)
+        Pixels (x, y) that show the object.
+    keep : {"object", "support", "all"}
+        What of the layers found is reconstructed: the object; with it what carries it; all that is lit.
     method : {"near", "distant"}
         Whether lights act from where they are, where that is known, or all as if they were far away.
     distance_m : float, optional
@@ -116,8 +126,10 @@ def reconstruct(
     own = [light.name for light in calibration.lights] if lights is None else list(lights)
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, own, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
-    _refuse_unknown_words(mask, method)
+    _refuse_unknown_words(mask, method, keep)
     _refuse_unknown_lights(raw, calibration)
+    hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
+    _refuse_hints(hints, raw.images.shape[1:3], raw.name)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
     saying = _saying(sensor, raw, calibration)
     settled = settle_sensor(raw, calibration, saying)
@@ -133,6 +145,8 @@ def reconstruct(
         distance_m=distance_m or raw.distance_m,
         mask=None if mask_given is None else stacks.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
         automatic_mask=mask_given is None and mask == "auto",
+        hints=hints,
+        keep=keep,
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
     )
@@ -150,12 +164,14 @@ def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Cal
     return [*first, (BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration))]
 
 
-def _refuse_unknown_words(mask: npt.ArrayLike | str, method: str) -> None:
+def _refuse_unknown_words(mask: npt.ArrayLike | str, method: str, keep: str) -> None:
     """Refuse words that mean nothing."""
     if isinstance(mask, str) and mask not in {"auto", "none"}:
         raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
     if method not in {"near", "distant"}:
         raise InputError(repr(method), where="method", needed='"near" or "distant"')
+    if keep not in {"object", "support", "all"}:
+        raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
 
 
 def _refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
@@ -168,6 +184,26 @@ def _refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
             where=f"{raw.name}, lights",
             needed=f"some of {', '.join(sorted(known))}, each once",
         )
+
+
+def _refuse_hints(hints: Hints, shape: tuple[int, ...], name: str) -> None:
+    """Refuse places of the object that do not lie in the images, or in the box.
+
+    Raises
+    ------
+    DisagreementError
+        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
+    """
+    height, width = shape
+    x, y, across, down = hints.box or (0, 0, width, height)
+    if min(x, y) < 0 or min(across, down) < 1 or x + across > width or y + down > height:
+        raise DisagreementError(
+            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
+        )
+    for at in hints.points:
+        if not (x <= at[0] < x + across and y <= at[1] < y + down):
+            inside = "the box" if hints.box else f"the images of {width}x{height}"
+            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")
 
 
 def _refuse_outside(surface: Surface, calibration: Calibration) -> None:

@@ -13,6 +13,7 @@ from lpcal.records.outcome import Outcome, Progress
 if TYPE_CHECKING:
     from lpcal.pipeline.workspace import Workspace
     from lpcal.records.sensor import StatedSensor
+    from lpcal.surface.mask import Hints
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-c", "--calibration", type=Path, help="calibration.yaml (default: calib/calibration.yaml of the rig)")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to (default: surfaces/<object> of the rig)")
     parser.add_argument("--mask", default="auto", metavar="auto|none|FILE", help="which pixels are the object (default: auto)")
+    parser.add_argument("--box", metavar="X,Y,W,H", help="a box in pixels that holds the object, where the automatic mask errs")
+    parser.add_argument("--point", action="append", default=[], metavar="X,Y", help="a pixel that shows the object; may be repeated")
+    parser.add_argument("--keep", choices=("object", "support", "all"), default="object", help="what to reconstruct of what is found")
     parser.add_argument("--lights", choices=("near", "distant"), default="near", help="how lights act (default: near, where known)")
     parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object where it is known, such as 352mm")
     parser.add_argument("--gamma", metavar="G", help="stored = linear^(1/G), or srgb for photographs, where nothing else states it")
@@ -39,6 +43,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         distance_m=length(options.distance),
         mask=options.mask,
         sensor=_sensor(options),
+        hints=_hints(options),
+        keep=options.keep,
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
     )
     if not options.captures:
@@ -67,6 +73,29 @@ def _sensor(options: argparse.Namespace) -> StatedSensor:
         except ValueError as error:
             raise UsageError(str(error), where=name, needed="a share of full scale such as 0.8%") from error
     return StatedSensor(gamma, levels[0], levels[1])
+
+
+def _hints(options: argparse.Namespace) -> Hints:
+    """Where the object is, by the words of the command."""
+    from lpcal.surface.mask import Hints
+
+    box = None if options.box is None else _whole_numbers(options.box, "--box", 4)
+    if box is not None and (min(box[:2]) < 0 or min(box[2:]) < 1):
+        raise UsageError(f"{options.box} holds no pixel", where="--box", needed="x, y >= 0 and width, height >= 1 in pixels")
+    points = tuple(_whole_numbers(text, "--point", 2) for text in options.point)
+    return Hints(None if box is None else (box[0], box[1], box[2], box[3]), tuple((x, y) for x, y in points))
+
+
+def _whole_numbers(text: str, where: str, count: int) -> tuple[int, ...]:
+    """So many whole numbers with commas between them."""
+    example = "120,80,400,300" if count == 4 else "320,240"
+    try:
+        found = tuple(int(part) for part in text.split(","))
+    except ValueError as error:
+        raise UsageError(f"{text} is not {count} whole numbers", where=where, needed=f"pixels such as {example}") from error
+    if len(found) != count:
+        raise UsageError(f"{text} is not {count} whole numbers", where=where, needed=f"pixels such as {example}")
+    return found
 
 
 def _rig_if_any(options: argparse.Namespace) -> Workspace | None:

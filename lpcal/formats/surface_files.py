@@ -57,7 +57,11 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
     with whole(folder, SURFACE) as draft:
         draft.mkdir()
         np.savez_compressed(
-            draft / "surface.npz", **{name: getattr(surface, name) for name in MAPS}, rays=surface.rays_C, breaks=surface.breaks
+            draft / "surface.npz",
+            **{name: getattr(surface, name) for name in MAPS},
+            layer=surface.layer if surface.layer.size else surface.mask.astype(np.uint8),
+            rays=surface.rays_C,
+            breaks=surface.breaks,
         )
         _write_images(draft, surface)
         _write_meshes(draft, mesh, str(summary.get("units", "metres")))
@@ -76,6 +80,7 @@ def summary_of(surface: Surface) -> dict[str, Any]:
         "components": [asdict(component) for component in surface.components],
         "counts_and_residuals": surface.figures,
         "mask_doubt": surface.figures.get("mask_doubt"),
+        "mask_doubt_why": surface.figures.get("mask_doubt_why"),
         "versions": {"lpcal": __version__},
         "sensor": None if surface.sensor is None else surface.sensor.document(),
         "notes": list(surface.warnings),
@@ -92,7 +97,7 @@ def read_surface(folder: Path) -> Surface:
     """
     try:
         with np.load(folder / "surface.npz") as stored:
-            maps = {name: stored[name] for name in (*MAPS, "rays", "breaks")}
+            maps = {name: stored[name] for name in (*MAPS, "layer", "rays", "breaks")}
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         components = tuple(_component(entry) for entry in summary["components"])
     except (OSError, KeyError, ValueError, TypeError) as error:

@@ -29,6 +29,7 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface.flatness import flatness
+from lpcal.surface.mask import NO_HINTS, Hints, Keep
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
@@ -52,6 +53,9 @@ class Wishes:
     distance_m: float | None = None
     mask: str = "auto"
     """auto | none | a file."""
+    hints: Hints = NO_HINTS
+    """Where the object is, by the user."""
+    keep: Keep = "object"
     use: tuple[str, ...] | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What the command's words say of the sensor."""
@@ -146,7 +150,18 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     mask = read_mask(Path(wishes.mask), raw.images.shape[1:3]) if wishes.mask not in MASK_WORDS else wishes.mask
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
-    made = partial(reconstruct, raw, calibration, distance_m=wishes.distance_m, sensor=saying, progress=progress)
+    hints = wishes.hints
+    made = partial(
+        reconstruct,
+        raw,
+        calibration,
+        box=hints.box,
+        points=hints.points,
+        keep=wishes.keep,
+        distance_m=wishes.distance_m,
+        sensor=saying,
+        progress=progress,
+    )
     read = time.perf_counter()
     surface = made(mask=mask, method="near" if wishes.near else "distant")
     solved = time.perf_counter()

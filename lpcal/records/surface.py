@@ -53,6 +53,8 @@ class Surface(Shown):
         Lights that a pixel rests on; 0 outside, 1.. a connected piece each.
     rays_C : ndarray (H, W, 3)
         Rays of length 1 in z: a point is ``depth * ray``.
+    layer : ndarray (H, W) of uint8
+        0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it.
     components : tuple of Component
         The pieces, each with its distance and that distance's relative standard deviation.
 
@@ -86,6 +88,8 @@ class Surface(Shown):
     """Residuals and counts for summary.json."""
     breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""
+    layer: Labels = field(default_factory=lambda: np.zeros((0, 0), np.uint8))
+    """(H, W): 0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it; all 1 where nothing tells them apart."""
     warnings: tuple[str, ...] = ()
     """What is to be said of the capture and of what was made of it, in words."""
     sensor: SensorInUse | None = None

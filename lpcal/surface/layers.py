@@ -11,16 +11,14 @@ Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.surface import flats, samples
-from lpcal.surface.coarse import Coarse, LightTable
-from lpcal.surface.flats import Sweep
+from lpcal.surface import background, flats, samples
+from lpcal.surface.background import View
+from lpcal.surface.coarse import LightTable
 from lpcal.surface.sight import Indices, strength
 
 FREE_PRICE = 10.0
@@ -53,10 +51,6 @@ KEPT = 0.006
 """Share of the image under which a plane's own pixels do not keep it."""
 CEILING = 30.0
 """Cost over a pixel's cheapest layer beyond which layers are all alike."""
-
-
-Through = Callable[[Array, Mask, list[Array]], bool]
-"""Whether pixels (P,) of a plane (3,) are seen through the object, by all planes that reach the border: see `seen_through`."""
 
 
 @dataclass(frozen=True)
@@ -147,11 +141,12 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     return np.asarray(np.minimum(total, total.min(axis=0) + CEILING))
 
 
-def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
+def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
     """Labels (rows, columns), what they are, and the last costs (layers, rows, columns).
 
     Label 0 is the object's matter, 1.. the planes that are left, then nothing, then other matter.
     """
+    image, table = view.image, view.table
     everywhere = np.arange(len(image.rays_C))
     at = Pixels(image.signal, image.sigma, image.usable, image.rays_C, everywhere)
     E = np.linalg.norm(table.at(np.full(len(everywhere), u_free), everywhere)[0], axis=2)
@@ -160,17 +155,16 @@ def label(image: Coarse, table: LightTable, swept: Sweep, planes: list[Array], l
     cost = np.empty((0, *image.shape))
     layers, labels = Layers(planes, [None] * len(planes), float(np.median(bright[lit]))), np.zeros(image.shape, int)
     for k in range(ROUNDS):
-        cost = with_planes(layers, at, table, swept.least, E).reshape(-1, *image.shape)
+        cost = with_planes(layers, at, table, view.swept.least, E).reshape(-1, *image.shape)
         labels = cheapest(cost, *weights)
         if k + 1 < ROUNDS:
-            labels, layers = _learnt(image, table, swept, layers, labels, lit, bright)
+            labels, layers = _learnt(view, layers, labels, lit, bright)
     return labels, layers, cost
 
 
-def _learnt(
-    image: Coarse, table: LightTable, swept: Sweep, layers: Layers, labels: Labels, lit: Mask, bright: Array
-) -> tuple[Labels, Layers]:
+def _learnt(view: View, layers: Layers, labels: Labels, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
+    image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
     kept = [k for k in range(count) if np.sum(flat == k + 1) >= KEPT * flat.size]
     planes, of_plane = [], []
@@ -185,7 +179,7 @@ def _learnt(
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
     labels = new[labels]
     of_object, of_rest = None, None
-    mine = object_of(labels, planes, image.image(swept.normals), partial(seen_through, image, table)).ravel()
+    mine = background.object_of(labels, planes, view).ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
         both = bright[free | rest]
@@ -193,7 +187,7 @@ def _learnt(
         each = [_appearance(bright[rest & (labels.ravel() == k + 1)], both) for k in range(len(kept))]
         of_rest = [one for one in each if one is not None]
     brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST else layers.brightest
-    rim = labels[_rim(labels.shape)]
+    rim = labels[background.rim_of(labels.shape)]
     nothing = -2 * np.log(max(float(np.mean(rim == len(kept) + 1)), LEAST_NOTHING))
     return labels, Layers(planes, of_plane, brightest, of_object, of_rest, nothing)
 
@@ -236,106 +230,3 @@ def cheapest(cost: Array, across: Image, down: Image) -> Labels:
         before, x = x, np.maximum(moved - np.take_along_axis(over, last[None] - 1, axis=0) / last, 0)
         ahead = 2 * x - before
     return np.asarray(np.argmax(x, axis=0))
-
-
-WEAK = 5.0
-"""Difference of costs, averaged over 3x3 pixels, under which a pixel's side is in doubt."""
-RIM = 2
-"""Coarse pixels at the image's border: a plane that reaches them is wall or support."""
-SMALLEST_PIECE = 0.08
-"""Share of the largest piece under which a piece is dropped."""
-HOLE = 0.005
-"""Share of the object's area under which a hole in it is filled."""
-NO_CREASE, MOSTLY, BESIDE = 0.97, 0.5, 2
-"""Cosine (14 degrees) of normals that go on smoothly, share of a plane's edge along which they do, and its width in coarse pixels."""
-LEAST_SEEN_THROUGH = 6
-"""Coarse pixels of a piece of a wall from which it is asked whether it is seen through the object."""
-SEEN_THROUGH = 2.5
-"""Cost a light of such a piece at most."""
-NEARER = (0.85, 0.7)
-"""Distances, by that of the wall, from which a plane of the piece's own is looked for."""
-INNER = 0.15
-"""Share of the largest piece from which one that does not touch the border goes before all that do."""
-
-
-def background_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
-    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
-
-    A piece of a plane from which the object's matter goes on without a crease, by its normals n_free (rows, columns, 3), is a flat part
-    of the object, cut by the border. A piece within the object is seen through it where `through` says so of it and all planes that reach
-    the border.
-    """
-    from scipy import ndimage
-
-    found = labels > len(planes)
-    rim = _rim(labels.shape)
-    pieces = [ndimage.label(labels == k)[0] for k in range(1, len(planes) + 1)]
-    walls = []
-    for piece, q in zip(pieces, planes, strict=True):
-        smooth = n_free @ (-q / np.linalg.norm(q)) > NO_CREASE
-        for one in np.setdiff1d(piece[rim], [0]):
-            beside = ndimage.binary_dilation(piece == one, iterations=BESIDE) & (labels == 0)
-            if not (beside.sum() > FEWEST and smooth[beside].mean() > MOSTLY):
-                found |= piece == one
-        if np.any(found & (piece > 0)):
-            walls.append(q)
-    for piece, q in zip(pieces, planes, strict=True):
-        size = np.bincount(piece.ravel())
-        for one in np.setdiff1d(np.flatnonzero(size >= LEAST_SEEN_THROUGH), [0, *np.unique(piece[rim])]):
-            if any(q is wall for wall in walls) and through(q, (piece == one).ravel(), walls):
-                found |= piece == one
-    return np.asarray(found)
-
-
-def _rim(shape: tuple[int, ...]) -> Mask:
-    rim = np.ones(shape, bool)
-    rim[RIM:-RIM, RIM:-RIM] = False
-    return rim
-
-
-def seen_through(image: Coarse, table: LightTable, q: Array, inside: Mask, walls: list[Array]) -> bool:
-    """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
-    own = np.flatnonzero(inside)
-    cost = float(flats.explained(image, table, q, own)[0].mean())
-    if cost > SEEN_THROUGH * len(image.signal) or any(
-        np.median(image.rays_C[own] @ (wall - q)) < 0 < np.median(image.rays_C[own] @ wall) for wall in walls
-    ):
-        return False
-    trials = [flats.fitted(image, table, q / share, inside, rounds=3) for share in (1.0, *NEARER)]
-    return bool(cost - min(float(flats.explained(image, table, one, own)[0].mean()) for one in trials) < flats.CLEARLY_EACH)
-
-
-def weak_share(labels: Labels, cost: Array, mask: Mask, planes: int) -> float:
-    """Area that might as well be of the object, or not of it, as a share of the object's: its costs differ by less than WEAK."""
-    from scipy import ndimage
-
-    here, everywhere = (np.bincount(one.ravel(), minlength=len(cost))[: len(cost)] for one in (labels[mask], labels))
-    ours = (2 * here > everywhere) & (np.arange(len(cost)) <= planes)
-    ours[0] = True
-    theirs = np.where(ours[:, None, None], np.inf, cost).min(axis=0)
-    mine = np.where(ours[:, None, None], cost, np.inf).min(axis=0)
-    difference = ndimage.uniform_filter(np.clip(theirs - mine, -CEILING, CEILING), 3)
-    about = ndimage.binary_dilation(mask, iterations=max(1, int(np.sqrt(mask.sum()) / 4)))
-    wrong: Mask = about & np.where(mask, difference < WEAK, difference > -WEAK)
-    return float(np.sum(wrong)) / max(int(np.sum(mask)), 1)
-
-
-def object_of(labels: Labels, planes: list[Array], n_free: Array, through: Through) -> Mask:
-    """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other."""
-    from scipy import ndimage
-
-    piece, count = ndimage.label(ndimage.binary_opening(~background_of(labels, planes, n_free, through)))
-    if not count:
-        return np.zeros(labels.shape, bool)
-    size = np.bincount(piece.ravel()).astype(float)
-    size[0] = 0
-    rim = np.concatenate([piece[:1].ravel(), piece[-1:].ravel(), piece[:, 0], piece[:, -1]])
-    touches = np.isin(np.arange(count + 1), rim)
-    inner = float((size * ~touches).max())
-    kept = ~touches & (size >= SMALLEST_PIECE * inner) if inner > INNER * size.max() else size == size.max()
-    kept[0] = False
-    found = kept[piece]
-    hole, _ = ndimage.label(~found)
-    area = np.bincount(hole.ravel())
-    small = np.flatnonzero(area < HOLE * max(int(found.sum()), 1))
-    return np.asarray(found | np.isin(hole, small[small > 0]))

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
+from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import cut, flats, layers, planes
+from lpcal.surface import background, cut, flats, layers, planes
+from lpcal.surface.background import View
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
 from lpcal.surface.sight import Grey, Sight, strength
 
@@ -48,6 +49,41 @@ DOUBTED, DOUBT_POWER = 0.5, 2.0
 
 
 @dataclass(frozen=True)
+class Hints:
+    """What the user says of where the object is, in pixels."""
+
+    box: tuple[int, int, int, int] | None = None
+    """x, y, width and height of a box that holds it."""
+    points: tuple[tuple[int, int], ...] = ()
+    """x and y of places that show it."""
+
+    def allowed(self, shape: tuple[int, ...]) -> Mask | None:
+        """The box as a mask (H, W); None where there is none."""
+        if self.box is None:
+            return None
+        x, y, width, height = self.box
+        inside = np.zeros(shape[:2], bool)
+        inside[y : y + height, x : x + width] = True
+        return inside
+
+    def of(self, mask: Mask) -> Mask:
+        """The part of a mask (H, W) in the box, and of that the connected components that the points lie on."""
+        from scipy import ndimage
+
+        allowed = self.allowed(mask.shape)
+        mask = mask if allowed is None else mask & allowed
+        if not self.points:
+            return mask
+        piece, _ = ndimage.label(mask)
+        return np.asarray(mask & np.isin(piece, [piece[y, x] for x, y in self.points]))
+
+
+NO_HINTS = Hints()
+Keep = Literal["object", "support", "all"]
+"""What of the layers is reconstructed: the object; the object and what carries it; all that is lit."""
+
+
+@dataclass(frozen=True)
 class Found:
     """A mask and how it was found, in words."""
 
@@ -57,6 +93,16 @@ class Found:
     """Wall and supports; the first is the largest."""
     weak: float | None = None
     """Area that hangs on weak evidence, as a share of the object's; None where no layers were labelled."""
+    why: str = ""
+    """What that area may be instead, and where it is."""
+    layer: Labels | None = None
+    """(H, W) of surface.background's values: nothing, object, support, wall; None where no layers were labelled."""
+
+    def kept(self, keep: Keep) -> Mask:
+        """The layers (H, W) to be reconstructed."""
+        if self.layer is None or keep == "object":
+            return self.mask
+        return np.asarray(self.mask | (self.layer == background.SUPPORT) if keep == "support" else self.layer > background.NOTHING)
 
     @property
     def doubt(self) -> float | None:
@@ -66,15 +112,15 @@ class Found:
         return float(1 / (1 + (DOUBTED / max(self.weak, 1e-3)) ** DOUBT_POWER))
 
 
-def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None) -> Found:
+def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None, hints: Hints = NO_HINTS) -> Found:
     """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes."""
     if distance_m is not None:
         some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
         fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
-        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m)
+        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints)
         if found is not None:
             return found
-    return Found(_by_strength(maps), "by the strength of the signal")
+    return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
 
 
 def _by_strength(maps: Grey) -> Mask:
@@ -87,30 +133,71 @@ def _by_strength(maps: Grey) -> Mask:
     return _tidy(cut.along_the_seam(_tidy(mask), _picture(maps)))
 
 
-def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Found | None:
+def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints) -> Found | None:
     image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
     lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
     if lit.mean() < LEAST_OF_IMAGE:
         return None
-    table = LightTable.of(image, lights, distance_m)
-    swept = flats.sweep(image, table, distance_m)
-    labels, found, cost = layers.label(
-        image, table, swept, flats.find(image, table, swept, lit, distance_m), lit, float(np.log(distance_m))
-    )
-    count, n_free, through = len(found.planes), image.image(swept.normals), partial(layers.seen_through, image, table)
-    mask = layers.object_of(labels, found.planes, n_free, through)
-    behind = layers.background_of(labels, found.planes, n_free, through)
+    table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
+    view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
+    labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
+    count = len(found.planes)
+    mask, behind = (judge(labels, found.planes, view) for judge in (background.object_of, background.background_of))
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
-        return Found(
-            _enlarged(image.image(lit), image.factor, maps.signal.shape[1:]), "all that is lit lies in one plane: that is the object", walls
-        )
-    weak = layers.weak_share(labels, cost, mask, count)
-    u_free = swept.u[np.argmin(np.median(swept.cost[:, mask.ravel()], axis=1))]
-    fine = _to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C)
-    return Found(fine, f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark", walls, weak)
+        every = hints.of(_enlarged(image.image(lit), image.factor, shape))
+        return Found(every, "all that is lit lies in one plane: that is the object", walls, layer=every.astype(np.uint8))
+    u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
+    kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
+    doubt = background.doubt_of(labels, cost, mask, count, layers.CEILING)
+    fine = hints.of(_to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C))
+    how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
+    why = _in_words(doubt, kinds[doubt.rival], image.factor)
+    return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
+
+
+def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
+    """What labels are judged by, the hints in coarse pixels."""
+    rows, columns = image.shape
+    allowed = hints.allowed(shape)
+    if allowed is not None:
+        blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
+        allowed = blocks.any(axis=(1, 3))
+    points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
+    return View(image, table, swept, allowed, points)
+
+
+def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
+    """The map of layers (H, W) by the mask (H, W) and the coarse labels; beside the mask that of the nearest background."""
+    from scipy import ndimage
+
+    value = {"support": background.SUPPORT, "wall": background.WALL, "dark": background.NOTHING, "other": background.WALL}
+    nearest = ndimage.distance_transform_edt(~behind, return_distances=False, return_indices=True) if behind.any() else None
+    coarse = np.array([value[kind] for kind in kinds])[labels if nearest is None else labels[tuple(nearest)]]
+    row, column = (np.minimum(np.arange(side) // factor, most - 1) for side, most in zip(mask.shape, labels.shape, strict=True))
+    found = coarse[np.ix_(row, column)] if nearest is not None else np.zeros(mask.shape, int)
+    return np.asarray(np.where(mask, background.OBJECT, found), np.uint8)
+
+
+def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> str:
+    """What the area in doubt may be and the box that holds the most of it, for people; nothing where there is none."""
+    if not doubt.place.any():
+        return ""
+    from scipy import ndimage
+
+    piece, _ = ndimage.label(doubt.place)
+    size = np.bincount(piece.ravel())
+    size[0] = 0
+    row, column = (factor * np.array([one.min(), one.max() + 1]) for one in np.nonzero(piece == np.argmax(size)))
+    what = {
+        "support": "the support under it",
+        "wall": "the wall behind it",
+        "dark": "background that no light reaches",
+        "other": "other matter of the background",
+    }[rival]
+    return f"{100 * doubt.share:.0f} % of its area may be {what}, most of it in x {column[0]} to {column[1]}, y {row[0]} to {row[1]}"
 
 
 def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:

@@ -34,9 +34,11 @@ from lpcal.surface import (
     uncertainty,
     without_ambient,
 )
+from lpcal.surface.background import NOTHING, OBJECT
 from lpcal.surface.basins import Basins
 from lpcal.surface.exchanged import exchanged
 from lpcal.surface.integrate import Grid
+from lpcal.surface.mask import NO_HINTS, Hints, Keep
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 from lpcal.surface.sight import Sight
 
@@ -61,6 +63,10 @@ class Options:
     mask: Mask | None = None
     automatic_mask: bool = True
     """Whether the object is to be found where no mask is given; else every pixel counts."""
+    hints: Hints = NO_HINTS
+    """What the user says of where the object is."""
+    keep: Keep = "object"
+    """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
     linear: bool = True
@@ -93,10 +99,10 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
             return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress)
 
-        return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve)
+        return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
-    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None) if wanted or near else None
+    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints) if wanted or near else None
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
@@ -119,9 +125,10 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     surface = _surface(radiance, scene, state, rays_C, basins_found)
     told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
     found_by = background if wanted else None
-    doubt = {} if found_by is None or found_by.doubt is None else {"mask_doubt": found_by.doubt}
+    doubt = {} if found_by is None or found_by.doubt is None else {"mask_doubt": found_by.doubt, "mask_doubt_why": found_by.why}
     places = _exchanged(state, seen, radiance.lights)
-    return replace(surface, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **places, **surface.figures})
+    layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
+    return replace(surface, layer=layer, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **places, **surface.figures})
 
 
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, object]:
@@ -169,15 +176,22 @@ def _given(radiance: Radiance, options: Options) -> Mask | None:
 def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
     given = _given(radiance, options)
     if given is None:
-        given = background.mask if background is not None else np.ones(radiance.signal.shape[1:3], bool)
+        given = background.kept(options.keep) if background is not None else np.ones(radiance.signal.shape[1:3], bool)
+    given = options.hints.of(given)
     if given.sum() < FEWEST_PIXELS:
         raise DegenerateError(
             f"the mask holds {given.sum()} pixels",
             where=radiance.name,
             needed=f"{FEWEST_PIXELS} at least",
-            todo="give one with --mask FILE",
+            todo="give one with --mask FILE, or say where the object is with --box X,Y,WIDTH,HEIGHT or --point X,Y",
         )
     return given
+
+
+def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
+    """What each pixel of the surface is (H, W), by the layers found; all the object where none were."""
+    found = np.full(object_mask.shape, OBJECT, np.uint8) if background is None or background.layer is None else background.layer
+    return np.asarray(np.where(object_mask, found, NOTHING), np.uint8)
 
 
 def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:

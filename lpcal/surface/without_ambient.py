@@ -26,7 +26,13 @@ UNDECIDED = "no ambient image, and the images show no light beside that of the l
 
 
 def reconstruct(
-    radiance: Radiance, calibration: Calibration, given: Mask | None, focus_C: Array | None, begin_m: float, solve: Solve
+    radiance: Radiance,
+    calibration: Calibration,
+    given: Mask | None,
+    focus_C: Array | None,
+    begin_m: float,
+    solve: Solve,
+    hints: mask.Hints = mask.NO_HINTS,
 ) -> Surface:
     """The surface of a capture whose images hold an unknown room light.
 
@@ -39,7 +45,7 @@ def reconstruct(
     object_mask = given
     if object_mask is None:
         lamps = sight.grey(without(radiance, room_map, lights), lights)
-        object_mask = mask.automatic(lamps, rays_C, lights, begin_m if near else None).mask
+        object_mask = mask.automatic(lamps, rays_C, lights, begin_m if near else None, hints).mask
     depth = np.full(int(object_mask.sum()), begin_m if calibration.camera is not None else 1.0)
     surface, room = None, None
     rounds = ROUNDS if near else 1
