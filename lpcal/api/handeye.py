@@ -52,8 +52,8 @@ def solve_handeye(
         The camera, where `H_CB` holds corners: its parameters' covariance is taken as a prior and the corners are fitted directly.
     clock_offset_s : float, optional
         ``t_camera = t_mocap + clock_offset_s``, where it is known; else it is estimated.
-    carries : {"camera", "board"}, optional
-        What rides on the tracked body; by default what the data say.
+    carries : str, optional
+        What rides on the tracked body, "camera" or "board"; by default what the data say.
     inverted : bool
         Whether the poses came as H_PO and were inverted for this call: it helps to tell a fixed camera from a tracked one.
     camera_share : float

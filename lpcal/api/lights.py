@@ -139,8 +139,8 @@ def find_sphere(
     ----------
     images : ndarray (L, H, W) or (L, H, W, 3), or RawCapture
         One image a light, as for `reconstruct`.
-    kind : {"chrome", "matte"}
-        What the sphere is like.
+    kind : str
+        What the sphere is like: "chrome" or "matte".
     radius_m : float, optional
         Its radius in metres; without a camera it may be left out.
     camera : Camera, optional

@@ -85,8 +85,10 @@ def reconstruct(
         Whether lights act from where they are, where that is known, or all as if they were far away.
     distance_m : float, optional
         The median distance of the object along z of C, metres, where it is known.
-    exposure_s, ambient_exposure_s : ndarray (L,), (K,), optional
-        Exposure times times gains, seconds, where they differ.
+    exposure_s : ndarray (L,), optional
+        Exposure times times gains of the images, seconds, where they differ.
+    ambient_exposure_s : ndarray (K,), optional
+        Those of the ambient images; needed where those of the images differ.
     sensor : StatedSensor, or sequence of (str, StatedSensor)
         What is known of the sensor (gamma, black and white level, flat field) for these images; it counts before what the capture and the
         calibration say. A sequence stands for all that is said, by who says it.

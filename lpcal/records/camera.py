@@ -25,8 +25,8 @@ class Camera(Shown):
     ----------
     image_size : (int, int)
         Width and height in pixels.
-    model : {"opencv4", "opencv5", "opencv8", "splined"}
-        The lens model.
+    model : str
+        The lens model: opencv4, opencv5, opencv8 or splined.
     K : ndarray (3, 3)
         The camera matrix in pixels; pixel centres are at whole numbers.
     distortion : ndarray (4,), (5,) or (8,)
