@@ -12,6 +12,7 @@ import pytest
 
 import lpcal
 from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.records.observations import BoardViews, SphereView
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.4, 0.4, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)
@@ -232,3 +233,61 @@ def test_a_box_and_points_say_where_the_object_is() -> None:
             lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=whole, **wrong)
     with pytest.raises(InputError, match="'most'"):
         lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=whole, keep="most")
+
+
+BOARD = lpcal.Board((9, 6), (0.025, 0.025))
+PANEL = lpcal.read_rig("lightpanel-6")
+CAMERA = lpcal.Camera((640, 480), "opencv4", np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]), np.zeros(4))
+DARK = np.zeros((200, 200), np.uint8)
+TURN = np.linspace(0, 6, 40)
+OUTLINE = [120, 90] + 50 * np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
+VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.0, 90])}, {"L9": 0.05})
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: lpcal.find_boards([], BOARD), InputError, "no image"),
+        (lambda: lpcal.find_boards(["board.png"], BOARD), InputError, r"images\[0\]"),
+        (lambda: lpcal.find_boards([DARK + np.nan], BOARD), InputError, "not finite"),
+        (lambda: lpcal.find_boards([DARK], BOARD, names=["a", "b"]), DisagreementError, "2 names for 1 images"),
+        (lambda: lpcal.find_boards([DARK, DARK[1:]], BOARD), DisagreementError, "two sizes"),
+        (lambda: lpcal.find_boards([DARK, DARK], BOARD), DegenerateError, "in any of 2 images"),
+        (lambda: lpcal.calibrate_camera(np.zeros((4, 5, 4, 2)), BOARD, (640, 480)), DisagreementError, r"\(N, 6, 9, 2\)"),
+        (lambda: lpcal.calibrate_camera(np.zeros((4, 6, 9, 2)), BOARD), InputError, "image_size"),
+        (lambda: lpcal.calibrate_camera(np.full((4, 6, 9, 2), np.nan), BOARD, (640, 480)), DegenerateError, "0 of 4 images"),
+        (lambda: lpcal.calibrate_camera(np.zeros((4, 6, 9, 2)), BOARD, (640, 480)), DegenerateError, "one pose"),
+        (lambda: lpcal.calibrate_camera(np.zeros((4, 6, 9, 2)), BOARD, (640, 480), model="pinhole"), InputError, "model: 'pinhole'"),
+        (lambda: lpcal.calibrate_camera(np.zeros((4, 6, 9, 2)), BOARD, (640, 480), solver="ceres"), InputError, "solver: 'ceres'"),
+        (lambda: lpcal.locate_boards(BoardViews((10, 10), ()), CAMERA), InputError, "board: none is given"),
+        (lambda: lpcal.design_lights([]), DegenerateError, "no light is a wing"),
+        (lambda: lpcal.design_lights(PANEL, np.eye(3)), InputError, "H_CD"),
+        (lambda: lpcal.design_lights(PANEL, np.eye(4), H_CD_covariance=np.eye(3)), InputError, "H_CD_covariance"),
+        (lambda: lpcal.design_lights(PANEL, setting_std=(1.0, 2.0)), InputError, "setting_std"),
+        (lambda: lpcal.refine_lights([], ["L0"]), DegenerateError, "no sphere"),
+        (lambda: lpcal.refine_lights([VIEW], []), InputError, "no light"),
+        (lambda: lpcal.refine_lights([VIEW], ["L0", "L1"]), DegenerateError, "L0"),
+        (lambda: lpcal.refine_lights([VIEW], ["L0", "L1"], CAMERA), InputError, "no radius of ball"),
+        (lambda: lpcal.find_sphere(IMAGES, "glass"), InputError, "'glass'"),
+        (lambda: lpcal.find_sphere("images", "chrome"), InputError, "no numbers"),
+        (lambda: lpcal.find_sphere(IMAGES, "chrome", camera=CAMERA), InputError, "radius_m"),
+        (lambda: lpcal.find_sphere(IMAGES, "chrome", hint_px=[1, 2]), InputError, "hint_px"),
+        (lambda: lpcal.find_sphere(np.full((2, 50, 50), 0.5), "chrome"), DegenerateError, "outline"),
+        (lambda: lpcal.assemble_calibration(lpcal.design_lights(PANEL), H_PC=np.eye(3)), InputError, "H_PC"),
+        (lambda: lpcal.light_field([], [[0, 0, 1]]), InputError, "no light"),
+        (lambda: lpcal.light_field(DOME, [0, 1]), InputError, "x_C"),
+        (lambda: lpcal.simulate(PANEL, image_size=(10, 10)), InputError, "120 pixels"),
+        (lambda: lpcal.reconstruct(np.zeros((0, 5, 5)), DOME), InputError, "images"),
+        (lambda: lpcal.integrate(np.zeros((20, 20, 3))), DegenerateError, "0 pixels"),
+        (lambda: lpcal.integrate(-NORMALS), DegenerateError, "away from the camera"),
+        (lambda: lpcal.read_rig("nothing"), InputError, "nothing"),
+        (lambda: lpcal.read_mocap("nothing"), InputError, "nothing"),
+        (lambda: lpcal.read_capture("nothing", ["L0"]), InputError, "nothing"),
+        (lambda: lpcal.read_calibration("nothing.yaml"), InputError, "nothing"),
+        (lambda: lpcal.read_camera("nothing"), InputError, "nothing"),
+        (lambda: lpcal.read_surface("nothing"), InputError, "nothing"),
+    ],
+)
+def test_what_cannot_be_is_an_error_of_the_library(call, error: type, words: str) -> None:
+    with pytest.raises(error, match=words):
+        call()

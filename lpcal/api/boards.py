@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -150,6 +150,9 @@ def calibrate_camera(
     >>> bool(abs(found.camera.K[0, 0] - 600) < 3)
     True
     """
+    for word, name, known in ((model, "model", get_args(Model.__value__)), (solver, "solver", ("auto", "mrcal", "opencv"))):
+        if word not in known:
+            raise InputError(repr(word), where=name, needed=f"one of {', '.join(known)}")
     progress("camera", 0, 1)
     solution = solve_camera(_views(corners, board, image_size), board, model=model, solver=solver)
     progress("camera", 1, 1)
@@ -281,4 +284,6 @@ def _picture(image: npt.NDArray[Any], row: int) -> Image:
     found = np.asarray(image)
     if found.dtype.kind not in "uif" or found.ndim not in (2, 3) or (found.ndim == 3 and found.shape[2] != 3) or not found.size:
         raise InputError(f"an array of {found.shape}, {found.dtype}", where=f"images[{row}]", needed="(H, W) or (H, W, 3) numbers")
+    if found.dtype.kind == "f" and not np.isfinite(found).all():
+        raise InputError("numbers that are not finite", where=f"images[{row}]", needed="finite numbers")
     return found

@@ -88,9 +88,10 @@ def design_lights(
         settings, tolerance, (place, place_covariance) = list(rig), DRAWN, as_drawn(None)
     if H_CD is not None:
         place = given.transforms(np.asarray(H_CD)[None], "H_CD")[0]
-        place_covariance = np.zeros((6, 6)) if H_CD_covariance is None else given.numbers(H_CD_covariance, "H_CD_covariance")
-    sigma = setting_std or (tolerance.azimuth, tolerance.joint_angle, tolerance.length, tolerance.length)
-    return wings_of(settings, place, place_covariance, np.array(sigma), source if H_CD is not None else AS_DRAWN)
+        place_covariance = np.zeros((6, 6)) if H_CD_covariance is None else given.shaped(H_CD_covariance, (6, 6), "H_CD_covariance")
+    usual = (tolerance.azimuth, tolerance.joint_angle, tolerance.length, tolerance.length)
+    sigma = given.shaped(usual if setting_std is None else setting_std, (4,), "setting_std")
+    return wings_of(settings, place, place_covariance, sigma, source if H_CD is not None else AS_DRAWN)
 
 
 def wing_of(name: str, light: LightSection, panel: PanelSection) -> Wing:
@@ -184,8 +185,9 @@ def find_sphere(
     """
     if kind not in {"chrome", "matte"}:
         raise InputError(repr(kind), where="kind", needed='"chrome" or "matte"')
-    count = len(images.lights) if isinstance(images, RawCapture) else len(np.asarray(images))
-    raw = stacks.capture(images, lights or [f"L{k}" for k in range(count)], name=name, ambient=ambient, mask=mask)
+    if camera is not None and radius_m is None:
+        raise InputError("none is given", where="radius_m", needed="the sphere's radius in metres: there is a camera")
+    raw = stacks.capture(images, lights, name=name, ambient=ambient, mask=mask)
     in_use = sensor_of_capture(raw, _saying(sensor, raw, camera))
     used = in_use.sensor
     plain = to_radiance(raw, used)
@@ -193,7 +195,7 @@ def find_sphere(
     told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, used))
     own = [f"{raw.name}: sensor: {in_use.document()['in_words']}"] if {BY_CAPTURE, BY_LARGEST} & {*in_use.said_by.values()} else []
     radiance = with_short_exposures(plain, raw, used) if kind == "matte" else plain
-    hint = None if hint_px is None else given.numbers(hint_px, "hint_px")
+    hint = None if hint_px is None else given.shaped(hint_px, (3,), "hint_px")
     view = observe_sphere(radiance, Expected(kind, radius_m, hint, distance_m), camera)
     return replace(
         view,
@@ -273,6 +275,13 @@ def refine_lights(
     >>> bool(min(light.direction_C @ S[light.name] for light in found.lights) > 0.9999)
     True
     """
+    if not lights:
+        raise InputError("no light", where="lights", needed="the names of all lights")
+    unmeasured = [view.name for view in spheres if camera is not None and not np.isfinite(view.radius_m)]
+    if unmeasured:
+        raise InputError(
+            f"no radius of {', '.join(unmeasured)}", where="spheres", needed="every sphere's radius in metres: there is a camera"
+        )
     progress("lights", 0, 1)
     found = refine_judged(spheres, lights, camera, prior, intensity_sd=intensity_std, lobes=lobes, free_core=joint)
     progress("lights", 1, 1)
@@ -284,7 +293,6 @@ def assemble_calibration(
     camera: Camera | None = None,
     *,
     H_PC: npt.ArrayLike | None = None,
-    names: Sequence[str] | None = None,
     intensity_std: float = INTENSITY_STD,
     sensor: StatedSensor | None = None,
     name: str = "rig",
@@ -299,8 +307,6 @@ def assemble_calibration(
         The camera; where the lights were refined jointly with it, that one counts. Without it images are orthographic.
     H_PC : ndarray (4, 4), optional
         The camera in the tracked body, metres, of `solve_handeye`.
-    names : sequence of str, optional
-        The lights and their order, where `lights` is a design; by default all wings.
     intensity_std : float
         Relative standard deviation of an intensity that nobody measured.
     sensor : StatedSensor, optional
@@ -311,7 +317,7 @@ def assemble_calibration(
     Returns
     -------
     Calibration
-        Camera, lights, the working distance and the point where the lights' axes meet, metres in C.
+        Camera, lights, the working distance and the point where the lights' axes meet, metres in C; the lights' warnings.
 
     Raises
     ------
@@ -326,7 +332,7 @@ def assemble_calibration(
     ['L0', 'L1']
     """
     if isinstance(lights, Wings):
-        lights = as_designed(lights, list(names or [wing.name for wing in lights.wings]), intensity_std)
+        lights = as_designed(lights, [wing.name for wing in lights.wings], intensity_std)
     camera = lights.camera or camera
     place = None if H_PC is None else given.transforms(np.asarray(H_PC)[None], "H_PC")[0]
     return Calibration(
@@ -337,6 +343,7 @@ def assemble_calibration(
         d_object_m=lights.d_object_m,
         focus_C=lights.focus_C if camera is not None else None,
         sensor=StatedSensor() if camera is not None or sensor is None else sensor,
+        warnings=lights.warnings,
     )
 
 

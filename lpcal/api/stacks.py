@@ -20,7 +20,7 @@ FLOAT_STEP = 1e-6
 
 def capture(
     images: npt.ArrayLike | RawCapture,
-    lights: Sequence[str],
+    lights: Sequence[str] | None,
     *,
     name: str,
     ambient: npt.ArrayLike | None = None,
@@ -30,7 +30,8 @@ def capture(
 ) -> RawCapture:
     """A capture as it is read from a folder, of a stack of images (L, H, W) or (L, H, W, 3), one a light; a capture is left as it is.
 
-    Whole numbers count by their type's largest, floats as fractions of full scale.
+    The lights are called L0, L1, ... where nobody names them. Whole numbers count by their type's largest, floats as fractions of full
+    scale.
 
     Raises
     ------
@@ -42,6 +43,9 @@ def capture(
     stack, step = _fractions(images, "images")
     if stack.ndim not in (3, 4) or (stack.ndim == 4 and stack.shape[3] != 3):
         raise InputError(f"an array of {given.shape_of(stack)}", where="images", needed="(L, H, W) or (L, H, W, 3)")
+    if not stack.size:
+        raise InputError(f"an array of {given.shape_of(stack)}", where="images", needed="images that hold pixels")
+    lights = [f"L{k}" for k in range(len(stack))] if lights is None else lights
     if len(stack) != len(lights):
         raise DisagreementError(
             f"{len(stack)} images for {len(lights)} lights",

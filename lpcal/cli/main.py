@@ -15,7 +15,7 @@ from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
 from lpcal.cli.log import add_log_options, logged
 from lpcal.cli.stops import Stopped, received, say_stopped
-from lpcal.errors import DegenerateError, InputError, LpcalError, UsageError
+from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
@@ -99,11 +99,9 @@ def _said(outcome: Outcome, *, as_json: bool) -> int:
 
 def _refused_singular(error: Exception) -> int:
     """Say that the data leave an unknown open which no stage has looked for; the exit code of data that determine too little."""
-    said = DegenerateError(
-        f"the data leave something undetermined: {error}",
-        needed="views, lights or motions that differ more",
-        todo="run lpcal check, or look at the inputs: are there doubles among them?",
-    )
+    from lpcal.api.staged import undetermined
+
+    said = undetermined(error)
     complain(f"lpcal: {said}")
     return said.exit_code
 

@@ -53,6 +53,20 @@ def numbers(values: npt.ArrayLike, name: str, *, finite: bool = True) -> Array:
     return found
 
 
+def shaped(values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:
+    """Numbers of one shape.
+
+    Raises
+    ------
+    InputError
+        They are none, or of another shape.
+    """
+    found = numbers(values, name)
+    if found.shape != shape:
+        raise InputError(f"an array of {shape_of(found)}", where=name, needed=shape_of(np.empty(shape)))
+    return found
+
+
 def times(values: npt.ArrayLike, count: int, name: str, of: str) -> Array:
     """Seconds (N,), as many as there are of something.
 
