@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from lpcal.api.handeye import solve_handeye as solve_handeye
     from lpcal.api.lights import assemble_calibration as assemble_calibration
     from lpcal.api.lights import design_lights as design_lights
-    from lpcal.api.lights import find_sphere as find_sphere
     from lpcal.api.lights import light_field as light_field
-    from lpcal.api.lights import refine_lights as refine_lights
     from lpcal.api.mocap_formats import register_mocap as register_mocap
     from lpcal.api.simulation import simulate as simulate
+    from lpcal.api.spheres import find_sphere as find_sphere
+    from lpcal.api.spheres import refine_lights as refine_lights
     from lpcal.api.surfaces import integrate as integrate
     from lpcal.api.surfaces import mesh as mesh
     from lpcal.api.surfaces import reconstruct as reconstruct
@@ -63,9 +63,10 @@ _HOME = {
         "write_surface",
     ),
     "api.handeye": ("solve_handeye",),
-    "api.lights": ("assemble_calibration", "design_lights", "find_sphere", "light_field", "refine_lights"),
+    "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.mocap_formats": ("register_mocap",),
     "api.simulation": ("simulate",),
+    "api.spheres": ("find_sphere", "refine_lights"),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),

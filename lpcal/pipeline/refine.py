@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.api.lights import find_sphere, refine_lights
 from lpcal.api.sensor import BY_CAPTURE, sensor_of_camera, unlike_plain
+from lpcal.api.spheres import find_sphere, refine_lights
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import check_lights, read_capture
