@@ -54,11 +54,17 @@ def records() -> dict[str, Shown]:
         "BoardViews": views,
         "BoardPoses": lpcal.locate_boards(views, session.camera, session.board),
         "PoseStream": stream,
+        "RigFile": demo,
+        "Mesh": lpcal.mesh(surface),
+        "Simulation": session,
+        "BoardTruth": truth,
         "RawCapture": capture,
         "SphereView": SphereView("ball", "chrome", 0.02, np.array([[1.0, 2], [3, 2], [2, 1], [2, 3]]), 0.1, {"L0": np.ones(2)}),
     }
 
 
+assert lpcal.simulate
+assert lpcal.mesh  # loaded, so that their records are registered
 KINDS = [kind.__name__ for kind in screens.screen_of.registry if kind is not object]
 
 

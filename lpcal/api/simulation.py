@@ -14,10 +14,12 @@ from lpcal.detect.radiometry import fit_flat_field
 from lpcal.errors import InputError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records import screens
 from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
 from lpcal.records.observations import Board, PoseStream, RawCapture
 from lpcal.records.rig import Rig, RigFile
 from lpcal.records.sensor import Sensor
+from lpcal.records.shown import Shown
 from lpcal.records.surface import Component, Surface
 from lpcal.simulate.boards import backdrop, make_scene
 from lpcal.simulate.built import Built, build
@@ -35,8 +37,8 @@ LEAST_PX = 120
 """Least width and height of simulated images, in pixels: below it boards and spheres cannot be seen."""
 
 
-@dataclass(frozen=True)
-class BoardTruth:
+@dataclass(frozen=True, repr=False)
+class BoardTruth(Shown):
     """Where panel and board really were in every board image; row k of the arrays is one image."""
 
     H_OP: Array
@@ -47,8 +49,8 @@ class BoardTruth:
     """(N,) seconds on the camera's clock."""
 
 
-@dataclass(frozen=True)
-class Simulation:
+@dataclass(frozen=True, repr=False)
+class Simulation(Shown):
     """A simulated rig. The same rig and recipe give the same numbers; images are rendered when they are asked for."""
 
     rig: Rig
@@ -292,3 +294,23 @@ def simulate(rig: Rig | RigFile, *, seed: int = 1, image_size: tuple[int, int] =
 def simulation_of(rig: Rig, recipe: Recipe) -> Simulation:
     """A simulated rig by a whole recipe."""
     return Simulation(rig, recipe, build(rig, recipe))
+
+
+@screens.screen_of.register
+def _simulation_screen(found: Simulation) -> screens.Screen:
+    rig, (width, height) = found.rig, found.built.lens.image_size
+    x_mm = 1e3 * found.H_PC[:3, 3]
+    rows = [
+        ("camera", f"{width} x {height} px, f {found.built.lens.K[0, 0]:.2f} px"),
+        ("H_PC", f"at [{x_mm[0]:.2f} {x_mm[1]:.2f} {x_mm[2]:.2f}] mm"),
+        ("clock", f"t_camera = t_mocap {1e3 * found.clock_offset_s:+.1f} ms"),
+        ("lights", f"{len(rig.lights)}, {1e3 * float(found.built.focus_C[2]):.0f} mm to the object"),
+        ("captures", f"{len(rig.spheres)} spheres, {len(rig.objects)} objects, rendered when they are asked for"),
+    ]
+    return screens.Screen(f"Simulation of {rig.name}, seed {found.recipe.seed}", rows)
+
+
+@screens.screen_of.register
+def _truth_screen(found: BoardTruth) -> screens.Screen:
+    t_s = found.t_camera_s
+    return screens.Screen("BoardTruth", [("images", str(len(t_s))), ("time", f"{t_s.min():.3f} to {t_s.max():.3f} s")])

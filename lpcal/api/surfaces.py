@@ -19,7 +19,7 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Image, Mask
-from lpcal.records import given
+from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.observations import RawCapture
 from lpcal.records.outcome import Progress, silent
@@ -321,3 +321,11 @@ def mesh(surface: Surface) -> Mesh:
     (128, 3)
     """
     return meshes.build(surface)
+
+
+@screens.screen_of.register
+def _mesh_screen(found: Mesh) -> screens.Screen:
+    low, high = found.vertices_C.min(axis=0, initial=np.inf), found.vertices_C.max(axis=0, initial=-np.inf)
+    rows = [("vertices", str(len(found.vertices_C))), ("faces", str(len(found.faces)))]
+    rows += [("size", " x ".join(f"{side:.4g}" for side in high - low) + " along x, y, z of C")] if len(found.vertices_C) else []
+    return screens.Screen("Mesh", rows)

@@ -20,6 +20,7 @@ from lpcal.records.digits import fine, fine_each
 from lpcal.records.evaluation import Evaluation
 from lpcal.records.light_field import LightField
 from lpcal.records.observations import BoardPoses, BoardViews, PoseStream, RawCapture, SphereView
+from lpcal.records.rig import RigFile
 from lpcal.records.surface import Surface
 
 COLUMNS, LINES = 100, 24
@@ -261,10 +262,9 @@ def _pose_stream(stream: PoseStream) -> Screen:
 @screen_of.register
 def _raw_capture(raw: RawCapture) -> Screen:
     shape, t_s = raw.images.shape, raw.exposure_s
-    more = f" and {len(raw.lights) - LISTED} more" if len(raw.lights) > LISTED else ""
     kind = "RGB" if len(shape) == 4 else "grey"
     rows = [
-        ("lights", ", ".join(raw.lights[:LISTED]) + more),
+        ("lights", ", ".join(raw.lights[:LISTED]) + _more(len(raw.lights))),
         ("images", f"{shape[2]} x {shape[1]} px, {kind}, {100 * raw.images.max():.1f} % of full scale at most"),
         ("exposure", f"{t_s.min():.4g} to {t_s.max():.4g} s" if np.ptp(t_s) else f"{t_s[0]:.4g} s"),
         ("ambient", "none" if raw.ambient is None else f"{len(raw.ambient)} images"),
@@ -289,6 +289,19 @@ def _sphere_view(view: SphereView) -> Screen:
 
 
 @screen_of.register
+def _rig_file(found: RigFile) -> Screen:
+    rig = found.rig
+    named = {"lights": [*rig.lights], "spheres": [*rig.spheres], "objects": [*rig.objects]}
+    rows = [("file", str(found.file))]
+    if rig.board is not None:
+        squares = " x ".join(f"{1e3 * side:g}" for side in rig.board.square)
+        rows.append(("board", f"{rig.board.kind}, {rig.board.corners[0]} x {rig.board.corners[1]} inner corners, squares of {squares} mm"))
+    rows += [("mocap", str(rig.mocap.file or rig.mocap.poses))] if rig.mocap is not None else []
+    rows += [(key, ", ".join(names[:LISTED]) + _more(len(names))) for key, names in named.items() if names]
+    return Screen(f"RigFile {rig.name}", rows)
+
+
+@screen_of.register
 def _board_views(boards: BoardViews) -> Screen:
     found = [view for view in boards.views if view.corners_px is not None]
     rows = [("boards", f"found in {len(found)} of {len(boards.views)} images of {boards.image_size[0]} x {boards.image_size[1]} px")]
@@ -309,6 +322,10 @@ def _board_poses(poses: BoardPoses) -> Screen:
         rows.append(("sigma", f"{fine_each(sigma)} mm along x, y, z of C (median)"))
     rows += [("residual", f"{np.median(poses.rms_px):.3f} px rms, a coordinate (median)")] if poses.rms_px is not None and len(z_mm) else []
     return Screen("BoardPoses", rows + _some(list(poses.without.items())))
+
+
+def _more(count: int) -> str:
+    return f" and {count - LISTED} more" if count > LISTED else ""
 
 
 def _median(values: Array | Image) -> float:
