@@ -95,7 +95,8 @@ def solve_handeye(
             raise InputError("none are given", where=NO_CLOCK, needed="the views' times: the body's poses have times")
         found = solve_moving(boards, track_of(stream), lens, options)
     else:
-        poses = given.transforms(H_OP, "H_OP")  # type: ignore[arg-type]
+        assert not isinstance(H_OP, PoseStream | MarkerStream)
+        poses = given.transforms(H_OP, "H_OP")
         _refuse_unpaired(poses, boards)
         found = solve_paired(boards, poses, lens, options)
     progress("hand-eye", 1, 1)
