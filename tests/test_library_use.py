@@ -12,7 +12,7 @@ import pytest
 
 import lpcal
 from lpcal.errors import DegenerateError, DisagreementError, InputError
-from lpcal.records.observations import BoardViews, SphereView
+from lpcal.records.observations import BoardViews, RawCapture, SphereView
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.4, 0.4, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)
@@ -239,6 +239,7 @@ BOARD = lpcal.Board((9, 6), (0.025, 0.025))
 PANEL = lpcal.read_rig("lightpanel-6")
 CAMERA = lpcal.Camera((640, 480), "opencv4", np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]), np.zeros(4))
 DARK = np.zeros((200, 200), np.uint8)
+RAW = RawCapture("raw", tuple(f"L{k}" for k in range(5)), IMAGES.astype(np.float32), np.ones(5), None, np.ones(0))
 TURN = np.linspace(0, 6, 40)
 OUTLINE = [120, 90] + 50 * np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
 VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.0, 90])}, {"L9": 0.05})
@@ -278,6 +279,10 @@ VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.
         (lambda: lpcal.light_field(DOME, [0, 1]), InputError, "x_C"),
         (lambda: lpcal.simulate(PANEL, image_size=(10, 10)), InputError, "120 pixels"),
         (lambda: lpcal.reconstruct(np.zeros((0, 5, 5)), DOME), InputError, "images"),
+        (lambda: lpcal.reconstruct(RAW, DOME, ambient=ROOM), InputError, "ambient: given beside a capture"),
+        (lambda: lpcal.reconstruct(RAW, DOME, lights=["L0"] * 5), InputError, "lights: given beside a capture"),
+        (lambda: lpcal.find_sphere(RAW, "chrome", mask=BALL[1:]), DisagreementError, "mask"),
+        (lambda: lpcal.reconstruct(IMAGES, DOME, mask=BALL, distance_m=-0.3), InputError, "-0.3 m"),
         (lambda: lpcal.integrate(np.zeros((20, 20, 3))), DegenerateError, "0 pixels"),
         (lambda: lpcal.integrate(-NORMALS), DegenerateError, "away from the camera"),
         (lambda: lpcal.read_rig("nothing"), InputError, "nothing"),

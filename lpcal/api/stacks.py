@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,11 @@ def capture(
         Not images; not as many as lights; or ambient image, mask or exposures of another shape.
     """
     if isinstance(images, RawCapture):
-        return images
+        own = {"lights": lights, "ambient": ambient, "exposure_s": exposure_s, "ambient_exposure_s": ambient_exposure_s}
+        beside = [key for key, value in own.items() if value is not None]
+        if beside:
+            raise InputError("given beside a capture, which brings its own", where=", ".join(beside), needed="one of both")
+        return images if mask is None else replace(images, mask=of_image_size(mask, images.images.shape[1:3], "mask"))
     stack, step = _fractions(images, "images")
     if stack.ndim not in (3, 4) or (stack.ndim == 4 and stack.shape[3] != 3):
         raise InputError(f"an array of {given.shape_of(stack)}", where="images", needed="(L, H, W) or (L, H, W, 3)")

@@ -125,10 +125,13 @@ def reconstruct(
     >>> bool(np.median(error) < 2)
     True
     """
-    own = [light.name for light in calibration.lights] if lights is None else list(lights)
+    if lights is None and not isinstance(images, RawCapture):
+        lights = [light.name for light in calibration.lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
-    raw = stacks.capture(images, own, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
+    raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     _refuse_unknown_words(mask, method, keep)
+    if distance_m is not None and not 0 < distance_m < np.inf:
+        raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
     _refuse_unknown_lights(raw, calibration)
     hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
     _refuse_hints(hints, raw.images.shape[1:3], raw.name)
