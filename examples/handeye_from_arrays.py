@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 import lpcal
 
 # Your own arrays: H_OP (N, 4, 4) flange in room, H_CB (N, 4, 4) board in camera, metres. These are a simulated robot's, with noise.
-session = lpcal.simulate(lpcal.read_rig("robot-camera"), seed=3)
+session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), seed=3)
 truth = session.board_truth()
 rng = np.random.default_rng(0)
 H_OP, H_CB = truth.H_OP.copy(), truth.H_CB.copy()

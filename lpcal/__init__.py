@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
     from lpcal.api.mocap_formats import register_mocap as register_mocap
-    from lpcal.api.simulation import simulate as simulate
+    from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
     from lpcal.api.spheres import refine_lights as refine_lights
     from lpcal.api.surfaces import integrate as integrate
@@ -65,7 +65,7 @@ _HOME = {
     "api.handeye": ("solve_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.mocap_formats": ("register_mocap",),
-    "api.simulation": ("simulate",),
+    "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),

@@ -86,3 +86,10 @@ def test_a_name_imports_no_more_than_it_needs(name: str) -> None:
 
 def test_the_package_is_typed() -> None:
     assert (Path(lpcal.__file__).parent / "py.typed").is_file()
+
+
+def test_no_name_is_a_modules_too() -> None:
+    """Once it is imported, a module of the package stands under its name there, whatever stood there before."""
+    package = Path(lpcal.__file__).parent
+    modules = {path.stem for path in package.iterdir() if path.suffix == ".py" or path.is_dir()} - {"errors"}
+    assert not modules & set(lpcal.__all__)

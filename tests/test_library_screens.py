@@ -26,7 +26,7 @@ CAMERA = replace(CAMERA, covariance=np.diag([0.04, 0.09, 0.01, 0.0016]))
 @pytest.fixture(scope="module")
 def records() -> dict[str, Shown]:
     """One record of every kind that is shown."""
-    session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=6)
+    session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=6)
     truth = session.board_truth()
     views = lpcal.find_boards([*session.board_images(), np.zeros((200, 320), np.uint8)], session.board)
     rng = np.random.default_rng(0)
@@ -63,7 +63,7 @@ def records() -> dict[str, Shown]:
     }
 
 
-assert lpcal.simulate
+assert lpcal.simulate_rig
 assert lpcal.mesh  # loaded, so that their records are registered
 KINDS = [kind.__name__ for kind in screens.screen_of.registry if kind is not object]
 

@@ -26,7 +26,7 @@ ROOM = np.zeros_like(IMAGES[0])
 
 @pytest.fixture(scope="module")
 def robot() -> tuple[np.ndarray, np.ndarray]:
-    truth = lpcal.simulate(lpcal.read_rig("robot-camera"), seed=3).board_truth()
+    truth = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), seed=3).board_truth()
     return truth.H_OP, truth.H_CB
 
 
@@ -112,7 +112,7 @@ def test_poses_that_cannot_be_are_refused(robot, change, error: type, words: str
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_handeye_with_a_clock_from_arrays(seed: int) -> None:
-    session = lpcal.simulate(lpcal.read_rig("lightpanel-6"), seed=seed)
+    session = lpcal.simulate_rig(lpcal.read_rig("lightpanel-6"), seed=seed)
     truth, stream = session.board_truth(), session.stream
     found = lpcal.solve_handeye(stream.H_OP, truth.H_CB, t_mocap_s=stream.t_s, t_camera_s=truth.t_camera_s)
     assert abs(found.clock_offset_s - session.clock_offset_s) < 5 * found.clock_offset_std_s + 1e-4
@@ -165,7 +165,7 @@ def test_a_surface_comes_back_from_its_folder(tmp_path) -> None:
 
 def test_a_calibration_comes_back_from_its_file(tmp_path) -> None:
     wings = lpcal.design_lights(lpcal.read_rig("lightpanel-12"))
-    rig = lpcal.assemble_calibration(wings, lpcal.simulate(lpcal.read_rig("lightpanel-12")).camera, H_PC=np.eye(4), name="twelve")
+    rig = lpcal.assemble_calibration(wings, lpcal.simulate_rig(lpcal.read_rig("lightpanel-12")).camera, H_PC=np.eye(4), name="twelve")
     lpcal.write_calibration(str(tmp_path / "c.yaml"), rig)
     again = lpcal.read_calibration(tmp_path / "c.yaml")
     x_C = np.array([[0.0, 0.01, 0.33], [0.02, 0, 0.36]])
@@ -175,7 +175,7 @@ def test_a_calibration_comes_back_from_its_file(tmp_path) -> None:
 
 
 def test_the_truth_of_a_simulation_is_its_own_light_field() -> None:
-    session = lpcal.simulate(lpcal.read_rig("lightpanel-6"), seed=4)
+    session = lpcal.simulate_rig(lpcal.read_rig("lightpanel-6"), seed=4)
     x_C = session.built.points_C[:20]
     field = lpcal.light_field(session.calibration, x_C)
     for k, light in enumerate(session.built.lights):
@@ -277,7 +277,7 @@ VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.
         (lambda: lpcal.assemble_calibration(lpcal.design_lights(PANEL), H_PC=np.eye(3)), InputError, "H_PC"),
         (lambda: lpcal.light_field([], [[0, 0, 1]]), InputError, "no light"),
         (lambda: lpcal.light_field(DOME, [0, 1]), InputError, "x_C"),
-        (lambda: lpcal.simulate(PANEL, image_size=(10, 10)), InputError, "120 pixels"),
+        (lambda: lpcal.simulate_rig(PANEL, image_size=(10, 10)), InputError, "120 pixels"),
         (lambda: lpcal.reconstruct(np.zeros((0, 5, 5)), DOME), InputError, "images"),
         (lambda: lpcal.reconstruct(RAW, DOME, ambient=ROOM), InputError, "ambient: given beside a capture"),
         (lambda: lpcal.reconstruct(RAW, DOME, lights=["L0"] * 5), InputError, "lights: given beside a capture"),

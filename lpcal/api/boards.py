@@ -71,7 +71,7 @@ def find_boards(
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
     >>> views = lpcal.find_boards(list(session.board_images()), session.board)
     >>> sum(view.corners_px is not None for view in views.views)
     4
@@ -212,7 +212,7 @@ def locate_boards(
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=4)
     >>> views = lpcal.find_boards(list(session.board_images()), session.board)
     >>> poses = lpcal.locate_boards(views, session.camera, session.board)
     >>> poses.H_CB.shape

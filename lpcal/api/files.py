@@ -300,7 +300,7 @@ def write_camera(path: PathLike, camera: Camera | CameraSolution) -> None:
     Examples
     --------
     >>> import lpcal, pathlib, tempfile
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"))
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"))
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "camera.yaml"
     >>> lpcal.write_camera(path, session.camera)
     >>> lpcal.read_camera(path).image_size

@@ -79,7 +79,7 @@ def solve_handeye(
     Examples
     --------
     >>> import lpcal, numpy as np
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), seed=3)
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), seed=3)
     >>> truth = session.board_truth()
     >>> found = lpcal.solve_handeye(truth.H_OP, truth.H_CB)
     >>> bool(np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 1e-4)

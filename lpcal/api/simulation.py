@@ -246,7 +246,7 @@ def _true_light(light: LedLight, focus_C: Array) -> Light:
     )
 
 
-def simulate(rig: Rig | RigFile, *, seed: int = 1, image_size: tuple[int, int] = (640, 400), stations: int = 22) -> Simulation:
+def simulate_rig(rig: Rig | RigFile, *, seed: int = 1, image_size: tuple[int, int] = (640, 400), stations: int = 22) -> Simulation:
     """Simulate a rig with known truth: its board images, its recording, its captures of spheres and objects.
 
     Parameters
@@ -274,16 +274,16 @@ def simulate(rig: Rig | RigFile, *, seed: int = 1, image_size: tuple[int, int] =
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=5)
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=5)
     >>> next(session.board_images()).shape, session.H_PC.shape
     ((200, 320), (4, 4))
-    >>> len(lpcal.simulate(lpcal.read_rig("lightpanel-6")).calibration.lights)
+    >>> len(lpcal.simulate_rig(lpcal.read_rig("lightpanel-6")).calibration.lights)
     6
     """
     if min(image_size) < LEAST_PX or stations < 4 or seed < 0:
         raise InputError(
             f"image_size {image_size}, stations {stations}, seed {seed}",
-            where="simulate",
+            where="simulate_rig",
             needed=f"{LEAST_PX} pixels at least each way, 4 stations at least, a seed of 0 or more",
         )
     plain = rig.rig if isinstance(rig, RigFile) else rig

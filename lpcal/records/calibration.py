@@ -59,7 +59,7 @@ class HandEye(Shown):
     Examples
     --------
     >>> import lpcal
-    >>> session = lpcal.simulate(lpcal.read_rig("robot-camera"), stations=8)
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), stations=8)
     >>> truth = session.board_truth()
     >>> lpcal.solve_handeye(truth.H_OP, truth.H_CB).names
     ('H_PC', 'H_OB')
