@@ -1,7 +1,98 @@
 """lpcal: calibrates a camera-and-light panel and rebuilds surfaces with it.
 
-Read the chain in the file list of ``lpcal/chain``, the frames in README.md. Inside lpcal: metres, radians, seconds;
-``H_AB`` (4x4) takes coordinates in B to coordinates in A.
+The names below are the library: arrays and records in, records out. Arrays are in C order, in metres, radians and seconds; ``H_AB`` (4x4)
+takes coordinates in B to coordinates in A: O room, P tracked body, D disc of the panel, C camera (x right, y down, z forward), B board,
+L light. A result is a frozen record with its evidence, its covariance and its warnings; errors are those of `lpcal.errors`; progress is a
+callback ``progress(what, done, total)``; the log is called ``lpcal``. Nothing is printed, and nothing is imported before it is used.
+
+Read the chain in the file list of ``lpcal/chain``, the frames in README.md.
 """
 
 __version__ = "0.1.0"
+
+TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import here
+
+if TYPE_CHECKING:
+    from lpcal import errors as errors
+    from lpcal.api.boards import calibrate_camera as calibrate_camera
+    from lpcal.api.boards import find_boards as find_boards
+    from lpcal.api.boards import locate_boards as locate_boards
+    from lpcal.api.evaluation import evaluate as evaluate
+    from lpcal.api.files import read_calibration as read_calibration
+    from lpcal.api.files import read_camera as read_camera
+    from lpcal.api.files import read_capture as read_capture
+    from lpcal.api.files import read_mocap as read_mocap
+    from lpcal.api.files import read_rig as read_rig
+    from lpcal.api.files import read_surface as read_surface
+    from lpcal.api.files import write_calibration as write_calibration
+    from lpcal.api.files import write_camera as write_camera
+    from lpcal.api.files import write_surface as write_surface
+    from lpcal.api.handeye import solve_handeye as solve_handeye
+    from lpcal.api.lights import assemble_calibration as assemble_calibration
+    from lpcal.api.lights import design_lights as design_lights
+    from lpcal.api.lights import light_field as light_field
+    from lpcal.api.mocap_formats import register_mocap as register_mocap
+    from lpcal.api.simulation import simulate_rig as simulate_rig
+    from lpcal.api.spheres import find_sphere as find_sphere
+    from lpcal.api.spheres import refine_lights as refine_lights
+    from lpcal.api.surfaces import integrate as integrate
+    from lpcal.api.surfaces import mesh as mesh
+    from lpcal.api.surfaces import reconstruct as reconstruct
+    from lpcal.records.calibration import Calibration as Calibration
+    from lpcal.records.calibration import Camera as Camera
+    from lpcal.records.calibration import HandEye as HandEye
+    from lpcal.records.calibration import Light as Light
+    from lpcal.records.calibration import Wing as Wing
+    from lpcal.records.observations import Board as Board
+    from lpcal.records.observations import PoseStream as PoseStream
+    from lpcal.records.sensor import StatedSensor as StatedSensor
+    from lpcal.records.surface import Surface as Surface
+
+_HOME = {
+    "api.boards": ("calibrate_camera", "find_boards", "locate_boards"),
+    "api.evaluation": ("evaluate",),
+    "api.files": (
+        "read_calibration",
+        "read_camera",
+        "read_capture",
+        "read_mocap",
+        "read_rig",
+        "read_surface",
+        "write_calibration",
+        "write_camera",
+        "write_surface",
+    ),
+    "api.handeye": ("solve_handeye",),
+    "api.lights": ("assemble_calibration", "design_lights", "light_field"),
+    "api.mocap_formats": ("register_mocap",),
+    "api.simulation": ("simulate_rig",),
+    "api.spheres": ("find_sphere", "refine_lights"),
+    "api.surfaces": ("integrate", "mesh", "reconstruct"),
+    "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
+    "records.observations": ("Board", "PoseStream"),
+    "records.sensor": ("StatedSensor",),
+    "records.surface": ("Surface",),
+}
+"""The module that each public name is loaded from when it is first used."""
+
+__all__ = [*sorted(name for names in _HOME.values() for name in names), "errors"]  # noqa: PLE0604
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name from its module when it is first used (PEP 562)."""
+    from importlib import import_module
+
+    home = next((module for module, names in _HOME.items() if name in names), None)
+    if home is not None:
+        found = getattr(import_module(f"lpcal.{home}"), name)
+    elif name == "errors":
+        found = import_module("lpcal.errors")
+    else:
+        raise AttributeError(f"module 'lpcal' has no attribute {name!r}")
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    """The public names, whether they were loaded or not."""
+    return sorted({*__all__, "__version__"})

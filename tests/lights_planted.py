@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 import yaml
 
+from lpcal.api.simulation import response_of
 from lpcal.formats.panel_yaml import read_rig
-from lpcal.pipeline.simulate import _response
 from lpcal.simulate.built import Built, build
 from lpcal.simulate.captures import SphereTruth, Studio
 from lpcal.simulate.recipe import Recipe
@@ -102,7 +102,7 @@ RECIPE = Recipe(seed=20260105, image_size=(480, 320))
 def draw(folder: Path, spheres: dict[str, SphereTruth], change: Callable[[Built], Built] = lambda b: b, seed: int = 0) -> None:
     """Draw spheres anew with the bundled rig's simulator, its lights changed."""
     section = read_rig(RIG / "panel.yaml").rig
-    studio = Studio(change(built()), RECIPE, _response(section, built(), RECIPE), spheres)
+    studio = Studio(change(built()), RECIPE, response_of(section, built(), RECIPE), spheres)
     for k, name in enumerate(spheres):
         capture = studio.sphere(name, np.random.default_rng([seed, k]))
         place = folder / "spheres" / name

@@ -11,11 +11,11 @@ import pytest
 import lit_scene
 from lit_heights import Drawn, Recipe
 from lit_heights import draw as draw_large
+from lpcal.api.curve import curve_of, settle_sensor
 from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DisagreementError
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.tone_curve import decode, encode
-from lpcal.pipeline.curve import curve_of, settle_sensor
 from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
 from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.surface.response import Shown, stored_curve

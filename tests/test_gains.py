@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from lit_heights import Drawn, Recipe, draw
+from lpcal.api.curve import settle_sensor
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import Provenance
 from lpcal.geometry import lambert
-from lpcal.pipeline.curve import settle_sensor
 from lpcal.records.sensor import StatedSensor
 from lpcal.surface import gains, sight
 from lpcal.surface.reconstruct import Options, reconstruct

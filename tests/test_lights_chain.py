@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import yaml
 
+from lpcal.api.lights import wing_of
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights import refine
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
@@ -22,7 +23,6 @@ from lpcal.formats.field_csv import read_field
 from lpcal.formats.images import read_image
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3, sphere
-from lpcal.pipeline.wings import wing_of
 from lpcal.records.calibration import Camera, LightsSolution, Wings
 from lpcal.records.observations import SphereView
 

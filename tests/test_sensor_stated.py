@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from lit_heights import Drawn, Recipe, draw
+from lpcal.api.sensor import sensor_in_use
 from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration, write_calibration
 from lpcal.formats.documents import Provenance
 from lpcal.formats.light_tables import C_FROM_UP
 from lpcal.formats.surface_files import read_surface
-from lpcal.pipeline.sensor import sensor_in_use
 from lpcal.records.sensor import FlatField, StatedSensor
 
 RECIPE = Recipe(lights=5, gamma="srgb", size=56)  # five lights cannot tell a curve: what is stated is all there is

@@ -21,10 +21,10 @@ from dataclasses import replace
 import numpy as np
 
 from lit_heights import Drawn, Recipe, draw
+from lpcal.api.curve import Settled, settle_sensor
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DisagreementError
 from lpcal.geometry import lambert
-from lpcal.pipeline.curve import Settled, settle_sensor
 from lpcal.records.calibration import Calibration
 from lpcal.records.sensor import StatedSensor
 from lpcal.surface import sight

@@ -29,6 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from light_errors import HEADER, Errors, errors_of, rms, table_row
 from light_rigs import CACHE, REPOSITORY, Drawn, drawn, exact, first_of
+from lpcal.api.sensor import sensor_of_camera
 from lpcal.chain.refine_lights import refine
 from lpcal.chain.refine_lights.clicks import fit_with_clicks
 from lpcal.chain.refine_lights.measure import measure_centre
@@ -38,7 +39,6 @@ from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import read_capture
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.formats.wings_yaml import read_wings
-from lpcal.pipeline.sensor import sensor_of_camera
 from lpcal.records.calibration import Wings
 from lpcal.records.observations import SphereView
 from lpcal.simulate.leds import LedLight

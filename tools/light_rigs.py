@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lpcal.api.lights import wing_of
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
 from lpcal.chain.refine_lights.led_fit import DOME_M, POWER_SD, TILT_SD_RAD
@@ -29,7 +30,6 @@ from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3, sphere
-from lpcal.pipeline.wings import wing_of
 from lpcal.records.calibration import Camera, Wing, Wings
 from lpcal.records.observations import Radiance, RawCapture, SphereView
 from lpcal.records.rig import Rig, SphereSection

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 from scipy import optimize
 
+from lpcal.api.curve import settle_sensor
+from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
-from lpcal.pipeline.curve import settle_sensor
-from lpcal.pipeline.sensor import stated_in
 from lpcal.surface import mask, sight
 
 WRONG = 0.9

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.outcome import Outcome, Progress, silent
 
 
 def show(outcome: Outcome, *, as_json: bool) -> None:
@@ -43,8 +43,11 @@ def open_streams() -> None:
 
 
 @contextmanager
-def progress_bars() -> Iterator[Progress]:
-    """Progress on stderr: live bars on a terminal, a line each time a tenth is done elsewhere."""
+def progress_bars(*, quiet: bool = False) -> Iterator[Progress]:
+    """Progress on stderr: live bars on a terminal, a line each time a tenth is done elsewhere; nothing where that is wished."""
+    if quiet:
+        yield silent
+        return
     if not sys.stderr.isatty():
         yield _lines()
         return

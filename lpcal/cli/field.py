@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 
 from lpcal.records.outcome import Outcome, Progress
@@ -20,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Write the field of every light at every point."""
+    from lpcal.api.lights import light_field
     from lpcal.formats.calibration_yaml import read_calibration
     from lpcal.formats.field_csv import FIELD, read_points, write_field
     from lpcal.formats.outputs import refuse_place
@@ -27,15 +27,9 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     refuse_place(options.output, FIELD, (options.calibration, options.points))
     calibration = read_calibration(options.calibration)
     x_C = read_points(options.points)
-    fields, warnings = {}, []
-    for done, light in enumerate(calibration.lights, start=1):
-        fields[light.name] = light.field(x_C)
-        if (beyond := int(light.extrapolated(x_C).sum())) > 0:
-            seen_deg = math.degrees(light.lobe.seen_rad)
-            warnings.append(
-                f"{light.name}: extrapolated at {beyond} points, more than {seen_deg:.1f} deg from its axis: no sphere was there"
-            )
-        progress("lights", done, len(calibration.lights))
-    write_field(options.output, x_C, fields)
+    progress("lights", 0, 1)
+    found = light_field(calibration, x_C)
+    progress("lights", 1, 1)
+    write_field(options.output, x_C, dict(zip(found.names, zip(found.direction_C, found.irradiance, strict=True), strict=True)))
     summary = [f"{options.output}: {len(calibration.lights)} lights at {len(x_C)} points"]
-    return Outcome(summary, {"file": str(options.output)}, warnings=warnings)
+    return Outcome(summary, {"file": str(options.output)}, warnings=list(found.warnings))

@@ -13,8 +13,9 @@ from typing import Protocol, cast
 
 from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
+from lpcal.cli.log import add_log_options, logged
 from lpcal.cli.stops import Stopped, received, say_stopped
-from lpcal.errors import DegenerateError, InputError, LpcalError
+from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
@@ -30,6 +31,7 @@ COMMANDS = {
     "export": "calibration.yaml, the product, from whatever stages are up to date",
     "reconstruct": "normals, albedo, depth and mesh of a capture",
     "integrate": "depth and mesh of a normal map from elsewhere",
+    "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
@@ -62,7 +64,7 @@ def main(words: list[str] | None = None) -> int:
     open_streams()
     try:
         options, command = _parse(words)
-        with progress_bars() as progress, ExitStack() as options.until_done:
+        with logged(options), progress_bars(quiet=options.quiet) as progress, ExitStack() as options.until_done:
             outcome = command.run(options, progress)
         return _said(outcome, as_json=options.json)
     except LpcalError as error:
@@ -97,11 +99,9 @@ def _said(outcome: Outcome, *, as_json: bool) -> int:
 
 def _refused_singular(error: Exception) -> int:
     """Say that the data leave an unknown open which no stage has looked for; the exit code of data that determine too little."""
-    said = DegenerateError(
-        f"the data leave something undetermined: {error}",
-        needed="views, lights or motions that differ more",
-        todo="run lpcal check, or look at the inputs: are there doubles among them?",
-    )
+    from lpcal.api.staged import undetermined
+
+    said = undetermined(error)
     complain(f"lpcal: {said}")
     return said.exit_code
 
@@ -132,7 +132,9 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
         if name == chosen:
             module = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
             module.add_arguments(subparser)
-            subparser.add_argument("--json", action="store_true", help="print one JSON document instead of the summary")
+            add_log_options(subparser)
+    if chosen is not None and module is None:
+        _refuse_unknown(chosen)
     if not words:
         parser.print_help(sys.stderr)
         parser.exit(USAGE)
@@ -140,6 +142,20 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
     if module is None:  # argparse has already ended the run for an unknown or missing command
         parser.error("no command")
     return options, module
+
+
+def _refuse_unknown(word: str) -> None:
+    """Say that there is no such command, and which may be meant.
+
+    Raises
+    ------
+    UsageError
+    """
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), COMMANDS, n=3)
+    todo = f"did you mean {' or '.join(f'lpcal {name}' for name in near)}?" if near else "lpcal --help lists them"
+    raise UsageError(f"no command is called {word}", needed=f"one of {', '.join(COMMANDS)}", todo=todo)
 
 
 class _Versions(argparse.Action):

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Image
 from lpcal.records.observations import Radiance, RawCapture
+from lpcal.records.sensor import Sensor
 
 BLOCK_PX, FEWEST_BLOCKS = 8, 40
 ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0

@@ -10,8 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, noise_model, over_white
+from lpcal.detect.radiometry import noise_model, over_white
 from lpcal.records.observations import Radiance, RawCapture
+from lpcal.records.sensor import Sensor
 
 
 def with_short_exposures(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> Radiance:

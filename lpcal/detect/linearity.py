@@ -14,10 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, noise_model
+from lpcal.detect.radiometry import noise_model
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image
 from lpcal.geometry.tone_curve import exponent, worded
+from lpcal.records.sensor import Sensor
 
 BLOCK_PX, MOST_BLOCKS = 8, 600
 FEWEST_IMAGES, FEWEST_BLOCKS, LEAST_SPAN = 3, 50, 2.0

@@ -11,16 +11,15 @@ image's own noise is propagated. Source: EMVA 1288, linear camera model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from lpcal.detect.piled import piled_level, piled_words
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.geometry.tone_curve import Gamma, decode
 from lpcal.records.observations import Radiance, RawCapture
-from lpcal.records.sensor import FlatField, StatedSensor
+from lpcal.records.sensor import FlatField, Sensor, StatedSensor
 
 FLAT_DEGREE = 6
 FLAT_BLOCK_PX = 8
@@ -35,26 +34,6 @@ BLACK_OFF, BLACK_SIGMAS, BLACK_SHARE = 0.005, 4.0, 0.01
 which the black level is wrong: half a percent of full scale is what a sensor's own pattern makes."""
 DARK_SIGMAS, DARK_PIXELS = 10.0, 8
 """A light that lifts fewer pixels than this by so many sigmas is off."""
-
-
-@dataclass(frozen=True)
-class Sensor:
-    """What the sensor does to light: levels as fractions of full scale."""
-
-    black_level: float = 0.0
-    white_level: float = 1.0
-    gamma: Gamma = 1.0
-    flat_field: FlatField | None = None
-
-    def linear(self, stored: Image) -> Image:
-        """Linear numbers, 0 at black and 1 at white, the flat field not yet divided out."""
-        low, high = decode(np.array([self.black_level, self.white_level]), self.gamma)
-        return np.asarray((decode(stored, self.gamma) - np.float32(low)) / np.float32(high - low), dtype=np.float32)
-
-    def response(self, shape: tuple[int, ...]) -> Image:
-        """What lens and sensor make of even light, (H, W) or (H, W, 1), for images of a shape (L, H, W) or (L, H, W, 3)."""
-        response = np.ones(shape[1:3], np.float32) if self.flat_field is None else self.flat_field.response(shape[1:3])
-        return response[..., None] if len(shape) == 4 else response
 
 
 def sensor_with(sensor: Sensor, stated: StatedSensor, where: str) -> Sensor:

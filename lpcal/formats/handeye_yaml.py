@@ -74,6 +74,7 @@ def _handeye(document: dict[str, Any]) -> HandEye:
         warnings=tuple(document.get("warnings") or ()),
         evidence=document.get("evidence") or {},
         carries=carries,
+        taken_offset_s=number(document, "clock_offset_s") or 0.0,
     )
 
 

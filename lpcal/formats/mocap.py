@@ -1,22 +1,25 @@
-"""A motion-capture recording of whatever format: found from the file itself, not from its name."""
+"""A motion-capture recording of whatever format: found from the file itself, not from its name; others' formats are asked first."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from lpcal.errors import InputError
 from lpcal.formats import mocap_c3d, mocap_generic, mocap_motive, mocap_qualisys, mocap_ros, mocap_trc, mocap_tum, mocap_vicon
 from lpcal.formats.marker_table import MarkerTable, markers_of
+from lpcal.formats.mocap_added import MocapFormat, format_of, installed
 from lpcal.formats.pose_table import PoseTable, stream_of
-from lpcal.formats.reading import reader
+from lpcal.formats.reading import reader, reading
 from lpcal.formats.text import decimal_points, read_text, with_commas
+from lpcal.geometry import se3
+from lpcal.records import given
 from lpcal.records.observations import MarkerStream, PoseStream
 
 KNOWN = "Motive, Vicon or Qualisys text, TRC, C3D, a ROS bag, TUM, EuRoC, or a csv of t_s, x_m, y_m, z_m, qx, qy, qz, qw"
 HEAD_BYTES = 4096
 
 
-@reader("a whole motion-capture recording")
 def read_mocap(
     path: Path, body: str | None = None, *, quaternion: str | None = None, units: str | None = None, direction: str = "H_OP"
 ) -> PoseStream | MarkerStream:
@@ -38,15 +41,23 @@ def read_mocap(
     DegenerateError
         It holds no pose.
     """
-    if not path.is_file() and not mocap_ros.is_ros(path, b""):
+    installed()  # before the memory is bounded: what packages load is not what the file asks for
+    return _read(path, body, quaternion, units, direction)
+
+
+@reader("a whole motion-capture recording")
+def _read(path: Path, body: str | None, quaternion: str | None, units: str | None, direction: str) -> PoseStream | MarkerStream:
+    if not path.is_file() and not mocap_ros.is_ros(path, b"") and not (path.is_dir() and format_of(b"", path)):
         raise InputError("no such file", where=str(path), needed="a motion-capture recording", todo="correct mocap.file in panel.yaml")
-    table = _table(path, body, quaternion, units)
+    head = b"" if path.is_dir() else _head(path)
+    if (added := format_of(head, path)) is not None:
+        return _by(added, path, body, direction)
+    table = _table(path, head, body, quaternion, units)
     return markers_of(table, path, body) if isinstance(table, MarkerTable) else stream_of(table, path, direction)
 
 
-def _table(path: Path, body: str | None, quaternion: str | None, units: str | None) -> PoseTable | MarkerTable:
+def _table(path: Path, head: bytes, body: str | None, quaternion: str | None, units: str | None) -> PoseTable | MarkerTable:
     """The file read by the reader whose mark it bears."""
-    head = b"" if path.is_dir() else _head(path)
     if mocap_ros.is_ros(path, head):
         return mocap_ros.read_ros(path, body, units)
     if mocap_c3d.is_c3d(head):
@@ -71,6 +82,19 @@ def _table(path: Path, body: str | None, quaternion: str | None, units: str | No
     if mocap_vicon.is_vicon(text):
         return mocap_vicon.read_vicon(text, path, body, units)
     return mocap_generic.read_generic(text, path, quaternion, units)
+
+
+def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> PoseStream | MarkerStream:
+    """What an added format reads, held to what lpcal's own readers give."""
+    with reading(path, f"a whole recording of the format {added.name}"):
+        found = added.read(path, body)
+    if not isinstance(found, PoseStream | MarkerStream):
+        raise InputError(f"the format {added.name} gave a {type(found).__name__}", where=str(path), needed="a PoseStream or a MarkerStream")
+    if isinstance(found, MarkerStream):
+        return found
+    stream = given.stream(found, str(path))
+    poses = stream.H_OP
+    return replace(stream, H_OP=se3.inv(poses) if direction == "H_PO" else poses)
 
 
 @reader("a csv of poses")

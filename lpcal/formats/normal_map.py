@@ -23,6 +23,8 @@ from lpcal.geometry.arrays import Image, Mask
 
 C_FROM_GL = np.array([1.0, -1.0, -1.0], np.float32)
 KEYS = ("normals", "normal_gt", "Normal_gt", "normal", "n")
+DEPTH_KEYS = ("depth", "depth_gt", "Depth_gt", "z")
+"""Names under which a depth stands beside normals."""
 MOST_BYTES = 1 << 30
 """Bytes of the largest array that is read: normals of 89 megapixels in 32 bit."""
 LONGEST = 10.0
@@ -66,6 +68,28 @@ def read_normals(path: Path) -> tuple[Image, Mask]:
     if not good.any():
         raise InputError("holds no normals", where=str(path), needed="vectors of length 1, or coded 0..max for -1..1")
     return np.asarray(values * (C_FROM_GL if np.median(values[good][:, 2]) > 0 else np.float32(1)), np.float32), good
+
+
+@reader("a depth map in an .npz")
+def read_depth(path: Path) -> Image | None:
+    """The depth (H, W) that stands beside the normals of an .npz, as it is stored; None where none does.
+
+    Raises
+    ------
+    InputError
+        Not readable, or no map.
+    """
+    if not zipfile.is_zipfile(path):
+        return None
+    with zipfile.ZipFile(path) as archive:
+        name = next((f"{key}.npy" for key in DEPTH_KEYS if f"{key}.npy" in archive.namelist()), None)
+        if name is None:
+            return None
+        with archive.open(name) as stream:
+            depth = _array(stream, path)
+    if depth.ndim != 2:
+        raise InputError(f"a depth of {'x'.join(map(str, depth.shape))}", where=str(path), needed="height x width")
+    return np.asarray(depth, np.float32)
 
 
 def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
 from lpcal.geometry.arrays import Image
-from lpcal.records.surface import Component, Surface
+from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
@@ -68,6 +70,23 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
             (draft / PAGE).write_text(page, encoding="utf-8")
 
 
+def summary_of(surface: Surface) -> dict[str, Any]:
+    """What summary.json says of a surface itself; whoever made it adds times, inputs and options."""
+    return {
+        "lpcal": 1,
+        "kind": "surface",
+        "name": surface.name,
+        "units": "metres" if surface.metric else "pixels",
+        "components": [asdict(component) for component in surface.components],
+        "counts_and_residuals": surface.figures,
+        "mask_doubt": surface.figures.get("mask_doubt"),
+        "mask_doubt_why": surface.figures.get("mask_doubt_why"),
+        "versions": {"lpcal": __version__},
+        "sensor": None if surface.sensor is None else surface.sensor.document(),
+        "notes": list(surface.warnings),
+    }
+
+
 def read_surface(folder: Path) -> Surface:
     """Read a surface back from its folder.
 
@@ -80,12 +99,19 @@ def read_surface(folder: Path) -> Surface:
         with np.load(folder / "surface.npz") as stored:
             maps = {name: stored[name] for name in (*MAPS, "layer", "rays", "breaks")}
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-        components = tuple(Component(**entry) for entry in summary["components"])
+        components = tuple(_component(entry) for entry in summary["components"])
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(
             f"no whole surface ({error})", where=str(folder), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct"
         ) from error
-    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, **maps)
+    said = tuple(str(note) for note in summary.get("notes") or ())
+    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, warnings=said, **maps)
+
+
+def _component(entry: dict[str, Any]) -> Component:
+    """A piece as summary.json has it."""
+    others = tuple(Alternative(**other) for other in entry.get("alternatives") or ())
+    return Component(**(entry | {"alternatives": others}))
 
 
 def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:

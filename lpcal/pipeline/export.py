@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from lpcal.api.lights import assemble_calibration
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import KIND, write_calibration
@@ -17,7 +18,7 @@ from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine import summary_of
 from lpcal.pipeline.sensor import flat_field_path, has_lens, stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
-from lpcal.records.calibration import Calibration, LightsSolution
+from lpcal.records.calibration import LightsSolution
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 
@@ -60,10 +61,8 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
     H_PC = read_handeye(workspace.calib("handeye.yaml")).H_PC if wings_stage.tracks_panel(workspace) else None
     solution = _lights(workspace)
-    camera, H_PC = solution.camera or camera, H_PC if solution.H_PC is None else solution.H_PC
-    focus_C = solution.focus_C if camera is not None else None
     sensor = StatedSensor() if camera is not None else stated_in_panel(workspace)
-    calibration = Calibration(rig.name, solution.lights, camera, H_PC, solution.d_object_m, focus_C, sensor)
+    calibration = assemble_calibration(solution, camera, H_PC=H_PC, sensor=sensor, name=rig.name)
     write_calibration(workspace.calib(FILE), calibration, STAGE.provenance(workspace))
     progress("export", 1, 1)
     return Outcome(

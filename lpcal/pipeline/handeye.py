@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.api.handeye import solve_handeye
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
 from lpcal.formats.pasted_transforms import EASY_HANDEYE, write_easy_handeye
-from lpcal.geometry.pose_track import PoseTrack, poses_at
+from lpcal.geometry import se3
+from lpcal.geometry.pose_track import poses_at
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather, input_files, section_of, with_recording
 from lpcal.pipeline.handeye_summary import EASY_HANDEYE_FILE, body_name, summarise
 from lpcal.pipeline.workspace import Stage, Workspace
@@ -32,14 +33,11 @@ def run(workspace: Workspace, progress: Progress, recording: Path | None = None)
     workspace = with_recording(workspace, recording)
     STAGE.look(workspace)
     given = gather(workspace, progress)
-    progress("hand-eye", 0, 1)
-    track = None if given.stream is None else track_of(given.stream)
-    finding = _solved(workspace, given, track)
-    progress("hand-eye", 1, 1)
-    handeye = _with_all_images(finding.handeye, given)
+    solved = _solved(workspace, given, progress)
+    handeye = _with_all_images(solved, given)
     provenance = workspace.provenance(input_files(workspace), settings(workspace))
     write_easy_handeye(workspace.calib(EASY_HANDEYE_FILE), handeye.H_PC, body_name(given), handeye.carries)
-    write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, finding, track), provenance)
+    write_h_op(workspace.calib("H_OP.yaml"), _panel_at_all_images(given, solved), provenance)
     write_handeye(workspace.calib("handeye.yaml"), handeye, provenance, body_name(given))
     return summarise(handeye, given, workspace.rig_file.rig)
 
@@ -50,15 +48,21 @@ def settings(workspace: Workspace) -> dict[str, Any]:
     return {"mocap": section.model_dump() if section else None}
 
 
-def _solved(workspace: Workspace, given: HandEyeInputs, track: PoseTrack | None) -> HandEyeFinding:
+def _solved(workspace: Workspace, given: HandEyeInputs, progress: Progress) -> HandEye:
     section = section_of(workspace)
     offset = section.clock_offset
-    known_s = None if offset == "estimate" else float(offset)
-    options = Options(known_s, given.camera_share, inverted=section.direction == "H_PO", carries=section.carries)
-    if track is not None:
-        return solve_moving(given.boards, track, given.camera, options)
-    assert given.H_OP is not None
-    return solve_paired(given.boards, given.H_OP, given.camera, options)
+    poses = given.H_OP if given.stream is None else given.stream
+    assert poses is not None
+    return solve_handeye(
+        poses,
+        given.boards,
+        camera=given.camera,
+        clock_offset_s=None if offset == "estimate" else float(offset),
+        carries=section.carries,
+        inverted=section.direction == "H_PO",
+        camera_share=given.camera_share,
+        progress=progress,
+    )
 
 
 def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
@@ -68,10 +72,10 @@ def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
     return replace(handeye, views=tuple(verdicts[image] for image in given.images))
 
 
-def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding, track: PoseTrack | None) -> ImagePanelPoses:
+def _panel_at_all_images(given: HandEyeInputs, solved: HandEye) -> ImagePanelPoses:
     """The body's pose at every image, those without a board too."""
-    if track is not None and given.t_camera_s is not None:
-        panel = poses_at(track, finding.mocap_times(given.t_camera_s))
+    if given.stream is not None and given.t_camera_s is not None:
+        panel = poses_at(track_of(given.stream), solved.mocap_times(given.t_camera_s))
         H_OP = np.where(panel.trusted[:, None, None], panel.H, np.nan)
         why, steady = panel.why, panel.steady
     else:
@@ -81,10 +85,10 @@ def _panel_at_all_images(given: HandEyeInputs, finding: HandEyeFinding, track: P
         H_OP = np.array([pose_of.get(image, nothing) for image in given.images])
         why = tuple(None if image in pose_of else given.without_pose.get(image, "no pose kept: no board") for image in given.images)
         steady = np.zeros(len(given.images), dtype=bool)
-    H_OP = finding.set_up.as_measured(H_OP)
-    refused = {view.image: view.why for view in finding.handeye.views if not view.used}
+    H_OP = se3.inv(H_OP) if solved.misread else H_OP
+    refused = {view.image: view.why for view in solved.views if not view.used}
     verdict = tuple(each if each is not None else refused.get(image) for image, each in zip(given.images, why, strict=True))
-    return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, finding.handeye.clock_offset_s)
+    return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, solved.clock_offset_s)
 
 
 STAGE = Stage(

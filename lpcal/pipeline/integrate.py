@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 import time
-from dataclasses import asdict
 from pathlib import Path
 
-from lpcal import __version__
+from lpcal.api.surfaces import DISTANCE_M, Green, integrate, mesh
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_files import read_camera_file
@@ -15,21 +14,17 @@ from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SURFACE, write_surface
+from lpcal.formats.surface_files import SURFACE, summary_of, write_surface
 from lpcal.pipeline.reconstruct import from_here
 from lpcal.records.calibration import Camera
 from lpcal.records.outcome import Outcome
-from lpcal.surface import convention, mesh
-from lpcal.surface.of_normals import check, surface_of_normals
 
 HEAD = 1000
 """Bytes of a file among which lpcal's own says its kind, as its second line."""
-DISTANCE_M = 0.35
-"""Where neither a calibration nor the user says how far away the object is."""
 
 
 def integrate_file(
-    normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None, green: str = "auto"
+    normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None, green: Green = "auto"
 ) -> Outcome:
     """Integrate a normal map and write its folder.
 
@@ -43,31 +38,21 @@ def integrate_file(
     values, good = read_normals(normals)
     inside = good if mask is None else good & read_mask(mask, good.shape)
     camera, working_m = (None, None) if calibration is None else _camera(calibration)
-    camera = None if camera is None else camera.of_images((good.shape[1], good.shape[0]))
-    check(normals.stem, inside, camera)
-    found = convention.settled(normals.stem, values, inside, camera, green)
-    surface = surface_of_normals(normals.stem, found.normals_C, inside, camera, distance_m or working_m or DISTANCE_M)
+    surface = integrate(values, camera, inside, distance_m=distance_m or working_m or DISTANCE_M, green=green, name=normals.stem)
+    *told, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
-    note = "normals tell the shape; the distance, and that of pieces to each other, is not measured"
-    document = {
-        "lpcal": 1,
-        "kind": "surface",
-        "name": surface.name,
-        "units": "pixels" if camera is None else "metres",
-        "components": [asdict(component) for component in surface.components],
-        "convention": {"green_turned_over": found.flipped, "curl_as_is": asdict(found.as_is), "curl_turned_over": asdict(found.turned)},
-        "counts_and_residuals": surface.figures,
+    convention = surface.figures["convention"]
+    document = summary_of(surface) | {
+        "convention": convention,
+        "counts_and_residuals": {key: value for key, value in surface.figures.items() if key != "convention"},
         "times_s": {"solving": seconds},
-        "versions": {"lpcal": __version__},
         "inputs": inputs,
-        "notes": [note] if found.note is None else [found.note, note],
     }
-    write_surface(target, surface, mesh.build(surface), document)
+    write_surface(target, surface, mesh(surface), document)
     count = len(surface.components)
-    line = f"{surface.name}: {inside.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
-    told = [f"  {found.note}"] if found.note else []
-    return Outcome([f"{line} -> {from_here(target)}", *told], {"surfaces": [document]})
+    line = f"{surface.name}: {surface.mask.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
+    return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in told)], {"surfaces": [document]})
 
 
 def _camera(path: Path) -> tuple[Camera | None, float | None]:

@@ -10,12 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
-from lpcal.chain.k_camera import board_shape, solve_camera
-from lpcal.detect.radiometry import Sensor, fit_flat_field
-from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.api.board_search import refuse_another_board, refuse_two_sizes
+from lpcal.api.boards import as_given, board_of, calibrate_camera, locate_boards
+from lpcal.detect.radiometry import fit_flat_field
+from lpcal.errors import InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
 from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
@@ -25,19 +23,17 @@ from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.images import read_image
 from lpcal.formats.outputs import write_text
-from lpcal.geometry.arrays import Array
-from lpcal.pipeline.board_search import recall, refuse_another_board, refuse_two_sizes, search
+from lpcal.pipeline.board_search import recall, search, shown_in
 from lpcal.pipeline.intrinsics_summary import summarise
 from lpcal.pipeline.sensor import has_lens
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardViews
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.records.rig import BoardSection, CameraSection
+from lpcal.records.rig import CameraSection
+from lpcal.records.sensor import Sensor
 
 CAMERAMODEL = "camera.cameramodel"
-ASSUMED_SIGMA_PX = 0.1
-"""Of a corner coordinate, where the camera was not solved here."""
 
 
 def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None = None, corners: Path | None = None) -> Outcome:
@@ -63,26 +59,16 @@ def run(workspace: Workspace, progress: Progress, images: Sequence[Path] | None 
         views = search(workspace, [*own, *others], board, progress, known)
         if corners is not None and not known:
             write_corners(corners, views.views[: len(own)])
-        refuse_another_board([*own, *others][: len(own) or None], replace(views, views=views.views[: len(own) or None]), board)
+        refuse_another_board(shown_in([*own, *others]), replace(views, views=views.views[: len(own) or None]), board)
     solution = _solution(workspace, section, board, replace(views, views=views.views[: len(own)]), progress)
     solution = replace(solution, camera=_with_radiometry(workspace, section, solution))
-    poses, left_out = board_poses(views, solution, progress)
-    if section.cameramodel is not None and board is not None and board.warp and poses.images:
-        solution = replace(solution, points_B=board_shape(views, board, solution.camera, dict(zip(poses.images, poses.H_CB, strict=True))))
-        poses, left_out = board_poses(views, solution, progress)
+    solved = section.cameramodel is None or board is None
+    poses = locate_boards(views, solution if solved else solution.camera, board, progress=progress)
+    if poses.points_B is not None:
+        solution = replace(solution, points_B=poses.points_B)
     provenance = workspace.provenance(_inputs(workspace, own, others), settings(workspace))
-    _write(workspace, solution, poses, left_out, board, provenance)
-    return summarise(solution, poses, left_out, workspace.rig_file.rig)
-
-
-def board_of(section: BoardSection | None) -> Board | None:
-    """The board that a section of panel.yaml describes."""
-    if section is None:
-        return None
-    marker_m = float("nan") if section.marker is None else section.marker
-    return Board(
-        section.corners, section.square, section.warp == "auto", section.kind, marker_m, section.dictionary or "", section.corner_fit
-    )
+    _write(workspace, solution, poses, board, provenance)
+    return summarise(solution, poses, poses.without, workspace.rig_file.rig)
 
 
 def camera_images(workspace: Workspace) -> list[Path]:
@@ -102,38 +88,6 @@ def mocap_images(workspace: Workspace) -> list[Path]:
             listed = workspace.images([name], "mocap.images")
         found |= dict.fromkeys(listed)
     return list(found)
-
-
-def board_poses(views: BoardViews, solution: CameraSolution, progress: Progress) -> tuple[BoardPoses, dict[str, str]]:
-    """H_CB of every view with a board, by the final camera; and why the others have none."""
-    poses: dict[str, BoardPose] = {}
-    left_out: dict[str, str] = {}
-    corners: dict[str, Array] = {}
-    sigma_px = solution.corner_sigma_px
-    for done, view in enumerate(views.views, start=1):
-        if view.corners_px is None:
-            left_out[view.image] = view.why or "no board found"
-            continue
-        try:
-            pose = fit_board_pose(view.corners_px, solution.points_B, solution.camera, sigma_px, solution.H_CB.get(view.image))
-        except (DegenerateError, np.linalg.LinAlgError) as error:
-            left_out[view.image] = f"no pose: {error}"
-            continue
-        poses[view.image] = pose
-        corners[view.image] = np.where(pose.inlier[:, None], view.corners_px, np.nan)
-        progress("board poses", done, len(views.views))
-    count = len(poses)
-    found = BoardPoses(
-        images=tuple(poses),
-        t_camera_s=None,
-        H_CB=np.array([pose.H_CB for pose in poses.values()]).reshape(count, 4, 4),
-        corners_px=np.array(list(corners.values())).reshape(count, len(solution.points_B), 2),
-        points_B=solution.points_B,
-        covariance=np.array([pose.covariance for pose in poses.values()]).reshape(count, 6, 6),
-        rms_px=np.array([pose.rms_px for pose in poses.values()]),
-        corner_sigma_px=sigma_px,
-    )
-    return found, left_out
 
 
 def settings(workspace: Workspace) -> dict[str, Any]:
@@ -162,21 +116,9 @@ def _solution(workspace: Workspace, section: CameraSection, board: Board | None,
     """Solved from the views, or as a file gives it."""
     if section.cameramodel is None:
         assert board is not None
-        progress("camera", 0, 1)
-        solution = solve_camera(views, board, model=section.model)
-        progress("camera", 1, 1)
-        return solution
+        return calibrate_camera(views, board, model=section.model, progress=progress)
     path = workspace.path(section.cameramodel, "camera.cameramodel")
-    camera = read_camera_file(path)
-    if views.views and camera.image_size != views.image_size:
-        raise DisagreementError(
-            "a camera of {}x{} pixels; the images have {}x{}".format(*camera.image_size, *views.image_size),
-            where=str(path),
-            needed="the camera that took the images, at their size",
-            todo="name the right file, or leave camera.cameramodel out to solve the camera anew",
-        )
-    points_B = board.points_B() if board is not None else np.zeros((0, 3))
-    return CameraSolution(camera, points_B, (), f"given: {section.cameramodel}", ASSUMED_SIGMA_PX)
+    return as_given(read_camera_file(path), board, section.cameramodel, str(path), views.image_size if views.views else None)
 
 
 def _with_radiometry(workspace: Workspace, section: CameraSection, solution: CameraSolution) -> Any:
@@ -207,12 +149,11 @@ def _write(
     workspace: Workspace,
     solution: CameraSolution,
     poses: BoardPoses,
-    left_out: dict[str, str],
     board: Board | None,
     provenance: Provenance,
 ) -> None:
     write_text(workspace.calib(CAMERAMODEL), MARK + (solution.cameramodel or cameramodel_text(solution.camera)), MODEL_FILE)
-    write_h_cb(workspace.calib("H_CB.yaml"), poses, left_out, board.corners if board else (0, 0), provenance)
+    write_h_cb(workspace.calib("H_CB.yaml"), poses, poses.without, board.corners if board else (0, 0), provenance)
     write_camera(workspace.calib("camera.yaml"), solution, provenance)
 
 

@@ -6,39 +6,34 @@ import sys
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from lpcal import __version__
-from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
-from lpcal.detect.exposures import with_short_exposures
-from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError, UsageError
+from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
+from lpcal.api.surface_notes import distance_said
+from lpcal.api.surfaces import mesh, reconstruct
+from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SUMMARY, SURFACE, write_surface
-from lpcal.pipeline.curve import settle_sensor
-from lpcal.pipeline.sensor import BY_CAPTURE, BY_COMMAND, SensorInUse, contradictions, stated_in, stated_in_panel
-from lpcal.pipeline.surface_notes import distance_said, notes_of
+from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
+from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
-from lpcal.surface import mesh
 from lpcal.surface.flatness import flatness
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
-from lpcal.surface.reconstruct import Options, reconstruct
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
 """What --mask takes beside a file."""
-OUTSIDE = (0.5, 2.0)
-"""Of the working distance: beyond, nothing is known of the lights."""
 
 
 @dataclass(frozen=True)
@@ -150,67 +145,31 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     """Reconstruct one capture and write its folder; the document is that of summary.json."""
     begun = time.perf_counter()
     raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
-    camera = calibration.camera
-    if camera is not None and camera.size_guessed:
-        camera = camera.of_images((raw.images.shape[2], raw.images.shape[1]))
-        calibration = replace(calibration, camera=camera)
     saying = [(BY_COMMAND, wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
     saying.append(("panel.yaml", wishes.panel))
-    settled = settle_sensor(raw, calibration, saying)
-    sensor = settled.used.sensor
-    refuse_bright_ambient(raw, sensor)
-    plain = to_radiance(raw, sensor)
-    radiance = with_short_exposures(plain, raw, sensor)
-    radiance = replace(radiance, notes=(*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, sensor)))
-    given = read_mask(Path(wishes.mask), radiance.signal.shape[1:3]) if wishes.mask not in MASK_WORDS else None
+    mask = read_mask(Path(wishes.mask), raw.images.shape[1:3]) if wishes.mask not in MASK_WORDS else wishes.mask
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
-    refuse_hints(wishes, radiance.signal.shape[1:3], radiance.name)
-    options = Options(
-        near=wishes.near,
-        distance_m=wishes.distance_m,
-        mask=given,
-        automatic_mask=wishes.mask == "auto",
-        hints=wishes.hints,
+    calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
+    hints = wishes.hints
+    made = partial(
+        reconstruct,
+        raw,
+        calibration,
+        box=hints.box,
+        points=hints.points,
         keep=wishes.keep,
-        ambient_known=raw.ambient is not None,
-        linear=settled.linear,
+        distance_m=wishes.distance_m,
+        sensor=saying,
+        progress=progress,
     )
-    if wishes.mask == "none":
-        radiance = replace(radiance, mask=None)
     read = time.perf_counter()
-    surface = reconstruct(radiance, calibration, options, progress)
-    if wishes.near and wishes.distance_m is None:
-        refuse_outside(surface, calibration)
+    surface = made(mask=mask, method="near" if wishes.near else "distant")
     solved = time.perf_counter()
-    notes = notes_of(radiance.notes, surface)
-    document = document_of(
-        surface, task, calibration_path, wishes, notes, {"reading": read - begun, "solving": solved - read}, settled.used
-    )
+    document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
-        distant = reconstruct(radiance, calibration, replace(options, near=False, mask=surface.mask), progress)
-        document["flatness_distant"] = flatness(distant)
-    write_surface(task.target, surface, mesh.build(surface), document, render(surface, calibration))
+        document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+    write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
     return document
-
-
-def refuse_hints(wishes: Wishes, shape: tuple[int, ...], name: str) -> None:
-    """Refuse places of the object that do not lie in the images, or in the box.
-
-    Raises
-    ------
-    DisagreementError
-        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
-    """
-    height, width = shape
-    x, y, across, down = wishes.hints.box or (0, 0, width, height)
-    if x + across > width or y + down > height:
-        raise DisagreementError(
-            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
-        )
-    for at in wishes.hints.points:
-        if not (x <= at[0] < x + across and y <= at[1] < y + down):
-            inside = "the box" if wishes.hints.box else f"the images of {width}x{height}"
-            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")
 
 
 def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
@@ -219,54 +178,15 @@ def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
     return any(path.resolve().is_relative_to(folder) for path in (task.capture, calibration_path))
 
 
-def refuse_outside(surface: Surface, calibration: Calibration) -> None:
-    """Refuse an object that near light puts far from where the lights are known.
-
-    Raises
-    ------
-    DegenerateError
-        Its distance is out of OUTSIDE times the working distance.
-    """
-    working_m = calibration.d_object_m
-    if calibration.camera is None or working_m is None or not any(light.source_C is not None for light in calibration.lights):
-        return
-    distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
-    if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
-        raise DegenerateError(
-            f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume",
-            where=surface.name,
-            needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
-            todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",
-        )
-
-
-def document_of(
-    surface: Surface,
-    task: Task,
-    calibration_path: Path,
-    wishes: Wishes,
-    notes: tuple[str, ...],
-    times_s: dict[str, float],
-    used: SensorInUse,
-) -> dict[str, Any]:
+def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
-    return {
-        "lpcal": 1,
-        "kind": "surface",
-        "name": surface.name,
-        "units": "metres" if surface.rays_C[..., :2].any() else "pixels",
-        "components": [asdict(component) for component in surface.components],
-        "counts_and_residuals": surface.figures,
-        "mask_doubt": surface.figures.get("mask_doubt"),
-        "mask_doubt_why": surface.figures.get("mask_doubt_why"),
+    return summary_of(surface) | {
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
-        "sensor": used.document(),
         "options": asdict(replace(wishes, panel=StatedSensor())),
         "inputs": hashes(task, calibration_path),
-        "notes": list(notes),
     }
 
 

@@ -8,11 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.chain.refine_lights import refine_judged
-from lpcal.detect.ambient import ambient_changes, refuse_auto_exposure
-from lpcal.detect.exposures import with_short_exposures
-from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.detect.spheres import Expected, observe_sphere
+from lpcal.api.sensor import BY_CAPTURE, sensor_of_camera, unlike_plain
+from lpcal.api.spheres import find_sphere, refine_lights
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import check_lights, read_capture
@@ -21,18 +18,7 @@ from lpcal.formats.lobe_files import read_lobe
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
-from lpcal.pipeline.sensor import (
-    BY_CAPTURE,
-    BY_LARGEST,
-    check_sweep,
-    flat_field_path,
-    has_lens,
-    sensor_of_camera,
-    sensor_of_capture,
-    sensor_of_panel,
-    sweep_path,
-    unlike_plain,
-)
+from lpcal.pipeline.sensor import check_sweep, flat_field_path, has_lens, sensor_of_panel, sweep_path
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Camera, LightsSolution, SphereFinding
 from lpcal.records.digits import fine
@@ -90,39 +76,41 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     swept = check_sweep(workspace, sensor)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
     views: list[SphereView] = []
-    sizes: dict[str, tuple[int, int]] = {}
-    notes: list[str] = []
     bad: dict[str, LpcalError] = {}
     for done, (name, section) in enumerate(spheres.items()):
         progress("spheres", done, len(spheres))
         raw = _images(workspace, name, section, lights, camera)
-        sizes[name] = (raw.images.shape[2], raw.images.shape[1])
+        said = [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))]
         try:
-            used = sensor_of_capture(raw, [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))])
-            views.append(_view(raw, used.sensor, section, camera, distance_m))
-            own = {BY_CAPTURE, BY_LARGEST} & {*used.said_by.values()}
-            notes += [*([f"{name}: sensor: {used.document()['in_words']}"] if own else []), *views[-1].notes]
+            views.append(
+                find_sphere(raw, section.kind, section.radius, camera, hint_px=section.hint, distance_m=distance_m, sensor=said, name=name)
+            )
         except (DegenerateError, DisagreementError) as error:
             bad[name] = error
     progress("spheres", len(spheres), len(spheres))
     if not views:
         raise next(iter(bad.values()))
     panel = workspace.rig_file.rig.panel
-    read = {path: read_lobe(path) for _, path in _lobe_files(workspace)}
-    solution = refine_judged(
+    solution = refine_lights(
         views,
         lights,
         camera,
         wings,
-        intensity_sd=panel.tolerance.intensity if panel else 0.5,
-        lobes={name: read[path] for name, path in _lobe_files(workspace)},
-        free_core=workspace.rig_file.rig.joint_solve,
+        intensity_std=panel.tolerance.intensity if panel else 0.5,
+        lobes={name: read_lobe(path) for name, path in _lobe_files(workspace)},
+        joint=workspace.rig_file.rig.joint_solve,
+        progress=progress,
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
     evidence = solution.evidence | ({"exposure_sweep": swept} if swept else {})
-    found = tuple(_with_outline(sphere, views, sizes[sphere.name]) for sphere in solution.spheres)
-    solution = replace(solution, spheres=(*found, *left_out), warnings=(*notes, *solution.warnings), evidence=evidence)
+    found = tuple(_with_outline(sphere, views) for sphere in solution.spheres)
+    solution = replace(
+        solution,
+        spheres=(*found, *left_out),
+        warnings=(*(note for view in views for note in view.notes), *solution.warnings),
+        evidence=evidence,
+    )
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
         summary=[*summary_of(solution), *summary_of_handeye(workspace, solution), *_advice(solution)],
@@ -137,11 +125,11 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
 
 
-def _with_outline(finding: SphereFinding, views: list[SphereView], size: tuple[int, int]) -> SphereFinding:
+def _with_outline(finding: SphereFinding, views: list[SphereView]) -> SphereFinding:
     """A finding with what was seen of its sphere, as the report draws it."""
     view = next(view for view in views if view.name == finding.name)
     every = max(1, len(view.outline_px) // OUTLINE_POINTS)
-    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=size)
+    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=view.image_size)
 
 
 def summary_of(solution: LightsSolution) -> list[str]:
@@ -181,19 +169,6 @@ def _images(workspace: Workspace, name: str, section: SphereSection, lights: lis
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
     return read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
-
-
-def _view(
-    raw: RawCapture, sensor: Sensor, section: SphereSection, camera: Camera | None, distance_m: tuple[float, float] | None
-) -> SphereView:
-    """What the images of a sphere show, and what is to be said of them."""
-    plain = to_radiance(raw, sensor)
-    refuse_auto_exposure(plain, raw, sensor)
-    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, sensor))
-    radiance = with_short_exposures(plain, raw, sensor) if section.kind == "matte" else plain
-    hint = None if section.hint is None else np.array(section.hint)
-    view = observe_sphere(radiance, Expected(section.kind, section.radius, hint, distance_m), camera)
-    return replace(view, notes=(*(f"sphere {raw.name}: {note}" for note in told), *view.notes))
 
 
 def _numbers(values: Any, digits: int) -> str:

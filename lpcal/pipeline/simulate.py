@@ -6,13 +6,14 @@ The simulator makes arrays, the formats write them; here they meet. The folder a
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 import numpy as np
 
+from lpcal.api.simulation import Simulation, simulation_of
 from lpcal.errors import InputError
 from lpcal.formats.mocap_motive_write import write_motive
 from lpcal.formats.outputs import NEW, refuse_place, whole, write_text
@@ -21,13 +22,11 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import Rig, RigFile
-from lpcal.simulate.boards import backdrop, make_scene
-from lpcal.simulate.built import Built, build
-from lpcal.simulate.captures import Capture, Studio, object_captures, place_spheres, sphere_captures
-from lpcal.simulate.motion import Session, plan
+from lpcal.simulate.built import Built
+from lpcal.simulate.captures import Capture, object_captures, sphere_captures
 from lpcal.simulate.recipe import Recipe
-from lpcal.simulate.sensor import Response, Stored
-from lpcal.simulate.tracking import Recording, record
+from lpcal.simulate.sensor import Stored
+from lpcal.simulate.tracking import Recording
 
 
 @dataclass(frozen=True)
@@ -50,15 +49,14 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
     rig = rig_file.rig
     refuse_place(folder, NEW)
     _check(rig_file)
-    built = build(rig, recipe)
-    response = _response(rig, built, recipe)
+    session = simulation_of(rig, recipe)
     with whole(folder, NEW) as draft:
         draft.mkdir()
         write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
         write_text(draft / "truth" / "README.md", README)
-        _write_camera(draft, rig, built, recipe)
-        counts = _write_boards(draft, rig, built, response, recipe, progress) if rig.board else {}
-        counts |= _write_captures(draft, rig, built, response, recipe, progress) if rig.lights else {}
+        _write_camera(draft, rig, session.built, recipe)
+        counts = _write_boards(draft, session, progress) if rig.board else {}
+        counts |= _write_captures(draft, session, progress) if rig.lights else {}
     made = ", ".join(f"{count} {what}" for what, count in counts.items())
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
     return Outcome(
@@ -111,18 +109,6 @@ def _names(rig: Rig) -> Iterator[tuple[str, str]]:
     yield from ((f"objects.{name}", images) for name, images in rig.objects.items())
 
 
-def _listed(rig: Rig) -> list[str]:
-    """Images of the camera that are named one by one; empty where a pattern names them."""
-    images = rig.camera.images if rig.camera else []
-    return [] if any(sign in image for image in images for sign in "*?[") else images
-
-
-def _response(rig: Rig, built: Built, recipe: Recipe) -> Response:
-    camera = rig.camera
-    black, white, gamma = (camera.black_level, camera.white_level, camera.gamma) if camera else (0.0, 1.0, 1.0)
-    return Response(recipe.sensor, built.lens.vignetting(), black, white, gamma)
-
-
 def _write_camera(folder: Path, rig: Rig, built: Built, recipe: Recipe) -> None:
     lens, camera = built.lens, rig.camera
     truth: dict[str, Any] = {
@@ -149,53 +135,35 @@ def _write_camera(folder: Path, rig: Rig, built: Built, recipe: Recipe) -> None:
         write_text(folder / camera.cameramodel, "\n".join(lines) + "\n")
 
 
-def _write_boards(folder: Path, rig: Rig, built: Built, response: Response, recipe: Recipe, progress: Progress) -> dict[str, int]:
+def _write_boards(folder: Path, session: Simulation, progress: Progress) -> dict[str, int]:
     """Stations and sweep: images, the mocap stream, the images' times, the truth."""
-    board = rig.board
-    if board is None:
-        return {}
-    recipe_here = _session_recipe(rig, recipe)
-    session = plan(built, board.corners, board.square, recipe_here)
-    recording = record(built, session, recipe_here)
-    groups = _board_images(rig, built, session)
-    scene = make_scene(built, board, recipe.sensor.psf_sigma_px)
+    rig, built, true = session.rig, session.built, session.board_truth()
+    groups = _board_images(session)
     names = [name for group in groups for name in group.names]
-    H_OP = np.concatenate([group.H_OP for group in groups])
-    H_CB = se3.inv(built.H_PC) @ se3.inv(H_OP) @ built.H_OB
-    rng = np.random.default_rng([recipe.seed, 6])
-    room, lamp_B = backdrop(built.lens.image_size, rng), rng.uniform(-0.18, 0.18, 2)
-    for k, name in enumerate(names):
-        _write_image(folder / name, response(scene.render(H_CB[k], lamp_B, room), np.random.default_rng([recipe.seed, 7, k])))
+    for k, (name, image) in enumerate(zip(names, session.board_images(), strict=True)):
+        _write_image(folder / name, image)
         progress("board images", k + 1, len(names))
     truth = folder / "truth"
-    write_poses(truth / "H_CB.csv", names, H_CB)
+    write_poses(truth / "H_CB.csv", names, true.H_CB)
     counts = {"station images": len(groups[0].names), "sweep images": sum(len(group.names) for group in groups[1:])}
     if rig.mocap is None:
         return counts
-    _write_mocap(folder, rig, built, groups, recording, recipe)
-    write_poses(truth / "H_OP.csv", names, H_OP, np.concatenate([group.t_camera_s for group in groups]))
-    write_yaml(truth / "handeye.yaml", _handeye_truth(rig, built, recording))
-    return counts | ({"mocap samples": len(recording.t_s)} if rig.mocap.file else {})
+    _write_mocap(folder, rig, built, groups, session.recording, session.recipe)
+    write_poses(truth / "H_OP.csv", names, true.H_OP, true.t_camera_s)
+    write_yaml(truth / "handeye.yaml", _handeye_truth(rig, built, session.recording))
+    return counts | ({"mocap samples": len(session.recording.t_s)} if rig.mocap.file else {})
 
 
-def _session_recipe(rig: Rig, recipe: Recipe) -> Recipe:
-    """Without a second list of images there is no sweep; poses that come one an image (a robot's) are neither swapped nor lost."""
-    recipe = replace(recipe, stations=len(_listed(rig)) or recipe.stations)
-    if rig.mocap is None or rig.mocap.poses:
-        tracking = replace(recipe.tracking, flipped_stations=0, lost_stations=0)
-        return replace(recipe, sweep_frames=0, tracking=tracking)
-    return recipe if len(rig.mocap.images) > 1 else replace(recipe, sweep_frames=0)
-
-
-def _board_images(rig: Rig, built: Built, session: Session) -> list[_BoardImages]:
+def _board_images(session: Simulation) -> list[_BoardImages]:
     """The stations take the names of camera.images, or of a folder stations/; the sweep a folder named like its csv."""
+    rig, offset_s, motion = session.rig, session.clock_offset_s, session.motion
     pattern = rig.camera.images[0] if rig.camera and rig.camera.images else "stations/*.png"
-    stations = _listed(rig) or [_numbered(pattern, "station", k) for k in range(len(session.station_s))]
-    groups = [_BoardImages(stations, session.station_H_OP, session.station_s + built.clock_offset_s)]
-    if len(session.sweep_s) and rig.mocap and len(rig.mocap.images) > 1:
+    stations = session.listed_images or [_numbered(pattern, "station", k) for k in range(len(motion.station_s))]
+    groups = [_BoardImages(stations, motion.station_H_OP, motion.station_s + offset_s)]
+    if len(motion.sweep_s) and rig.mocap and len(rig.mocap.images) > 1:
         stem = PurePosixPath(rig.mocap.images[1]).stem
-        sweep = [f"{stem}/{stem}_{k:03d}.png" for k in range(len(session.sweep_s))]
-        groups.append(_BoardImages(sweep, session.sweep_H_OP, session.sweep_s + built.clock_offset_s))
+        sweep = [f"{stem}/{stem}_{k:03d}.png" for k in range(len(motion.sweep_s))]
+        groups.append(_BoardImages(sweep, motion.sweep_H_OP, motion.sweep_s + offset_s))
     return groups
 
 
@@ -254,12 +222,11 @@ def _handeye_truth(rig: Rig, built: Built, recording: Recording) -> dict[str, An
     }
 
 
-def _write_captures(folder: Path, rig: Rig, built: Built, response: Response, recipe: Recipe, progress: Progress) -> dict[str, int]:
+def _write_captures(folder: Path, session: Simulation, progress: Progress) -> dict[str, int]:
     """Spheres, objects, the flat field, and the truth of lights, spheres and surfaces."""
-    truth = folder / "truth"
-    _write_lights(truth, built)
-    spheres = place_spheres(built, rig, np.random.default_rng([recipe.seed, 8]))
-    studio = Studio(built, recipe, response, spheres)
+    truth, rig, recipe, studio = folder / "truth", session.rig, session.recipe, session.studio
+    _write_lights(truth, session.built)
+    spheres = studio.spheres
     if rig.camera and rig.camera.flat_field:
         _write_image(folder / rig.camera.flat_field, studio.flat(np.random.default_rng([recipe.seed, 9])))
     total = len(rig.spheres) + len(rig.objects)

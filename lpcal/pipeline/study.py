@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError
 from lpcal.formats.outputs import marked, refuse_place, whole, write_text
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.sensor import Sensor
 from lpcal.report.study_plot import SOFTWARE, Curve, plot_png
 from lpcal.simulate.study_sphere import Conditions, capture, ring
 from lpcal.surface import normals, pieces, sight

@@ -7,15 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.api.lights import AS_DRAWN, as_drawn, design_lights
 from lpcal.chain.h_pd_markers import h_pd_from_markers
-from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
+from lpcal.chain.h_pl_wings import camera_in_disc
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.wings_yaml import KIND, write_wings
 from lpcal.geometry.arrays import Array
 from lpcal.pipeline.handeye_inputs import recording
 from lpcal.pipeline.workspace import Stage, Workspace
-from lpcal.records.calibration import Wing, Wings
+from lpcal.records.calibration import Wings
 from lpcal.records.digits import fine
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import LightSection, PanelSection
@@ -58,7 +59,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     """Write wings.yaml."""
     panel: PanelSection = workspace.need("panel")
     lights: dict[str, LightSection] = workspace.need("lights")
-    drawn = [wing_of(name, light, panel) for name, light in lights.items() if light.is_wing]
+    drawn = [name for name, light in lights.items() if light.is_wing]
     if not drawn:
         raise DegenerateError(
             "no light is a wing",
@@ -68,9 +69,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         )
     progress("wings", 0, 1)
     H_CD, H_CD_covariance, source = disc_in_camera(workspace, panel)
-    sigma = panel.tolerance
-    setting_sigma = np.array([sigma.azimuth, sigma.joint_angle, sigma.length, sigma.length])
-    wings = design_lights(drawn, H_CD, H_CD_covariance, setting_sigma, source)
+    wings = design_lights(workspace.rig_file.rig, H_CD, H_CD_covariance=H_CD_covariance, source=source)
     write_wings(workspace.calib(FILE), wings, STAGE.provenance(workspace))
     progress("wings", 1, 1)
     return Outcome(
@@ -78,36 +77,17 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         document={
             "file": str(workspace.calib(FILE)),
             "d_object_m": wings.d_object_m,
-            "H_CL": dict(zip([w.name for w in drawn], wings.H_CL, strict=True)),
+            "H_CL": dict(zip(drawn, wings.H_CL, strict=True)),
         },
         next_command="lpcal refine",
     )
 
 
-def wing_of(name: str, light: LightSection, panel: PanelSection) -> Wing:
-    """The kinematic setting of a light section that is a wing."""
-    assert light.azimuth is not None
-    assert light.joint_angle is not None
-    assert light.disc_spacer is not None
-    assert light.blob_spacer is not None
-    return Wing(
-        name=name,
-        azimuth_rad=light.azimuth,
-        joint_angle_rad=light.joint_angle,
-        d1_m=panel.disc_radius + light.disc_spacer + panel.joint,
-        d2_m=panel.joint + light.blob_spacer + panel.blob,
-        leds=light.leds,
-    )
-
-
 def disc_in_camera(workspace: Workspace, panel: PanelSection) -> tuple[Array, Array, str]:
     """H_CD, its covariance, and where it comes from: hand-eye and markers, hand-eye alone, or the camera's mount as drawn."""
-    mount_sigma_m, mount_sigma_rad = panel.camera.tolerance
     mocap = workspace.rig_file.rig.mocap
     if mocap is None:
-        H_CD = np.eye(4)
-        H_CD[:3, 3] = -np.array(panel.camera.position)
-        return H_CD, np.diag([mount_sigma_rad**2] * 3 + [mount_sigma_m**2] * 3), "the camera's place as drawn"
+        return *as_drawn(panel), AS_DRAWN
     handeye = read_handeye(workspace.calib("handeye.yaml"))
     if handeye.carries == "board":
         raise DisagreementError(

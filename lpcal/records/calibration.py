@@ -10,120 +10,59 @@ from typing import Literal
 
 import numpy as np
 
-from lpcal.geometry import camera as central
-from lpcal.geometry import led_cluster, light_field, lobe_map, se3, splined
+from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.geometry.tone_curve import Gamma
-from lpcal.records.sensor import FlatField, StatedSensor
+from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
+from lpcal.records.sensor import StatedSensor
+from lpcal.records.shown import Shown
 
-SIZE_DOUBT = 0.25
-"""Share of a guessed image size by which images may differ from it: a principal point lies that close to the middle of a real image."""
-
-
-@dataclass(frozen=True)
-class Camera:
-    """Intrinsics and radiometry. ``model`` is opencv4 | opencv5 | opencv8 | splined.
-
-    A splined model has no K and no distortion of its own: K is that of its stereographic core, and `spline` holds mrcal's vector.
-    """
-
-    image_size: tuple[int, int]
-    model: str
-    K: Array
-    distortion: Array
-    black_level: float = 0.0
-    white_level: float = 1.0
-    gamma: Gamma = 1.0
-    flat_field: FlatField | None = None
-    rms_px: float = float("nan")
-    """Per coordinate."""
-    parameters: tuple[str, ...] = ()
-    covariance: Array | None = None
-    """(P, P) of `parameters`."""
-    lensmodel: str = ""
-    """Splined: mrcal's name of the model with its configuration."""
-    spline: Array | None = None
-    """Splined: mrcal's vector, core and knots."""
-    size_guessed: bool = False
-    """The image size was made out from the principal point: images of about that size tell the true one."""
-
-    def of_images(self, size: tuple[int, int]) -> Camera:
-        """The camera with the images' (width, height) where its own is guessed and theirs is about that; else as it is."""
-        near = all(abs(told - own) <= SIZE_DOUBT * own for told, own in zip(size, self.image_size, strict=True))
-        return replace(self, image_size=size, size_guessed=False) if self.size_guessed and near else self
-
-    def project(self, x_C: Array) -> Array:
-        """Pixels (..., 2) of points x_C (..., 3)."""
-        if self.spline is not None:
-            return splined.project(x_C, self.lensmodel, self.spline)
-        return central.project(x_C, self.K, self.distortion)
-
-    def unproject(self, pixels: Array) -> Array:
-        """Unit rays (..., 3) of pixels (..., 2)."""
-        if self.spline is not None:
-            return splined.unproject(pixels, self.lensmodel, self.spline)
-        return central.unproject(pixels, self.K, self.distortion)
-
-    def projection_jacobian(self, x_C: Array) -> Array:
-        """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
-        if self.spline is not None:
-            return splined.projection_jacobian(x_C, self.lensmodel, self.spline)
-        return central.projection_jacobian(x_C, self.K, self.distortion)
-
-
-@dataclass(frozen=True)
-class ViewVerdict:
-    """What became of one image in a solve; `why` is None where it was used."""
-
-    image: str
-    used: bool
-    why: str | None
-    residual_px: float | None = None
-    residual_m: float | None = None
-    residual_rad: float | None = None
-    corners: int = 0
-    rejected: int = 0
-    """Corners that did not fit."""
-    blur_px: float | None = None
-    """Blur of a board's edges, one sigma."""
-    glare: float | None = None
-    """Share of a board that is as bright as the image gets."""
-    held_out_m: float | None = None
-    """What it misses a solve of the other views by."""
-
-
-@dataclass(frozen=True)
-class CameraSolution:
-    """The intrinsics solve: the camera, the board's shape, and what became of each view."""
-
-    camera: Camera
-    points_B: Array
-    """(M, 3) corners of the board with its warp, mean plane z = 0."""
-    views: tuple[ViewVerdict, ...]
-    solver: str
-    """mrcal | opencv."""
-    corner_sigma_px: float
-    """One standard deviation of a corner coordinate."""
-    evidence: dict[str, object] = field(default_factory=dict)
-    """How the model was chosen, in figures that go into camera.yaml."""
-    warnings: tuple[str, ...] = ()
-    cameramodel: str = ""
-    """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
-    H_CB: dict[str, Array] = field(default_factory=dict)
-    """The board in the images that were used, by image, as the solve has it."""
-
+__all__ = [
+    "NAMES",
+    "Calibration",
+    "Camera",
+    "CameraSolution",
+    "Carries",
+    "HandEye",
+    "LedCluster",
+    "Light",
+    "LightsSolution",
+    "Lobe",
+    "SphereFinding",
+    "ViewVerdict",
+    "Wing",
+    "Wings",
+]
 
 Carries = Literal["camera", "board"]
 NAMES: dict[Carries, tuple[str, str]] = {"camera": ("H_PC", "H_OB"), "board": ("H_OC", "H_PB")}
 """What the two transforms of a hand-eye solve are, by what the tracked body carries: the camera's place, the board's."""
 
 
-@dataclass(frozen=True)
-class HandEye:
+@dataclass(frozen=True, repr=False)
+class HandEye(Shown):
     """H_PC and H_OB with their covariances, the clock offset (t_camera = t_mocap + offset), and what became of each view.
 
     Where the body `carries` the board, before a camera that stands still in the room, ``H_PC`` holds H_OC, the camera in the room, and
     ``H_OB`` holds H_PB, the board on the body: ``H_PO H_OC H_CB = H_PB`` is the same equation. All that is written bears `names`.
+
+    Parameters
+    ----------
+    H_PC, H_OB : ndarray (4, 4)
+        The camera in the tracked body and the board in the room, metres.
+    H_PC_covariance, H_OB_covariance : ndarray (6, 6)
+        Rotation (rad) first, then translation (m), of the left perturbation.
+    clock_offset_s, clock_offset_std_s : float or None
+        ``t_camera = t_mocap + clock_offset_s``, seconds; None where the data cannot show it.
+    views : tuple of ViewVerdict
+        What became of each view.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), stations=8)
+    >>> truth = session.board_truth()
+    >>> lpcal.solve_handeye(truth.H_OP, truth.H_CB).names
+    ('H_PC', 'H_OB')
     """
 
     H_PC: Array
@@ -140,6 +79,14 @@ class HandEye:
     warnings: tuple[str, ...] = ()
     evidence: dict[str, object] = field(default_factory=dict)
     carries: Carries = "camera"
+    taken_offset_s: float = 0.0
+    """The clock offset at which the body's poses were taken, where the data do not show it too."""
+    misread: bool = False
+    """Whether the body's poses turned out to take the room to the body, or the body to the room where they were stated not to."""
+
+    def mocap_times(self, t_camera_s: Array) -> Array:
+        """Times (N,) on the mocap's clock of times (N,) on the camera's, seconds."""
+        return np.asarray(t_camera_s - self.clock_drift * (t_camera_s - self.clock_middle_s) - self.taken_offset_s)
 
     @property
     def names(self) -> tuple[str, str]:
@@ -149,7 +96,26 @@ class HandEye:
 
 @dataclass(frozen=True)
 class Wing:
-    """One wing as designed: ``H_DL = Rz(azimuth) Tx(d1) Ry(-g) Tx(d2)``."""
+    """One wing as designed: ``H_DL = Rz(azimuth) Tx(d1) Ry(-g) Tx(d2)``.
+
+    Parameters
+    ----------
+    name : str
+        The light's name.
+    azimuth_rad, joint_angle_rad : float
+        The azimuth about the disc's axis, from x towards y, and the joint's angle g, radians.
+    d1_m, d2_m : float
+        The lever arms from the axis to the joint and from the joint to the blob, metres.
+    leds : int, optional
+        The blob's LEDs.
+
+    Examples
+    --------
+    >>> import lpcal, math
+    >>> wing = lpcal.Wing("L0", azimuth_rad=0.0, joint_angle_rad=math.radians(30), d1_m=0.104, d2_m=0.085)
+    >>> lpcal.design_lights([wing]).H_CL[0, :3, 3].round(4).tolist()
+    [0.1776, 0.0, 0.0425]
+    """
 
     name: str
     azimuth_rad: float
@@ -159,8 +125,8 @@ class Wing:
     leds: int | None = None
 
 
-@dataclass(frozen=True)
-class Wings:
+@dataclass(frozen=True, repr=False)
+class Wings(Shown):
     """The lights as designed, in C, with the covariance that the tolerances and the frames' errors give them jointly."""
 
     wings: tuple[Wing, ...]
@@ -220,12 +186,35 @@ class Lobe:
         return np.ones_like(angle_rad)
 
 
-@dataclass(frozen=True)
-class Light:
+@dataclass(frozen=True, repr=False)
+class Light(Shown):
     """One light in C.
 
     Near: irradiance on a surface at x that faces it is ``intensity * lobe(angle) / |x - source|^2`` with the angle between `axis_C`
     and the ray from the source. Distant (`source_C` None): ``intensity`` everywhere, from `direction_C`.
+
+    Parameters
+    ----------
+    name : str
+        The light's name, which is that of its images.
+    direction_C : ndarray (3,)
+        Unit vector in C from the focus to the light.
+    intensity : ndarray (1,) or (3,)
+        Relative; the mean over all lights is 1.
+    source_C, axis_C : ndarray (3,), optional
+        The point that its rays seem to come from, metres, and its unit axis of emission; None for a distant light.
+    lobe : Lobe
+        How its intensity falls with the angle from the axis.
+    position_std_m, direction_std_rad, intensity_std : float
+        Standard deviations, of position and direction an axis; NaN where they are not known.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> lamp = lpcal.Light("L0", np.array([0, 0, -1.0]), np.ones(1), source_C=np.zeros(3), axis_C=np.array([0, 0, 1.0]))
+    >>> direction, irradiance = lamp.field(np.array([0, 0, 0.5]))
+    >>> direction.tolist(), irradiance.tolist()
+    ([0.0, 0.0, -1.0], [4.0])
     """
 
     name: str
@@ -286,8 +275,8 @@ class SphereFinding:
     """Of its images."""
 
 
-@dataclass(frozen=True)
-class LightsSolution:
+@dataclass(frozen=True, repr=False)
+class LightsSolution(Shown):
     """The refined lights and what they rest on."""
 
     lights: tuple[Light, ...]
@@ -308,9 +297,30 @@ class LightsSolution:
     """The disc in the tracked body, where no markers say it, or as the joint solve has it."""
 
 
-@dataclass(frozen=True)
-class Calibration:
-    """All that a reconstructor needs. Without a camera the images are orthographic and all lights distant."""
+@dataclass(frozen=True, repr=False)
+class Calibration(Shown):
+    """All that a reconstructor needs. Without a camera the images are orthographic and all lights distant.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    lights : tuple of Light
+        The lights, in C.
+    camera : Camera, optional
+        The camera.
+    H_PC : ndarray (4, 4), optional
+        The camera in the tracked body, metres.
+    d_object_m, focus_C : float, ndarray (3,), optional
+        The distance of the object from the disc and the point in C where the lights' axes meet, metres.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> lights = tuple(lpcal.Light(f"L{k}", np.array([x, 0, -0.8]), np.ones(1)) for k, x in enumerate((0.6, -0.6)))
+    >>> [light.name for light in lpcal.Calibration("pair", lights).lights]
+    ['L0', 'L1']
+    """
 
     name: str
     lights: tuple[Light, ...]
@@ -320,3 +330,9 @@ class Calibration:
     focus_C: Array | None = None
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What is stated of the sensor where there is no camera; else the camera holds it."""
+    warnings: tuple[str, ...] = ()
+    """What is to be said of the file that it comes from, in words."""
+
+    def of_images(self, size: tuple[int, int]) -> Calibration:
+        """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""
+        return self if self.camera is None else replace(self, camera=self.camera.of_images(size))

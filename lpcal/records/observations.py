@@ -10,11 +10,28 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.sensor import StatedSensor, ToneClaim
+from lpcal.records.shown import Shown
 
 
 @dataclass(frozen=True)
 class Board:
-    """A flat grid of inner corners; ``points_B`` runs along x first."""
+    """A flat grid of inner corners; ``points_B`` runs along x first.
+
+    Parameters
+    ----------
+    corners : (int, int)
+        Inner corners along x, along y.
+    square_m : (float, float)
+        Size of a square along x, along y, metres.
+    warp : bool
+        Whether its departure from a plane may be estimated.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> lpcal.Board(corners=(3, 2), square_m=(0.025, 0.025)).points_B()[-1].tolist()
+    [0.05, 0.025, 0.0]
+    """
 
     corners: tuple[int, int]
     """Inner corners along x, along y."""
@@ -53,8 +70,8 @@ class BoardView:
     """Share of the board that is as bright as the image gets."""
 
 
-@dataclass(frozen=True)
-class BoardViews:
+@dataclass(frozen=True, repr=False)
+class BoardViews(Shown):
     """All images of one camera in which the board was looked for."""
 
     image_size: tuple[int, int]
@@ -62,8 +79,8 @@ class BoardViews:
     views: tuple[BoardView, ...]
 
 
-@dataclass(frozen=True)
-class BoardPoses:
+@dataclass(frozen=True, repr=False)
+class BoardPoses(Shown):
     """H_CB of some images, with what their corners say of it."""
 
     images: tuple[str, ...]
@@ -81,6 +98,8 @@ class BoardPoses:
     """(N,) residual of the corners, a coordinate."""
     corner_sigma_px: float = float("nan")
     """One standard deviation of a corner coordinate."""
+    without: dict[str, str] = field(default_factory=dict)
+    """Images that have no pose, and why."""
 
     def of(self, rows: npt.NDArray[np.intp]) -> BoardPoses:
         """Some of the views."""
@@ -99,9 +118,34 @@ class BoardPoses:
         )
 
 
-@dataclass(frozen=True)
-class PoseStream:
-    """A tracked body: H_AB (N, 4, 4) at times t_s (N,), increasing; lost samples are left out."""
+@dataclass(frozen=True, repr=False)
+class PoseStream(Shown):
+    """A tracked body: H_AB (N, 4, 4) at times t_s (N,), increasing; lost samples are left out.
+
+    Parameters
+    ----------
+    body : str
+        The body's name.
+    t_s : ndarray (N,)
+        Seconds on the mocap's clock, increasing.
+    H_OP : ndarray (N, 4, 4)
+        The body in the room, metres.
+    error_m : ndarray (N,)
+        The system's own mean marker error, metres; NaN where it gives none.
+    markers_O : dict of str to ndarray (N, 3)
+        Markers in the room, metres, NaN where not seen.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> stream = lpcal.PoseStream("cart", np.arange(3) / 100, np.tile(np.eye(4), (3, 1, 1)), np.full(3, np.nan), rate_hz=100)
+    >>> print(stream)
+    PoseStream of cart
+      samples     3 at 100 Hz, 0 lost
+      time        0.000 to 0.020 s
+      moves over  [0.0 0.0 0.0] mm along x, y, z of O
+      markers     none
+    """
 
     body: str
     t_s: Array
@@ -132,8 +176,8 @@ class MarkerStream:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class RawCapture:
+@dataclass(frozen=True, repr=False)
+class RawCapture(Shown):
     """A capture folder as stored: numbers as fractions of full scale, not yet linear."""
 
     name: str
@@ -200,8 +244,8 @@ class Radiance:
         )
 
 
-@dataclass(frozen=True)
-class SphereView:
+@dataclass(frozen=True, repr=False)
+class SphereView(Shown):
     """What the images of one sphere show."""
 
     name: str
@@ -218,3 +262,5 @@ class SphereView:
     """Matte: the linear images."""
     notes: tuple[str, ...] = ()
     """What of it could not be used, in words."""
+    image_size: tuple[int, int] | None = None
+    """Width and height of its images, pixels."""

@@ -14,6 +14,7 @@ from typing import Annotated, Literal, Self
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from lpcal.records.quantities import Angle, Curve, Duration, Length, Pixels, Share, Size, Turn, parse
+from lpcal.records.shown import Shown
 
 type Names = list[str]
 type Count = Annotated[int, Field(ge=2)]
@@ -281,8 +282,8 @@ class Rig(Section):
         return plain_names(objects, "object")
 
 
-@dataclass(frozen=True)
-class RigFile:
+@dataclass(frozen=True, repr=False)
+class RigFile(Shown):
     """A panel.yaml and where it was read; its paths are relative to `folder`."""
 
     rig: Rig

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.geometry.tone_curve import Gamma
+from lpcal.geometry.tone_curve import Gamma, decode, worded
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,23 @@ class FlatField:
 
 @dataclass(frozen=True)
 class StatedSensor:
-    """What is said of a sensor in one place; None where nothing is."""
+    """What is said of a sensor in one place; None where nothing is.
+
+    Parameters
+    ----------
+    gamma : float or "srgb", optional
+        ``stored = linear^(1/gamma)``, or sRGB's curve.
+    black_level, white_level : float, optional
+        Stored numbers of no light and of saturation, as fractions of full scale.
+    flat_field : FlatField, optional
+        How lens and sensor weaken light over the image.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> lpcal.StatedSensor(gamma="srgb", black_level=0.01).said
+    {'gamma': 'srgb', 'black_level': 0.01}
+    """
 
     gamma: Gamma | None = None
     black_level: float | None = None
@@ -69,3 +85,53 @@ class ToneClaim:
     """None: a photograph of a curve that the files do not say."""
     photograph: bool = False
     """Whether a camera wrote the files as photographs, which are curved; programs write tags to linear numbers too."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What the sensor does to light: levels as fractions of full scale."""
+
+    black_level: float = 0.0
+    white_level: float = 1.0
+    gamma: Gamma = 1.0
+    flat_field: FlatField | None = None
+
+    def linear(self, stored: Image) -> Image:
+        """Linear numbers, 0 at black and 1 at white, the flat field not yet divided out."""
+        low, high = decode(np.array([self.black_level, self.white_level]), self.gamma)
+        return np.asarray((decode(stored, self.gamma) - np.float32(low)) / np.float32(high - low), dtype=np.float32)
+
+    def response(self, shape: tuple[int, ...]) -> Image:
+        """What lens and sensor make of even light, (H, W) or (H, W, 1), for images of a shape (L, H, W) or (L, H, W, 3)."""
+        response = np.ones(shape[1:3], np.float32) if self.flat_field is None else self.flat_field.response(shape[1:3])
+        return response[..., None] if len(shape) == 4 else response
+
+
+PLAIN = Sensor()
+"""A linear sensor that is black at 0 and white at full scale."""
+
+
+@dataclass(frozen=True)
+class SensorInUse:
+    """A sensor and where each thing that is not plain comes from."""
+
+    sensor: Sensor
+    said_by: dict[str, str] = field(default_factory=dict)
+    """Who says it, by what is said: gamma, black_level, white_level, flat_field."""
+
+    def document(self) -> dict[str, Any]:
+        """What summary.json says, and in words what is not plain."""
+        levels: dict[str, Any] = {key: getattr(self.sensor, key) for key in ("gamma", "black_level", "white_level")}
+        found = [f"{text} ({who})" for key, who in self.said_by.items() if (text := self._worded(key))]
+        return levels | {"flat_field": self.sensor.flat_field is not None, "said_by": self.said_by, "in_words": ", ".join(found)}
+
+    def _worded(self, key: str) -> str:
+        if key == "flat_field":
+            return "flat field divided out"
+        value = getattr(self.sensor, key)
+        return "" if value == getattr(PLAIN, key) else worded_value(key, value)
+
+
+def worded_value(key: str, value: Any) -> str:
+    """A gamma or a level in words."""
+    return f"gamma {worded(value)}" if key == "gamma" else f"{key.replace('_', ' ')} {100 * value:.4g} %"

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.records.sensor import SensorInUse
+from lpcal.records.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -29,9 +31,40 @@ class Component:
     alternatives: tuple[Alternative, ...] = ()
 
 
-@dataclass(frozen=True)
-class Surface:
-    """Maps (H, W); NaN outside the mask."""
+@dataclass(frozen=True, repr=False)
+class Surface(Shown):
+    """Maps (H, W); NaN outside the mask.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    normals : ndarray (H, W, 3)
+        Unit normals in C, turned towards the camera.
+    depth : ndarray (H, W)
+        Along z of C, metres; pixels, relative, where there is no camera.
+    albedo : ndarray (H, W) or (H, W, 3)
+        Relative.
+    mask : ndarray (H, W) of bool
+        The object's pixels.
+    normal_std_deg, depth_std : ndarray (H, W)
+        Standard deviations: of the normal in degrees an axis, of the depth's shape in metres.
+    lights_used, component : ndarray (H, W) of uint8
+        Lights that a pixel rests on; 0 outside, 1.. a connected piece each.
+    rays_C : ndarray (H, W, 3)
+        Rays of length 1 in z: a point is ``depth * ray``.
+    layer : ndarray (H, W) of uint8
+        0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it.
+    components : tuple of Component
+        The pieces, each with its distance and that distance's relative standard deviation.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> surface = lpcal.integrate(np.zeros((12, 12, 3)) + [0, 0, -1.0], name="flat")
+    >>> surface.mask.sum(), surface.metric, len(surface.components)
+    (np.int64(144), False, 1)
+    """
 
     name: str
     normals: Image
@@ -57,3 +90,12 @@ class Surface:
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""
     layer: Labels = field(default_factory=lambda: np.zeros((0, 0), np.uint8))
     """(H, W): 0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it; all 1 where nothing tells them apart."""
+    warnings: tuple[str, ...] = ()
+    """What is to be said of the capture and of what was made of it, in words."""
+    sensor: SensorInUse | None = None
+    """What the capture was made linear by; None: it was linear already, or there was none."""
+
+    @property
+    def metric(self) -> bool:
+        """Whether depths are metres; else, without a camera, they are pixels."""
+        return bool(self.rays_C[..., :2].any())

@@ -12,14 +12,15 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.shown import Shown
 from lpcal.records.surface import Surface
 
 DISPLAY_GAMMA = 2.2
 """Exponent between display numbers and light: sRGB's curve within two of 255 steps, but for the darkest."""
 
 
-@dataclass(frozen=True)
-class Mesh:
+@dataclass(frozen=True, repr=False)
+class Mesh(Shown):
     """Vertices in C; metres, or pixels without a camera."""
 
     vertices_C: Image

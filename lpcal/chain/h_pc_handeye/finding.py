@@ -90,6 +90,8 @@ def finding_of(
         warnings=(*warnings, *more),
         evidence=_evidence(state, found, spread, factor) | weakest,
         carries=carries,
+        taken_offset_s=state.offset_s,
+        misread=set_up.misstated,
     )
     return HandEyeFinding(handeye, state.panel, state.offset_s, drift, set_up)
 

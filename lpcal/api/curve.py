@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.detect.radiometry import Sensor, over_white
+from lpcal.api.sensor import sensor_of_capture
+from lpcal.detect.radiometry import over_white
 from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma, decode, worded
-from lpcal.pipeline.sensor import SensorInUse, sensor_of_capture
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
-from lpcal.records.sensor import StatedSensor, ToneClaim
+from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor, ToneClaim
 from lpcal.surface.gains import unmeasured
 from lpcal.surface.response import Curve, Shown, stored_curve
 from lpcal.surface.sight import light_vectors, ray_map

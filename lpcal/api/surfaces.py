@@ -1,0 +1,334 @@
+"""Images of a capture, or normals from elsewhere, to a surface and its mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, replace
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.api import stacks
+from lpcal.api.curve import settle_sensor
+from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
+from lpcal.api.staged import staged
+from lpcal.api.surface_notes import notes_of
+from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
+from lpcal.detect.exposures import with_short_exposures
+from lpcal.detect.radiometry import to_radiance
+from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.geometry.arrays import Image, Mask
+from lpcal.records import given, screens
+from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.observations import RawCapture
+from lpcal.records.outcome import Progress, silent
+from lpcal.records.sensor import StatedSensor
+from lpcal.records.surface import Surface
+from lpcal.surface import convention
+from lpcal.surface import mesh as meshes
+from lpcal.surface import reconstruct as solver
+from lpcal.surface.mask import Hints, Keep
+from lpcal.surface.mesh import Mesh
+from lpcal.surface.of_normals import check, surface_of_normals
+
+OUTSIDE = (0.5, 2.0)
+"""Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
+DISTANCE_M = 0.35
+"""Metres at which an object is put where neither a calibration nor the caller says how far away it is: the LightPanel's own distance."""
+type Green = Literal["auto", "as-is", "flipped"]
+
+UNMEASURED = "normals tell the shape; the distance, and that of pieces to each other, is not measured"
+
+
+@staged("reconstruction")
+def reconstruct(
+    images: npt.ArrayLike | RawCapture,
+    calibration: Calibration,
+    *,
+    lights: Sequence[str] | None = None,
+    ambient: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | str = "auto",
+    box: tuple[int, int, int, int] | None = None,
+    points: Sequence[tuple[int, int]] = (),
+    keep: Keep = "object",
+    method: Literal["near", "distant"] = "near",
+    distance_m: float | None = None,
+    exposure_s: npt.ArrayLike | None = None,
+    ambient_exposure_s: npt.ArrayLike | None = None,
+    sensor: StatedSensor | Statements = (),
+    name: str = "capture",
+    progress: Progress = silent,
+) -> Surface:
+    """Reconstruct a surface from images that are lit by one light each.
+
+    Parameters
+    ----------
+    images : ndarray (L, H, W) or (L, H, W, 3), or RawCapture
+        One image a light, grey or RGB: whole numbers of 8 or 16 bits, or floats as fractions of full scale; or what `read_capture` gives,
+        which brings its own lights, ambient images, exposures and mask.
+    calibration : Calibration
+        The camera and the lights.
+    lights : sequence of str, optional
+        The names of the images' lights, in their order; by default all of the calibration's.
+    ambient : ndarray (H, W[, 3]) or (K, H, W[, 3]), optional
+        The scene with no light on; without it the room's light is estimated.
+    mask : ndarray (H, W), "auto" or "none"
+        Which pixels are the object, not zero there. "auto" finds it where the capture has no mask; "none" takes every pixel.
+    box : (int, int, int, int), optional
+        x, y, width and height in pixels of a box that holds the object, where the automatic mask errs.
+    points : sequence of (int, int)
+        Pixels (x, y) that show the object.
+    keep : {"object", "support", "all"}
+        What of the layers found is reconstructed: the object; with it what carries it; all that is lit.
+    method : {"near", "distant"}
+        Whether lights act from where they are, where that is known, or all as if they were far away.
+    distance_m : float, optional
+        The median distance of the object along z of C, metres, where it is known.
+    exposure_s : ndarray (L,), optional
+        Exposure times times gains of the images, seconds, where they differ.
+    ambient_exposure_s : ndarray (K,), optional
+        Those of the ambient images; needed where those of the images differ.
+    sensor : StatedSensor, or sequence of (str, StatedSensor)
+        What is known of the sensor (gamma, black and white level, flat field) for these images; it counts before what the capture and the
+        calibration say. A sequence stands for all that is said, by who says it.
+    name : str
+        What the capture is called in messages, where `images` is an array.
+    progress : callable, optional
+        Called as ``progress(what, done, total)``.
+
+    Returns
+    -------
+    Surface
+        Maps (H, W), NaN outside the mask: unit normals in C, turned towards the camera; depth in metres along z of C (pixels without a
+        camera); albedo; standard deviations of both; connected pieces with their distances; warnings.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        Images of another shape, more or fewer than lights, of another size than the camera's, or clearly not linear.
+    DegenerateError
+        Fewer than three lights, no object, all dark or saturated, or an object far outside the working volume.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1]])
+    >>> S /= np.linalg.norm(S, axis=1, keepdims=True)
+    >>> dome = lpcal.Calibration("dome", tuple(lpcal.Light(f"L{k}", s, np.ones(1)) for k, s in enumerate(S)))
+    >>> y, x = np.mgrid[-1.2:1.2:48j, -1.2:1.2:48j]
+    >>> ball = x**2 + y**2 < 0.9
+    >>> n = np.stack([x, y, -np.sqrt(np.maximum(1 - x**2 - y**2, 0.1))], axis=-1)
+    >>> images = np.where(ball, np.clip(np.einsum("lc,hwc->lhw", S, n), 0, 1), 0) * 0.7
+    >>> surface = lpcal.reconstruct(images, dome, ambient=np.zeros_like(images[0]), mask=ball)
+    >>> error = np.degrees(np.arccos(np.clip(np.sum(surface.normals * n, axis=-1)[ball], -1, 1)))
+    >>> bool(np.median(error) < 2)
+    True
+    """
+    if lights is None and not isinstance(images, RawCapture):
+        lights = [light.name for light in calibration.lights]
+    mask_given = None if isinstance(mask, str) else np.asarray(mask)
+    raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
+    _refuse_unknown_words(mask, method, keep)
+    if distance_m is not None and not 0 < distance_m < np.inf:
+        raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
+    _refuse_unknown_lights(raw, calibration)
+    hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
+    _refuse_hints(hints, raw.images.shape[1:3], raw.name)
+    calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
+    saying = _saying(sensor, raw, calibration)
+    settled = settle_sensor(raw, calibration, saying)
+    used = settled.used.sensor
+    refuse_bright_ambient(raw, used)
+    plain = to_radiance(raw, used)
+    radiance = with_short_exposures(plain, raw, used)
+    notes = (*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, used))
+    own_mask = radiance.mask if mask_given is None and mask == "auto" else None
+    radiance = replace(radiance, notes=notes, mask=own_mask)
+    options = solver.Options(
+        near=method == "near",
+        distance_m=distance_m or raw.distance_m,
+        mask=None if mask_given is None else stacks.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
+        automatic_mask=mask_given is None and mask == "auto",
+        hints=hints,
+        keep=keep,
+        ambient_known=raw.ambient is not None,
+        linear=settled.linear,
+    )
+    surface = solver.reconstruct(radiance, calibration, options, progress)
+    if options.near and options.distance_m is None:
+        _refuse_outside(surface, calibration)
+    return replace(surface, warnings=notes_of(radiance.notes, surface), sensor=settled.used)
+
+
+def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:
+    """All that is said of the sensor, what counts more first."""
+    if not isinstance(sensor, StatedSensor) and sensor:
+        return sensor
+    first = [(BY_CALLER, sensor)] if isinstance(sensor, StatedSensor) else []
+    return [*first, (BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration))]
+
+
+def _refuse_unknown_words(mask: npt.ArrayLike | str, method: str, keep: str) -> None:
+    """Refuse words that mean nothing."""
+    if isinstance(mask, str) and mask not in {"auto", "none"}:
+        raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
+    if method not in {"near", "distant"}:
+        raise InputError(repr(method), where="method", needed='"near" or "distant"')
+    if keep not in {"object", "support", "all"}:
+        raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
+
+
+def _refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
+    """Refuse images of lights that the calibration does not hold, or two of one light."""
+    known = {light.name for light in calibration.lights}
+    strange = [name for k, name in enumerate(raw.lights) if name not in known or name in raw.lights[:k]]
+    if strange:
+        raise DisagreementError(
+            f"no light of the calibration is called {', '.join(strange[:8])}, or two images are its",
+            where=f"{raw.name}, lights",
+            needed=f"some of {', '.join(sorted(known))}, each once",
+        )
+
+
+def _refuse_hints(hints: Hints, shape: tuple[int, ...], name: str) -> None:
+    """Refuse places of the object that do not lie in the images, or in the box.
+
+    Raises
+    ------
+    DisagreementError
+        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
+    """
+    height, width = shape
+    x, y, across, down = hints.box or (0, 0, width, height)
+    if min(x, y) < 0 or min(across, down) < 1 or x + across > width or y + down > height:
+        raise DisagreementError(
+            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
+        )
+    for at in hints.points:
+        if not (x <= at[0] < x + across and y <= at[1] < y + down):
+            inside = "the box" if hints.box else f"the images of {width}x{height}"
+            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")
+
+
+def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
+    """Refuse an object that near light puts far from where the lights are known.
+
+    Raises
+    ------
+    DegenerateError
+        Its distance is out of OUTSIDE times the working distance.
+    """
+    working_m = calibration.d_object_m
+    if calibration.camera is None or working_m is None or not any(light.source_C is not None for light in calibration.lights):
+        return
+    distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
+    if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
+        raise DegenerateError(
+            f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume",
+            where=surface.name,
+            needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
+            todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",
+        )
+
+
+@staged("integration")
+def integrate(
+    normals: npt.ArrayLike,
+    camera: Camera | None = None,
+    mask: npt.ArrayLike | None = None,
+    *,
+    distance_m: float = DISTANCE_M,
+    green: Green = "auto",
+    name: str = "normals",
+) -> Surface:
+    """Integrate normals from elsewhere to a depth.
+
+    Parameters
+    ----------
+    normals : ndarray (H, W, 3)
+        Normals in C (x right, y down, z forward), turned towards the camera: z is negative. Of any length; NaN where there is none.
+    camera : Camera, optional
+        The camera; without it rays are parallel, and the depth is in pixels about zero.
+    mask : ndarray (H, W), optional
+        Which pixels count, not zero there; by default all that hold a normal.
+    distance_m : float
+        Metres at which the median depth is put, with a camera: normals do not tell it.
+    green : {"auto", "as-is", "flipped"}
+        Whether the y of the normals is turned over; "auto" asks the curl of their slopes.
+    name : str
+        What the map is called in messages.
+
+    Returns
+    -------
+    Surface
+        Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures["convention"]`` holds what the
+        curl says of y. Standard deviations are NaN: nothing tells them.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        Another shape than the camera's or the mask's; channels that are swapped.
+    DegenerateError
+        Too few normals, most look away from the camera, or they are of no surface.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> y, x = np.mgrid[-20:21, -20:21] / 40.0
+    >>> z = np.sqrt(1 - x**2 - y**2)
+    >>> surface = lpcal.integrate(np.stack([x, y, -z], axis=-1))
+    >>> depth = surface.depth - surface.depth[20, 20]
+    >>> bool(abs(depth[20, 40] - 40 * (1 - np.sqrt(0.75))) < 0.1)
+    True
+    """
+    map_C = given.numbers(normals, "normals", finite=False).astype(np.float32)
+    if map_C.ndim != 3 or map_C.shape[2] != 3:
+        raise InputError(f"an array of {map_C.shape}", where="normals", needed="(H, W, 3)")
+    length = np.linalg.norm(map_C, axis=2)
+    inside = np.asarray(np.isfinite(length) & (length > 0))
+    if mask is not None:
+        inside &= stacks.of_image_size(mask, inside.shape, "mask")
+    return _integrated(map_C, inside, camera, distance_m, green, name)
+
+
+def _integrated(normals_C: Image, inside: Mask, camera: Camera | None, distance_m: float, green: Green, name: str) -> Surface:
+    camera = None if camera is None else camera.of_images((inside.shape[1], inside.shape[0]))
+    check(name, inside, camera)
+    found = convention.settled(name, normals_C, inside, camera, green)
+    surface = surface_of_normals(name, found.normals_C, inside, camera, distance_m)
+    said = {"green_turned_over": found.flipped, "curl_as_is": asdict(found.as_is), "curl_turned_over": asdict(found.turned)}
+    warnings = (UNMEASURED,) if found.note is None else (found.note, UNMEASURED)
+    return replace(surface, figures=surface.figures | {"convention": said}, warnings=warnings)
+
+
+def mesh(surface: Surface) -> Mesh:
+    """Make a mesh of a surface's pixels, cut where it breaks.
+
+    Parameters
+    ----------
+    surface : Surface
+        What `reconstruct`, `integrate` or `read_surface` gives.
+
+    Returns
+    -------
+    Mesh
+        Vertices (V, 3) and normals (V, 3) in C, metres (pixels without a camera); colours (V, 3) of 8 bits; faces (F, 3), which look at
+        the camera.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> flat = np.zeros((9, 9, 3)) + [0, 0, -1.0]
+    >>> lpcal.mesh(lpcal.integrate(flat)).faces.shape
+    (128, 3)
+    """
+    return meshes.build(surface)
+
+
+@screens.screen_of.register
+def _mesh_screen(found: Mesh) -> screens.Screen:
+    low, high = found.vertices_C.min(axis=0, initial=np.inf), found.vertices_C.max(axis=0, initial=-np.inf)
+    rows = [("vertices", str(len(found.vertices_C))), ("faces", str(len(found.faces)))]
+    rows += [("size", " x ".join(f"{side:.4g}" for side in high - low) + " along x, y, z of C")] if len(found.vertices_C) else []
+    return screens.Screen("Mesh", rows)

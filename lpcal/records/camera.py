@@ -1,0 +1,134 @@
+"""A camera, the solve that found it, and what became of each image in a solve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lpcal.geometry import camera as central
+from lpcal.geometry import splined
+from lpcal.geometry.arrays import Array
+from lpcal.geometry.tone_curve import Gamma
+from lpcal.records.sensor import FlatField
+from lpcal.records.shown import Shown
+
+SIZE_DOUBT = 0.25
+"""Share of a guessed image size by which images may differ from it: a principal point lies that close to the middle of a real image."""
+
+
+@dataclass(frozen=True, repr=False)
+class Camera(Shown):
+    """Intrinsics and radiometry of a camera.
+
+    A splined model has no K and no distortion of its own: K is that of its stereographic core, and `spline` holds mrcal's vector.
+
+    Parameters
+    ----------
+    image_size : (int, int)
+        Width and height in pixels.
+    model : str
+        The lens model: opencv4, opencv5, opencv8 or splined.
+    K : ndarray (3, 3)
+        The camera matrix in pixels; pixel centres are at whole numbers.
+    distortion : ndarray (4,), (5,) or (8,)
+        OpenCV's coefficients.
+    black_level, white_level : float
+        Stored numbers of no light and of saturation, as fractions of full scale.
+    gamma : float or "srgb"
+        ``stored = linear^(1/gamma)``.
+    flat_field : FlatField, optional
+        How lens and sensor weaken light over the image.
+    parameters, covariance : tuple of str, ndarray (P, P)
+        The parameters that were solved for, and their covariance.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> camera = lpcal.Camera((640, 480), "opencv4", np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]), np.zeros(4))
+    >>> camera.project(np.array([0.1, 0.0, 1.0])).tolist()
+    [380.0, 240.0]
+    """
+
+    image_size: tuple[int, int]
+    model: str
+    K: Array
+    distortion: Array
+    black_level: float = 0.0
+    white_level: float = 1.0
+    gamma: Gamma = 1.0
+    flat_field: FlatField | None = None
+    rms_px: float = float("nan")
+    """Per coordinate."""
+    parameters: tuple[str, ...] = ()
+    covariance: Array | None = None
+    """(P, P) of `parameters`."""
+    lensmodel: str = ""
+    """Splined: mrcal's name of the model with its configuration."""
+    spline: Array | None = None
+    """Splined: mrcal's vector, core and knots."""
+    size_guessed: bool = False
+    """The image size was made out from the principal point: images of about that size tell the true one."""
+
+    def of_images(self, size: tuple[int, int]) -> Camera:
+        """The camera with the images' (width, height) where its own is guessed and theirs is about that; else as it is."""
+        near = all(abs(told - own) <= SIZE_DOUBT * own for told, own in zip(size, self.image_size, strict=True))
+        return replace(self, image_size=size, size_guessed=False) if self.size_guessed and near else self
+
+    def project(self, x_C: Array) -> Array:
+        """Pixels (..., 2) of points x_C (..., 3)."""
+        if self.spline is not None:
+            return splined.project(x_C, self.lensmodel, self.spline)
+        return central.project(x_C, self.K, self.distortion)
+
+    def unproject(self, pixels: Array) -> Array:
+        """Unit rays (..., 3) of pixels (..., 2)."""
+        if self.spline is not None:
+            return splined.unproject(pixels, self.lensmodel, self.spline)
+        return central.unproject(pixels, self.K, self.distortion)
+
+    def projection_jacobian(self, x_C: Array) -> Array:
+        """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
+        if self.spline is not None:
+            return splined.projection_jacobian(x_C, self.lensmodel, self.spline)
+        return central.projection_jacobian(x_C, self.K, self.distortion)
+
+
+@dataclass(frozen=True)
+class ViewVerdict:
+    """What became of one image in a solve; `why` is None where it was used."""
+
+    image: str
+    used: bool
+    why: str | None
+    residual_px: float | None = None
+    residual_m: float | None = None
+    residual_rad: float | None = None
+    corners: int = 0
+    rejected: int = 0
+    """Corners that did not fit."""
+    blur_px: float | None = None
+    """Blur of a board's edges, one sigma."""
+    glare: float | None = None
+    """Share of a board that is as bright as the image gets."""
+    held_out_m: float | None = None
+    """What it misses a solve of the other views by."""
+
+
+@dataclass(frozen=True, repr=False)
+class CameraSolution(Shown):
+    """The intrinsics solve: the camera, the board's shape, and what became of each view."""
+
+    camera: Camera
+    points_B: Array
+    """(M, 3) corners of the board with its warp, mean plane z = 0."""
+    views: tuple[ViewVerdict, ...]
+    solver: str
+    """mrcal | opencv."""
+    corner_sigma_px: float
+    """One standard deviation of a corner coordinate."""
+    evidence: dict[str, object] = field(default_factory=dict)
+    """How the model was chosen, in figures that go into camera.yaml."""
+    warnings: tuple[str, ...] = ()
+    cameramodel: str = ""
+    """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
+    H_CB: dict[str, Array] = field(default_factory=dict)
+    """The board in the images that were used, by image, as the solve has it."""

@@ -1,0 +1,109 @@
+"""Arrays and records that others have made, checked before anything is made of them: programs and added formats hand them over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.geometry.arrays import Array
+from lpcal.records.observations import PoseStream
+
+RIGID = 0.02
+"""How far the product of a rotation with its transpose may be from the identity: numbers of two digits are taken for a rotation."""
+
+
+def transforms(values: npt.ArrayLike, name: str) -> Array:
+    """Rigid transforms (N, 4, 4) of whatever a caller gives for them.
+
+    Raises
+    ------
+    InputError
+        Another shape, a number that is not finite, or a matrix that turns and shifts nothing rigid; its row is named.
+    """
+    found = numbers(values, name)
+    if found.ndim != 3 or found.shape[1:] != (4, 4):
+        raise InputError(f"an array of {shape_of(found)}", where=name, needed="transforms (N, 4, 4)")
+    R = found[:, :3, :3]
+    off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2), initial=0.0) > RIGID
+    off |= (np.linalg.det(R) < 0) | (np.abs(found[:, 3] - [0, 0, 0, 1]) > RIGID).any(axis=1)
+    if off.any():
+        row = int(np.flatnonzero(off)[0])
+        raise InputError("is no rigid transform", where=f"{name}[{row}]", needed="a rotation, a shift in metres, and 0 0 0 1 below")
+    return found
+
+
+def numbers(values: npt.ArrayLike, name: str, *, finite: bool = True) -> Array:
+    """Numbers in double precision of whatever a caller gives for them.
+
+    Raises
+    ------
+    InputError
+        They are none, or one is not finite.
+    """
+    try:
+        found = np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"holds no numbers ({error})", where=name, needed="an array of numbers") from error
+    if finite and not np.isfinite(found).all():
+        raise InputError(f"{int((~np.isfinite(found)).sum())} numbers that are not finite", where=name, needed="finite numbers")
+    return found
+
+
+def shaped(values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:
+    """Numbers of one shape.
+
+    Raises
+    ------
+    InputError
+        They are none, or of another shape.
+    """
+    found = numbers(values, name)
+    if found.shape != shape:
+        raise InputError(f"an array of {shape_of(found)}", where=name, needed=shape_of(np.empty(shape)))
+    return found
+
+
+def times(values: npt.ArrayLike, count: int, name: str, of: str) -> Array:
+    """Seconds (N,), as many as there are of something.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        They are no numbers; there are more or fewer.
+    """
+    found = numbers(values, name)
+    if found.shape != (count,):
+        raise DisagreementError(f"an array of {shape_of(found)}", where=name, needed=f"({count},): one time for each of {of}")
+    return found
+
+
+def stream(given: PoseStream, name: str) -> PoseStream:
+    """A recording that somebody else has made, where it is one; `name` is its place in messages.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        A transform is not rigid, times do not increase, or there are more or fewer of them.
+    DegenerateError
+        It is empty.
+    """
+    poses = transforms(given.H_OP, f"{name}, H_OP")
+    if not len(poses):
+        raise DegenerateError("no pose", where=f"{name}, H_OP", needed="a recording of some seconds")
+    t_s = times(given.t_s, len(poses), f"{name}, t_s", "H_OP")
+    if np.any(np.diff(t_s) <= 0):
+        row = int(np.flatnonzero(np.diff(t_s) <= 0)[0]) + 1
+        raise InputError(
+            f"{t_s[row]:g} s after {t_s[row - 1]:g} s", where=f"{name}, t_s[{row}]", needed="times that increase", todo="sort the poses"
+        )
+    rate_hz = 1 / float(np.median(np.diff(t_s))) if len(t_s) > 1 else float("nan")
+    return replace(given, t_s=t_s, H_OP=poses, rate_hz=rate_hz if np.isnan(given.rate_hz) else given.rate_hz)
+
+
+def shape_of(values: npt.NDArray[Any]) -> str:
+    """The shape of an array, for a message."""
+    return f"({', '.join(map(str, values.shape))})"

@@ -1,0 +1,53 @@
+"""The documentation: every public name has its place in the reference, every example its place in a page, and the site builds strictly."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+import lpcal
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+DOCS = REPOSITORY / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+
+
+def test_every_public_name_is_in_the_reference() -> None:
+    shown = {name for page in PAGES for name in re.findall(r"^::: (\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE)}
+    public = {getattr(lpcal, name) for name in lpcal.__all__ if name != "errors"}
+    assert {f"{one.__module__}.{one.__qualname__}" for one in public} <= shown
+    index = (DOCS / "reference/index.md").read_text(encoding="utf-8")
+    assert [name for name in lpcal.__all__ if not name.startswith("write_") and f"`{name}`" not in index and name != "errors"] == []
+
+
+def test_every_example_is_on_a_page() -> None:
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    assert [path.name for path in (REPOSITORY / "examples").glob("*.py") if f'"examples/{path.name}"' not in text] == []
+
+
+def test_every_page_is_in_the_table_of_contents() -> None:
+    contents = (REPOSITORY / "mkdocs.yml").read_text(encoding="utf-8")
+    assert [page for page in PAGES if f"- {page.relative_to(DOCS).as_posix()}\n" not in contents] == []
+
+
+def test_errors_and_their_codes_are_those_of_the_code() -> None:
+    page = (DOCS / "errors.md").read_text(encoding="utf-8")
+    rows = {name: int(code) for name, code in re.findall(r"^\| `(\w+)` \| (\d) \|", page, re.MULTILINE)}
+    assert rows == {kind.__name__: kind.exit_code for kind in lpcal.errors.LpcalError.__subclasses__()}
+
+
+@pytest.mark.slow
+def test_the_site_builds_strictly(tmp_path: Path) -> None:
+    if find_spec("mkdocs") is None:
+        pytest.skip("mkdocs is not installed: uv sync --group docs")
+    words = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
+    found = subprocess.run(words, cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr
+    page = (tmp_path / "reference/handeye/index.html").read_text(encoding="utf-8")
+    assert "solve_handeye" in page
+    assert "seconds on the mocap" in page.lower()
