@@ -5,6 +5,7 @@ Nothing of lpcal's camera is used: rays come from OpenCV's inverse, and corners 
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, field
 
 import cv2
@@ -63,14 +64,7 @@ class Studio:
 
     def rays(self) -> np.ndarray:
         """(SUPER * h, SUPER * w, 3) with z = 1."""
-        w, h = self.size
-        steps = (np.arange(SUPER) + 0.5) / SUPER - 0.5
-        u = (np.arange(w)[:, None] + steps).ravel()
-        v = (np.arange(h)[:, None] + steps).ravel()
-        pixels = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 1, 2)
-        criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 60, 1e-12)
-        plane = cv2.undistortPoints(pixels, self.K, self.lens, criteria=criteria).reshape(len(v), len(u), 2)
-        return np.concatenate([plane, np.ones((*plane.shape[:2], 1))], axis=-1)
+        return _rays(self.K.tobytes(), self.lens.tobytes(), self.size)
 
     def project(self, H_CB: np.ndarray, points: np.ndarray) -> np.ndarray:
         phi = cv2.Rodrigues(np.ascontiguousarray(H_CB[:3, :3]))[0]
@@ -82,7 +76,7 @@ class Studio:
         R, t = H_CB[:3, :3], H_CB[:3, 3]
         d_B, o_B = rays @ R, -R.T @ t
         z = np.zeros(rays.shape[:2])
-        for _ in range(4):
+        for _ in range(4 if any(pattern.bow_m) or pattern.twist_m else 1):
             s = (z - o_B[2]) / d_B[..., 2]
             x, y = o_B[0] + s * d_B[..., 0], o_B[1] + s * d_B[..., 1]
             z = pattern.height(np.clip(x, -0.1, 0.5), np.clip(y, -0.1, 0.5))
@@ -91,6 +85,22 @@ class Studio:
         coarse = fine.reshape(h, SUPER, w, SUPER).mean(axis=(1, 3))
         shade = np.linspace(0.9, 1.1, w)[None, :] * np.linspace(1.05, 0.95, h)[:, None]
         return cv2.GaussianBlur(coarse * shade, (0, 0), blur) if blur > 0 else coarse * shade
+
+
+@functools.lru_cache(4)
+def _rays(K: bytes, lens: bytes, size: tuple[int, int]) -> np.ndarray:
+    """The rays of a camera, drawn once for all of its pictures."""
+    w, h = size
+    steps = (np.arange(SUPER) + 0.5) / SUPER - 0.5
+    u = (np.arange(w)[:, None] + steps).ravel()
+    v = (np.arange(h)[:, None] + steps).ravel()
+    pixels = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 1, 2)
+    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 60, 1e-12)
+    matrix, coefficients = np.frombuffer(K).reshape(3, 3), np.frombuffer(lens)
+    plane = cv2.undistortPoints(pixels, matrix, coefficients, criteria=criteria).reshape(len(v), len(u), 2)
+    found = np.concatenate([plane, np.ones((*plane.shape[:2], 1))], axis=-1)
+    found.flags.writeable = False
+    return found
 
 
 def exposed(light: np.ndarray, seed: int, *, noise: float = 2.0, bits: int = 8) -> np.ndarray:

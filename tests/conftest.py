@@ -13,6 +13,9 @@ for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):  # the workers and a hundred programs would each compile every package anew
+    os.environ.setdefault("PYTHONPYCACHEPREFIX", str(REPOSITORY / ".pytest_cache" / "bytecode"))
+
 
 def recordings() -> Path:
     """The folder of real recordings and rendered rigs: LPCAL_DATA, default ../shared/data."""

@@ -86,6 +86,7 @@ def room_light(scene: Scene) -> np.ndarray:
 def _signals(scene: Scene, lights: Calibration, dx: float, dy: float) -> np.ndarray:
     column, row = np.meshgrid(np.arange(SIZE[0]) + dx, np.arange(SIZE[1]) + dy)
     x, n, albedo, _ = _surface(scene, column, row)
+    v = -x / np.sqrt(_dot(x, x))[..., None]
     found = []
     for light in lights.lights:
         side = np.cross(light.axis_C, [0, 1, 0.3])
@@ -95,14 +96,14 @@ def _signals(scene: Scene, lights: Calibration, dx: float, dy: float) -> np.ndar
         for a, b in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
             led = light.source_C + 0.003 * (a * side + b * up)
             to_led = led - x
-            r = np.linalg.norm(to_led, axis=-1)
-            d = to_led / r[..., None]
-            E = light.intensity * np.maximum(-(d @ light.axis_C), 0) ** EXPONENT / r**2
-            v = -x / np.linalg.norm(x, axis=-1, keepdims=True)
-            h = (d + v) / np.linalg.norm(d + v, axis=-1, keepdims=True)
-            shine = scene.gloss * np.maximum(np.sum(n * h, axis=-1), 0) ** 120
-            cosine = np.maximum(np.sum(n * d, axis=-1), 0)
-            total = total + (E * ~_hidden(scene, x, led))[..., None] * (albedo * cosine[..., None] + shine[..., None]) / 4
+            r2 = _dot(to_led, to_led)
+            d = to_led / np.sqrt(r2)[..., None]
+            E = light.intensity * np.maximum(-(d @ light.axis_C), 0) ** EXPONENT / r2
+            sent = albedo * np.maximum(_dot(n, d), 0)[..., None]
+            if scene.gloss:
+                h = d + v
+                sent = sent + (scene.gloss * np.maximum(_dot(n, h) / np.sqrt(_dot(h, h)), 0) ** 120)[..., None]
+            total = total + (E * ~_hidden(scene, x, led))[..., None] * sent / 4
         found.append(total)
     stack = np.stack(found)
     return stack if len(scene.albedo) == 3 else stack[..., 0]
@@ -125,13 +126,18 @@ def _surface(scene: Scene, column: np.ndarray, row: np.ndarray) -> tuple[np.ndar
     return x, n, albedo, on
 
 
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Over the last axis of three, much faster than its sum."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
+
+
 def _hidden(scene: Scene, x: np.ndarray, led: np.ndarray) -> np.ndarray:
     """Whether the sphere stands between points and an LED."""
     if scene.centre is None:
         return np.zeros(x.shape[:-1], bool)
     d = led - x
     f = x - np.array(scene.centre)
-    a, b = np.sum(d * d, axis=-1), np.sum(d * f, axis=-1)
-    under = b**2 - a * (np.sum(f * f, axis=-1) - scene.radius**2)
+    a, b = _dot(d, d), _dot(d, f)
+    under = b**2 - a * (_dot(f, f) - scene.radius**2)
     t = (-b - np.sqrt(np.maximum(under, 0))) / a
     return (under > 0) & (t > 1e-6) & (t < 1)

@@ -13,6 +13,7 @@ import pytest
 import yaml
 
 from board_pictures import LENS, K, Pattern, Studio, exposed, poses
+from lpcal.cli.main import main
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
@@ -43,6 +44,19 @@ def pictures(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def rig(pictures: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(pictures, tmp_path / "rig"))
+
+
+@pytest.fixture(scope="module")
+def solved_pictures(pictures: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The board views with the stage done, once for all tests that begin there."""
+    folder = Path(shutil.copytree(pictures, tmp_path_factory.mktemp("solved") / "rig"))
+    assert main(["intrinsics", "--rig", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture
+def solved_rig(solved_pictures: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(solved_pictures, tmp_path / "rig"))
 
 
 def refused(lpcal: Run, rig: Path, code: int, *words: str, options: tuple[object, ...] = ()) -> None:
@@ -95,8 +109,8 @@ def test_the_cameramodel_holds_the_same_camera(lpcal: Run, rig: Path, square: st
     np.testing.assert_allclose(model.distortion, camera.distortion, rtol=1e-6, atol=1e-9)
 
 
-def test_a_second_run_recalls_the_corners_and_the_stage_knows_it_is_up_to_date(lpcal: Run, rig: Path) -> None:
-    assert lpcal("intrinsics", "--rig", rig)[0] == 0
+def test_a_second_run_recalls_the_corners_and_the_stage_knows_it_is_up_to_date(lpcal: Run, solved_rig: Path) -> None:
+    rig = solved_rig
     workspace = Workspace(read_rig(rig / "panel.yaml"))
     assert STAGE.up_to_date(workspace)
     first = (rig / "calib" / "H_CB.yaml").read_text().partition("provenance")[0]
@@ -234,8 +248,8 @@ def test_how_sure_it_is_stands_in_camera_yaml(lpcal: Run, rig: Path) -> None:
     assert document["views"][0]["glare"] == 0
 
 
-def test_two_calibrations_are_compared(lpcal: Run, rig: Path) -> None:
-    solved(lpcal, rig)
+def test_two_calibrations_are_compared(lpcal: Run, solved_rig: Path) -> None:
+    rig = solved_rig
     other = rig / "other.yaml"
     camera = read_camera(rig / "calib" / "camera.yaml")
     focal, coefficients = 1.01 * camera.K[0, 0], ", ".join(str(float(one)) for one in camera.distortion[:4])
@@ -296,8 +310,8 @@ def test_corners_that_are_none(lpcal: Run, rig: Path, text: str, code: int, word
     refused(lpcal, rig, code, word, options=("--corners-cache", rig / "corners.vnl"))
 
 
-def test_rows_and_columns_swapped_give_the_same_lens(lpcal: Run, rig: Path) -> None:
-    solved(lpcal, rig)
+def test_rows_and_columns_swapped_give_the_same_lens(lpcal: Run, solved_rig: Path) -> None:
+    rig = solved_rig
     usual = read_camera(rig / "calib" / "camera.yaml")
     (rig / "panel.yaml").write_text(PANEL.replace("[9, 6]", "[6, 9]"))
     solved(lpcal, rig)
@@ -323,8 +337,8 @@ def test_a_square_in_inches_is_asked_about(lpcal: Run, rig: Path) -> None:
     assert "25.4" in out + err
 
 
-def test_pictures_of_16_bit_tell_the_same(lpcal: Run, rig: Path) -> None:
-    solved(lpcal, rig)
+def test_pictures_of_16_bit_tell_the_same(lpcal: Run, solved_rig: Path) -> None:
+    rig = solved_rig
     before = read_camera(rig / "calib" / "camera.yaml")
     for path in (rig / "boards").glob("*.png"):
         cv2.imwrite(str(path), cv2.imread(str(path), cv2.IMREAD_GRAYSCALE).astype(np.uint16) * 16)

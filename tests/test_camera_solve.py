@@ -84,7 +84,7 @@ def test_a_bowed_board_is_seen_and_a_flat_one_left_flat(solver: str) -> None:
 
 
 @mrcal_only
-@pytest.mark.parametrize("model", ["opencv4", "opencv5"])
+@pytest.mark.parametrize("model", [pytest.param("opencv4", marks=pytest.mark.slow), "opencv5"])
 def test_both_solvers_find_the_same(model: str) -> None:
     mrcal, own = (k_camera.solve_camera(corner_views(), BOARD, model=model, solver=solver).camera for solver in ("mrcal", "opencv"))
     assert own.covariance is not None

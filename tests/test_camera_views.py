@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 import pytest
@@ -45,15 +47,18 @@ def monotonous(kind: str) -> list[np.ndarray]:
 
 
 @pytest.mark.parametrize(
-    ("kind", "words"),
+    ("kind", "words", "model"),
     [
-        ("facing", "deg of one plane: tilt the board"),
-        ("one plane", "deg of one plane"),
-        ("one pose", "in one pose"),
-        ("two tilts", "2 tilts only"),
+        ("facing", "deg of one plane: tilt the board", "opencv5"),
+        ("one plane", "deg of one plane", "auto"),
+        ("one plane", "deg of one plane", "opencv5"),
+        ("one pose", "in one pose", "opencv5"),
+        ("two tilts", "2 tilts only", "auto"),
+        ("two tilts", "2 tilts only", "opencv5"),
+        pytest.param("facing", "deg of one plane: tilt the board", "auto", marks=pytest.mark.slow),
+        pytest.param("one pose", "in one pose", "auto", marks=pytest.mark.slow),
     ],
 )
-@pytest.mark.parametrize("model", ["auto", "opencv5"])
 def test_views_that_are_alike_blame_themselves(kind: str, words: str, model: str) -> None:
     try:
         said = " ".join(solve_camera(views(monotonous(kind), Studio()), BOARD, model=model).warnings)
@@ -128,11 +133,18 @@ def test_the_lens_of_the_studio_is_a_usual_one() -> None:
     np.testing.assert_allclose(solution.camera.distortion[:2], LENS[:2], atol=0.03)
 
 
-@pytest.mark.parametrize("bow_m", [0.0, 2.5e-4, *(pytest.param(one, marks=pytest.mark.slow) for one in (1e-4, 5e-4))])
-def test_five_cameras_agree_on_one_board(bow_m: float) -> None:
+@pytest.mark.parametrize(
+    ("bow_m", "seeds"),
+    [
+        (0.0, [0, 4]),
+        (2.5e-4, [0, 1, 4]),
+        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((0.0, [1, 2, 3]), (2.5e-4, [2, 3]), (1e-4, range(5)), (5e-4, range(5)))),
+    ],
+)
+def test_five_cameras_agree_on_one_board(bow_m: float, seeds: Sequence[int]) -> None:
     """Focal length and bow agree with the truth within three sigmas, whatever the views; a flat board is flat within them."""
     pattern = Pattern(bow_m=(bow_m, 0.6 * bow_m))
-    for seed in range(5):
+    for seed in seeds:
         rng = np.random.default_rng(100 + seed)
         found = [
             BoardView(f"{k}.png", Studio().project(H_CB, pattern.points()) + 0.05 * rng.standard_normal((54, 2)))

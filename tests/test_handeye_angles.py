@@ -38,7 +38,7 @@ def test_the_axes_of_three_angles() -> None:
     np.testing.assert_allclose(a[0], b @ se3.rotation(np.array([0, -0.4, 0])) @ se3.rotation(np.array([0, 0, c])), atol=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     ("written", "read"), [("xyz_deg", "abc_deg"), ("rpy_deg", "abc_deg"), ("abc_deg", "rpy_deg"), ("rotation_vector_deg", "abc_deg")]
 )

@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -71,10 +72,12 @@ def image_rig(folder: Path, session: Session, H_OP=None, *, names=None) -> None:
     write_h_cb(folder / "calib" / "H_CB.yaml", boards, {}, (9, 6), Provenance())
 
 
+@functools.cache
 def moving(views=60, seed=11) -> Session:
     return moving_session(np.random.default_rng(seed), views)
 
 
+@functools.cache
 def static(views=24, seed=2, **kwargs) -> Session:
     return static_session(np.random.default_rng(seed), views, **kwargs)
 
@@ -191,8 +194,16 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSED)
-@pytest.mark.parametrize("command", ["handeye", "check"])
+def by_turns(cases: Iterable[object]) -> list[object]:
+    """Every case with one command, in turn handeye and check; with the other command it is among the slow."""
+    both = [(case, (k + other) % 2, other) for k, case in enumerate(cases) for other in (0, 1)]
+    return [
+        pytest.param(("handeye", "check")[command], case, marks=[pytest.mark.slow] * other, id=f"{('handeye', 'check')[command]}-{case}")
+        for case, command, other in both
+    ]
+
+
+@pytest.mark.parametrize(("command", "name"), by_turns(REFUSED))
 def test_refused(tmp_path, lpcal, name, command):
     case = REFUSED[name]
     case.plant(tmp_path)
@@ -284,8 +295,7 @@ WARNED = {
 }
 
 
-@pytest.mark.parametrize("name", WARNED)
-@pytest.mark.parametrize("command", ["handeye", "check"])
+@pytest.mark.parametrize(("command", "name"), by_turns(WARNED))
 def test_solved_but_warned_of(tmp_path, lpcal, name, command):
     plant, words = WARNED[name]
     plant(tmp_path)
@@ -294,7 +304,14 @@ def test_solved_but_warned_of(tmp_path, lpcal, name, command):
     assert words in out + err
 
 
-@pytest.mark.parametrize("wrong", [slice(0, 7), slice(17, 24), slice(0, 24, 4)], ids=["first", "last", "every fourth"])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        pytest.param(slice(0, 7), id="first"),
+        pytest.param(slice(17, 24), id="last", marks=pytest.mark.slow),
+        pytest.param(slice(0, 24, 4), id="every fourth"),
+    ],
+)
 def test_check_turns_boards_back_as_handeye_does(tmp_path, lpcal, wrong):
     session = static()
     turned, other = turned_by_half(session.boards), np.zeros(24, dtype=bool)
@@ -307,8 +324,7 @@ def test_check_turns_boards_back_as_handeye_does(tmp_path, lpcal, wrong):
     assert np.linalg.norm(read_handeye(tmp_path / "calib" / "handeye.yaml").H_PC[:3, 3] - session.H_PC[:3, 3]) < 4e-3
 
 
-@pytest.mark.parametrize("off_ms", [-300, 200, 400])
-@pytest.mark.parametrize("command", ["handeye", "check"])
+@pytest.mark.parametrize(("command", "off_ms"), by_turns([-300, 200, 400]))
 def test_a_misstated_clock_is_named_by_its_key(tmp_path, lpcal, command, off_ms):
     session = moving()
     moving_rig(tmp_path, session, mocap=f"  clock_offset: {1e3 * session.offset_s + off_ms:.1f} ms\n")

@@ -32,13 +32,14 @@ def sized(session: Session, share: float) -> tuple[Array, Array]:
     return session.H_OP, H_CB
 
 
-def test_errors_that_neighbours_share_make_no_other_size() -> None:
+@pytest.mark.parametrize("seeds", [range(4), pytest.param(range(8), marks=pytest.mark.slow)])
+def test_errors_that_neighbours_share_make_no_other_size(seeds: range) -> None:
     said, z = [], []
-    for seed in range(8):
+    for seed in seeds:
         H_OP, H_CB = drifting(seed)
         said.append(warned(H_OP, H_CB))
         z.append((park.board_scale(H_OP, H_CB, park.consensus(H_OP, H_CB).H_PC[:3, :3]) - 1) / park.board_scale_sigma(H_OP, H_CB))
-    assert said == [None] * 8
+    assert said == [None] * len(seeds)
     assert 0.3 < np.sqrt(np.mean(np.square(z))) < 1.8
 
 

@@ -17,6 +17,7 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
 MODULE_LINES, FUNCTION_LINES = 400, 60
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
+UNUSED_BY_RECONSTRUCT = {"matplotlib", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "networkx"}
 HEAVY = ["scipy", "cv2", "mrcal", "casadi", "pycolmap"]
 
 # a folder of someone's own machine: a home, a user's folder on Windows, the folder that this repository lies in
@@ -92,6 +93,21 @@ def imported_by(*words: str) -> set[str]:
     assert found.returncode == 0, found.stderr
     assert found.stdout.startswith("usage: lpcal")
     return set(found.stdout.rpartition("imported: ")[2].split())
+
+
+def test_reconstruct_imports_only_what_it_uses() -> None:
+    """By all modules that the command's own import; what they import where it is used is held by a slow test."""
+    used = imported_by("reconstruct", "--help")
+    assert "numpy" not in used
+    program = (
+        "import importlib, pkgutil, sys, lpcal.surface\n"
+        "import lpcal.pipeline.reconstruct, lpcal.formats.surface_files, lpcal.report.relight_pack\n"
+        "[importlib.import_module(one.name) for one in pkgutil.iter_modules(lpcal.surface.__path__, 'lpcal.surface.')]\n"
+        "print(*{name.partition('.')[0] for name in sys.modules})"
+    )
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert "numpy" in found.stdout.split()
+    assert not UNUSED_BY_RECONSTRUCT & set(found.stdout.split())
 
 
 def test_help_is_there_at_once() -> None:

@@ -172,7 +172,7 @@ def test_the_clean_rig_is_told_nothing(tmp_path: Path, lpcal: Run) -> None:
     assert "warning" not in err
 
 
-@pytest.mark.parametrize("spheres", [["chrome_0"], ["matte_0", "matte_1"]])
+@pytest.mark.parametrize("spheres", [["chrome_0"], pytest.param(["matte_0", "matte_1"], marks=pytest.mark.slow)])
 def test_one_place_tells_directions_only(tmp_path: Path, lpcal: Run, spheres: list[str]) -> None:
     rig(tmp_path, spheres)
     code, _, err = lpcal("refine", cwd=tmp_path)

@@ -73,7 +73,7 @@ def solution(views: list[SphereView], camera: Camera) -> LightsSolution:
     return refine(views, [wing.name for wing in wings.wings], camera, wings, intensity_sd=0.1)
 
 
-@pytest.mark.parametrize("clicks", [0, 1])
+@pytest.mark.parametrize("clicks", [pytest.param(0, marks=pytest.mark.slow), 1])
 def test_shading_tells_a_click_that_one_chrome_sphere_does_not(views: list[SphereView], camera: Camera, clicks: int) -> None:
     some = [view for view in views if view.name != "chrome_1"]
     wings = drawn_wings("L2", clicks)

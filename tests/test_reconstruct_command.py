@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -84,6 +86,18 @@ def test_every_file_of_the_contract(lpcal, rig):
 
 
 @pytest.mark.slow
+def test_it_imports_only_what_it_uses(rig, quick):
+    words = ["reconstruct", "--mask", str(quick)]
+    program = (
+        f"import sys\nfrom lpcal.cli.main import main\nassert main({words!r}) == 0\nprint('imported:', *{{name for name in sys.modules}})"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], cwd=rig, capture_output=True, text=True, check=True)
+    imported = ended.stdout.rpartition("imported: ")[2].split()
+    assert {"trimesh", "scipy", "tifffile"} <= set(imported)
+    assert not {"matplotlib", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "networkx"} & set(imported)
+
+
+@pytest.mark.slow
 def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, rig, drawn, quick):
     write_capture(rig / "elsewhere", drawn)
     code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, cwd=rig)
@@ -92,14 +106,16 @@ def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, ri
     assert (rig / "surfaces/elsewhere/surface.npz").is_file()
 
 
-def test_without_a_rig_a_calibration_will_do(lpcal, rig, quick, tmp_path_factory):
+def test_without_a_rig_a_calibration_will_do_and_an_image_that_is_no_lights_is_named(lpcal, rig, quick, tmp_path_factory):
     away = tmp_path_factory.mktemp("away")
-    code, told, _ = lpcal(
+    cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
+    code, told, warned = lpcal(
         "reconstruct", rig / "objects/first", "-c", rig / "calib/calibration.yaml", "-o", away / "out", "--mask", quick, "--json", cwd=away
     )
     assert code == 0
     assert json.loads(told)["surfaces"][0]["units"] == "metres"
     assert (away / "out/surface.npz").is_file()
+    assert "left out: lamp9.png is no light's" in told + warned
 
 
 def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, quick):
@@ -111,13 +127,6 @@ def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, 
     assert np.array_equal(surface.mask, truth(Scene())[0] & (row < 60))
     assert np.array_equal(surface.layer, surface.mask.astype(np.uint8))
     assert surface.lights_used.max() == 4
-
-
-def test_an_image_that_is_no_lights_is_left_out_and_named(lpcal, rig, quick):
-    cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
-    code, _, told = lpcal("reconstruct", "--mask", quick, cwd=rig)
-    assert code == 0, told
-    assert "left out: lamp9.png is no light's" in told
 
 
 @pytest.mark.slow

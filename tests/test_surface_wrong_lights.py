@@ -60,7 +60,7 @@ def test_mirrored_lists(lpcal, tmp_path: Path, order: list[int], signs: tuple[in
     assert "x or y turned over" in said(lpcal, tmp_path)
 
 
-@pytest.mark.parametrize(("one", "other"), [(0, 1), (2, 9), (7, 10)])
+@pytest.mark.parametrize(("one", "other"), [(0, 1), (2, 9), pytest.param(7, 10, marks=pytest.mark.slow)])
 def test_two_of_a_dozen_exchanged(lpcal, tmp_path: Path, one: int, other: int) -> None:
     order = list(range(12))
     order[one], order[other] = other, one

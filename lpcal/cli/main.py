@@ -165,12 +165,15 @@ class _Versions(argparse.Action):
         """Print and leave."""
         from importlib.metadata import PackageNotFoundError, version
 
+        from lpcal.kernels.library import who_works
+
         print(f"lpcal {__version__}")  # noqa: T201
         for name in LIBRARIES:
             try:
                 print(f"{name} {version(name)}")  # noqa: T201
             except PackageNotFoundError:
                 print(f"{name} is not installed")  # noqa: T201
+        print(f"kernels {who_works()}")  # noqa: T201
         parser.exit()
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -117,13 +118,21 @@ class _Window:
     def misfits(self, terms: Callable[[Array], Array]) -> Array:
         """Squared misfit (K, offsets) of the profiles to terms about each offset."""
         found = []
+        for away, part, square in self._parts:
+            Q = np.linalg.qr(terms(away))[0]
+            found.append(square - np.sum((part @ Q) ** 2, axis=1))
+        return np.stack(found, axis=1)
+
+    @cached_property
+    def _parts(self) -> list[tuple[Array, Array, Array]]:
+        """Of each offset: places from it (n,), the profiles there without their means (K, n), and the sums of their squares (K,)."""
+        found = []
         for offset in self.offsets:
             near = (self.s - offset >= -self.inner) & (self.s - offset <= self.outer)
-            Q = np.linalg.qr(terms(self.s[near] - offset))[0]
             part = self.profile[:, near]
             part = part - part.mean(axis=1, keepdims=True)  # numerically kinder; the constant is one of the terms
-            found.append(np.sum(part**2, axis=1) - np.sum((part @ Q) ** 2, axis=1))
-        return np.stack(found, axis=1)
+            found.append((self.s[near] - offset, part, np.sum(part**2, axis=1)))
+        return found
 
     def contrast(self, offset: Array, misfit: Array) -> Array:
         """Step (K,) across the edges over the noise that the misfit shows."""
@@ -182,5 +191,6 @@ def _edge_terms(s: Array, blur: float, kind: str, radius: float, step_px: float)
     half = int(np.ceil(5 * blur / step_px))
     kernel = np.exp(-0.5 * (np.arange(-half, half + 1) * step_px / blur) ** 2)
     kernel /= kernel.sum()
-    blurred = [np.interp(s, fine, np.convolve(np.pad(term, half, mode="edge"), kernel, mode="valid")) for term in terms]
+    padded = [np.concatenate([np.full(half, term[0]), term, np.full(half, term[-1])]) for term in terms]
+    blurred = [np.interp(s, fine, np.convolve(term, kernel, mode="valid")) for term in padded]
     return np.stack([np.ones_like(s), *blurred], axis=1)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import kernel
 
 NEWTON_STEPS = 30
 NEWTON_PRECISION = 1e-13
@@ -64,7 +65,12 @@ def projection_jacobian(x_C: Array, K: Array, distortion: Array) -> Array:
 
 
 def _distort_with_jacobian(plane: Array, distortion: Array) -> tuple[Array, Array]:
-    k1, k2, p1, p2, k3, k4, k5, k6 = np.concatenate([np.ravel(distortion), np.zeros(8 - np.size(distortion))])
+    lens = np.concatenate([np.ravel(distortion), np.zeros(8 - np.size(distortion))])
+    if run := kernel("distort"):
+        found, J = np.empty(plane.shape), np.empty((*plane.shape, 2))
+        run(plane.size // 2, np.ascontiguousarray(plane, float), lens, found, J)
+        return found, J
+    k1, k2, p1, p2, k3, k4, k5, k6 = lens
     x, y = plane[..., 0], plane[..., 1]
     r2 = x * x + y * y
     above, below = 1 + r2 * (k1 + r2 * (k2 + r2 * k3)), 1 + r2 * (k4 + r2 * (k5 + r2 * k6))

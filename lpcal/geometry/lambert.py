@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import kernel
 
 SINGULAR = 1e-12
 
@@ -20,6 +21,11 @@ def weighted(B: Array, signal: Array, weight: Array) -> tuple[Array, Array]:
 
     Where the weighted lights do not span space, b is NaN.
     """
+    if run := kernel("weighted"):
+        L, P = signal.shape
+        b, inverse = np.empty((P, 3)), np.empty((P, 3, 3))
+        run(L, P, *(np.ascontiguousarray(one, float) for one in (B, signal, weight)), SINGULAR, b, inverse)
+        return b, inverse
     WB = weight[..., None] * B
     normal_matrix = np.einsum("kpi,kpj->pij", WB, B)
     inverse = inverse_3x3(normal_matrix)

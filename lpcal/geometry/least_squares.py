@@ -29,7 +29,7 @@ import numpy as np
 
 from lpcal.errors import ConvergenceError
 from lpcal.geometry.arrays import Array, Index, Mask
-from lpcal.geometry.normal_equations import Layout, System, inverse, linearise, reduced, step_of
+from lpcal.geometry.normal_equations import Layout, System, add_products, inverse, linearise, reduced, step_of
 from lpcal.geometry.residual_terms import POSE, Block, Model, Term, compile_residual, independent_prior, matrix, prior, small_rotation
 
 __all__ = [
@@ -84,10 +84,15 @@ class Solution:
         return self.blocks[name].value
 
     @cached_property
+    def _reduced(self) -> tuple[Array, Array, Array, Array]:
+        """The undamped normal equations without the eliminated block."""
+        return reduced(self._system, 0.0)
+
+    @cached_property
     def _S(self) -> Array:
         """Inverse of the reduced information, zero where fixed."""
         system, free = self._system, self._layout.free
-        S = reduced(system, 0.0)[0][np.ix_(free, free)]
+        S = self._reduced[0][np.ix_(free, free)]
         covariance = np.zeros_like(system.A)
         covariance[np.ix_(free, free)] = inverse(S, [name for name, f in zip(self._layout.labels(), free, strict=True) if f])
         return covariance
@@ -160,7 +165,8 @@ class Solution:
             What is left leaves a direction undetermined.
         """
         system, free = self._system, self._layout.free
-        N, g = reduced(system, 0.0)[0], np.zeros(len(system.A))
+        N, _, _, CB = self._reduced
+        lost, g = np.zeros_like(N), np.zeros(len(N))
         gone: set[int] = set()
         for place, (term, out) in enumerate(zip(self.terms, left_out, strict=True)):
             columns, item = self._layout.of_term(term)
@@ -169,12 +175,12 @@ class Solution:
                 start, stop = self._layout.eliminated_columns(term)
                 J = np.delete(J, np.s_[start:stop], axis=1)
                 gone |= set(item[out].tolist())
-            np.add.at(g, columns[out], np.einsum("kar,kr->ka", J, r))
-            np.subtract.at(N, (columns[out][:, :, None], columns[out][:, None, :]), J @ np.swapaxes(J, 1, 2))
-        for i in gone:
-            BC = system.B[i] @ np.linalg.inv(system.C[i])
-            N += BC @ system.B[i].T
-            g -= BC @ system.gradient_e[i]
+            add_products(lost, g, [one[out] for one in self._layout.kept_items(term)], columns[out], J, r)
+        if gone:
+            at = np.array(sorted(gone))
+            g -= np.einsum("isn,is->n", CB[at], system.gradient_e[at])
+            lost -= np.tensordot(system.B[at], CB[at], axes=([0, 2], [0, 1]))
+        N = N - lost
         step = np.zeros_like(g)
         labels = [name for name, f in zip(self._layout.labels(), free, strict=True) if f]
         step[free] = inverse(N[np.ix_(free, free)], labels) @ g[free]

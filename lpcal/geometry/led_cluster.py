@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import kernel
 
 RINGS = {1: (1,), 7: (1, 6), 19: (1, 6, 12)}
 SPACING_RAD = float(np.radians(11.25))
@@ -55,6 +56,11 @@ def cluster_field(x_L: Array, position_L: Array, axis_L: Array, power: Array, m:
 
     The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length.
     """
+    if run := kernel("cluster"):
+        leds = (np.ascontiguousarray(one, float) for one in (position_L, axis_L, power))
+        d_L, E = np.empty(np.shape(x_L)), np.empty(np.shape(x_L)[:-1])
+        run(E.size, len(position_L), np.ascontiguousarray(x_L, float), *leds, m, d_L, E)
+        return d_L, E
     if np.size(x_L) <= FEW:
         to_led = position_L - np.asarray(x_L)[..., None, :]
         r = np.linalg.norm(to_led, axis=-1)

@@ -73,6 +73,10 @@ class Layout:
         item = next((term.items(place) for place, name in enumerate(term.blocks) if name == self.eliminate), None)
         return np.concatenate([*kept, np.zeros((term.count, 0), dtype=np.intp)], axis=1), item
 
+    def kept_items(self, term: Term) -> list[Index]:
+        """Items (N,) of each block of a term that is kept."""
+        return [term.items(place) for place, name in enumerate(term.blocks) if name != self.eliminate]
+
     def eliminated_columns(self, term: Term) -> tuple[int, int]:
         """Where the eliminated block's columns stand in a term's Jacobian."""
         place = term.blocks.index(str(self.eliminate))
@@ -128,7 +132,7 @@ def _loss(r: Array, term: Term) -> tuple[float, Array]:
 def _add(system: System, layout: Layout, term: Term, r: Array, J: Array) -> None:
     """Add a term to the normal equations; observations that share their items go together, as one matrix product."""
     columns, item = layout.of_term(term)
-    kept = [term.items(place) for place, name in enumerate(term.blocks) if name != layout.eliminate]
+    kept = layout.kept_items(term)
     if item is not None:
         start, stop = layout.eliminated_columns(term)
         J_e, J = J[:, start:stop], np.delete(J, np.s_[start:stop], axis=1)
@@ -138,16 +142,30 @@ def _add(system: System, layout: Layout, term: Term, r: Array, J: Array) -> None
                 first, J_eT, r_g = group[0], _rows(J_e[group]), r[group].ravel()
                 system.C[item[first]] += J_eT @ J_eT.T
                 system.gradient_e[item[first]] += J_eT @ r_g
-                np.add.at(system.B[item[first]], columns[first], _rows(J[group]) @ J_eT.T)
+                _gather(system.B[item[first]], columns[first], _rows(J[group]) @ J_eT.T)
         else:
             J_eT = np.swapaxes(J_e, 1, 2)
             np.add.at(system.C, item, J_e @ J_eT)
             np.add.at(system.gradient_e, item, (J_e @ r[:, :, None])[:, :, 0])
             np.add.at(system.B, (item[:, None], columns), J @ J_eT)
-    for group in _groups(kept, term.count):
+    add_products(system.A, system.gradient, kept, columns, J, r)
+
+
+def add_products(A: Array, gradient: Array, items: Sequence[Index], columns: Index, J: Array, r: Array) -> None:
+    """Add J J^T and J r of observations, residuals r (N, rows) and Jacobians J (N, k, rows), at the columns (N, k) of their items (N,)."""
+    for group in _groups(items, len(columns)):
         at, J_T = columns[group[0]], _rows(J[group])
-        np.add.at(system.A, np.ix_(at, at), J_T @ J_T.T)
-        np.add.at(system.gradient, at, J_T @ r[group].ravel())
+        _gather(gradient, at, J_T @ r[group].ravel())
+        _gather(A, np.ix_(at, at), J_T @ J_T.T)
+
+
+def _gather(whole: Array, at: Index | tuple[Index, ...], part: Array) -> None:
+    """Add a part where its rows and columns stand in the whole; an item that an observation meets twice stands there twice."""
+    rows = at[0].ravel() if isinstance(at, tuple) else at
+    if len(np.unique(rows)) == len(rows):
+        whole[at] += part
+    else:
+        np.add.at(whole, at, part)
 
 
 def _groups(items: Sequence[Index], count: int) -> list[Index]:

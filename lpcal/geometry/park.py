@@ -10,13 +10,15 @@ Bolles, Random sample consensus (1981).
 
 from __future__ import annotations
 
+import functools
 import itertools
 from dataclasses import dataclass
 
 import numpy as np
 
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Index, Mask
+from lpcal.kernels.library import kernel
 
 SAMPLES = 400
 SAMPLE_VIEWS = 4
@@ -81,7 +83,7 @@ def consensus_of_rotations(H_OP: Array, H_CB: Array, seed: int = 0) -> tuple[Arr
     R_OP, R_CB = H_OP[:, :3, :3], H_CB[:, :3, :3]
     R_PC = _rotations(R_OP[picks], R_CB[picks])
     R_OB = se3.nearest_rotation(np.mean(R_OP[picks] @ R_PC[:, None] @ R_CB[picks], axis=1))
-    chord = np.linalg.norm((R_OP @ R_PC[:, None] @ R_CB - R_OB[:, None]).reshape(SAMPLES, count, 9), axis=2)
+    chord = _misses(H_OP, H_CB, *(se3.transform(R, np.zeros(3)) for R in (R_PC, R_OB)))[0]
     best = int(np.argmin(np.median(chord, axis=1)))
     inliers = chord[best] <= max(INLIER_SIGMAS * float(np.median(chord[best])), ROTATION_FLOOR)
     if inliers.sum() < max(3, count / 2):
@@ -129,19 +131,25 @@ def residuals(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> tuple[Array
     return angle[0], distance[0]
 
 
-def _pairs(count: int) -> tuple[Array, Array]:
+@functools.cache
+def _pairs(count: int) -> tuple[Index, Index]:
+    """First and second views of the pairs."""
     if count <= ALL_PAIRS_UP_TO:
         pairs = list(itertools.combinations(range(count), 2))
     else:
         rng = np.random.default_rng(0)
         strides = rng.permutation(np.arange(1, count // 2))[: max(4, ALL_PAIRS_UP_TO**2 // 2 // count)]
         pairs = [(k, (k + int(stride)) % count) for stride in strides for k in range(count)]
-    i, j = np.array(pairs).T
+    i, j = np.ascontiguousarray(np.array(pairs).T)
     return i, j
 
 
 def _rotations(R_OP: Array, R_CB: Array) -> Array:
     i, j = _pairs(R_OP.shape[-3])
+    if run := kernel("turns"):
+        sums = np.empty((*R_OP.shape[:-3], 3, 3))
+        run(sums.size // 9, R_OP.shape[-3], len(i), *(np.ascontiguousarray(R, float) for R in (R_OP, R_CB)), i, j, sums)
+        return se3.nearest_rotation(sums)
     a = se3.rotation_vector(np.swapaxes(R_OP[..., j, :, :], -1, -2) @ R_OP[..., i, :, :])
     b = se3.rotation_vector(R_CB[..., j, :, :] @ np.swapaxes(R_CB[..., i, :, :], -1, -2))
     return se3.nearest_rotation(np.swapaxes(a, -1, -2) @ b)
@@ -159,9 +167,19 @@ def _translations(H_OP: Array, H_CB: Array, R_PC: Array) -> tuple[Array, Array]:
 
 def _residuals(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> tuple[Array, Array]:
     """Angles and distances (S, N) of S solutions on N views."""
+    chord, distance = _misses(H_OP, H_CB, H_PC, H_OB)
+    return 2 * np.arcsin(np.clip(chord / np.sqrt(8), 0, 1)), distance
+
+
+def _misses(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array) -> tuple[Array, Array]:
+    """Chords of the rotations and distances (S, N), as `_residuals`."""
+    if run := kernel("misses"):
+        chord, distance = np.empty((2, len(H_PC), len(H_OP)))
+        run(*chord.shape, *(np.ascontiguousarray(H, float) for H in (H_OP, H_CB, H_PC, H_OB)), chord, distance)
+        return chord, distance
     H = H_OP @ H_PC[:, None] @ H_CB
     chord = np.linalg.norm((H[..., :3, :3] - H_OB[:, None, :3, :3]).reshape(*H.shape[:2], 9), axis=-1)
-    return 2 * np.arcsin(np.clip(chord / np.sqrt(8), 0, 1)), np.linalg.norm(H[..., :3, 3] - H_OB[:, None, :3, 3], axis=-1)
+    return chord, np.linalg.norm(H[..., :3, 3] - H_OB[:, None, :3, 3], axis=-1)
 
 
 def _combined(angle: Array, distance: Array, H_CB: Array) -> Array:

@@ -22,8 +22,10 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.surface import normals, sides
+from lpcal.surface import relief as body
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
@@ -144,6 +146,11 @@ def _areas(seen: Sight, depth: Array, n: Array) -> Array:
 def _received(at: Patches, of: Patches, relief: Relief) -> Array:
     """J (L, Q, 3) at patches, of the light of others."""
     found = np.zeros((len(of.signal), *at.x_C.shape))
+    if run := kernel("received"):
+        patches = [np.ascontiguousarray(one) for one in (at.x_C, at.n, of.x_C, of.n, of.area, of.signal.T)]
+        between = (*relief.front.shape, relief.front, relief.pixel_of_ray, STEPS, body.TOLERANCE, body.THICKNESS)
+        run(*found.shape[:2], len(of.x_C), *patches, found, *between, GRAZING, OFF)
+        return found
     for first in range(0, len(at.x_C), BLOCK):
         some = slice(first, first + BLOCK)
         e = of.x_C[None] - at.x_C[some, None]

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.surface.sight import Grey, Indices, light_vectors
 
@@ -125,16 +126,22 @@ class LightTable:
         k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
         f = t - k
         weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
+        z = np.exp(self.first + t * self.step)
+        square: Array = z[:, None] ** 2
+        nearest = np.rint(t).astype(int)
+        if run := kernel("cubic"):
+            (L, nodes, _, P), Q = self.B.shape, len(u)
+            B, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
+            run(L, nodes, P, Q, self.B, self.doubt, k, nearest, np.stack(weights), square, np.ascontiguousarray(pixels, np.int64), B, doubt)
+            return B, doubt
         total = np.zeros((len(u), len(self.B), 3))
         for j, weight in enumerate(weights):
             total += self.B[:, k + j - 1, :, pixels] * weight[:, None, None]
-        z = np.exp(self.first + t * self.step)
-        square: Array = z[:, None] ** 2
-        return np.moveaxis(total, 0, 1) / square, self.doubt[:, np.rint(t).astype(int), pixels]
+        return np.moveaxis(total, 0, 1) / square, self.doubt[:, nearest, pixels]
 
     def at_pixels(self, some: Indices) -> LightTable:
         """The table on some of the pixels."""
-        return LightTable(self.first, self.step, self.B[..., some], self.doubt[..., some])
+        return LightTable(self.first, self.step, np.take(self.B, some, axis=-1), np.take(self.doubt, some, axis=-1))
 
     def holds(self, u: Array) -> Mask:
         """Whether log depths lie in the table."""

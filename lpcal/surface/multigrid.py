@@ -7,12 +7,14 @@ multigrid); Braess 1995, Computing 55 (over-correction).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Indices
 
 COARSEST = 200
@@ -48,11 +50,13 @@ def aggregates(rows: Indices, columns: Indices) -> list[Any]:
 
 def solve(A: Any, right: Array, start: Array, prolongations: list[Any], *, precision: float = 1e-6, most: int = 200) -> Array:
     """x (P,) with ``A x = right``, from `start`, to a relative residual of `precision`."""
+    if run := kernel("multigrid"):
+        return _solve_compiled(run, A, right, start, prolongations, precision, most)
     levels = _levels(A, prolongations)
     coarsest = _factor(levels[-1].A) if levels[-1].A.shape[0] <= 4 * COARSEST else None
     x = start.copy()
     residual = right - A @ x
-    size = np.linalg.norm(right - A @ np.full_like(x, x.mean())) + 1e-300
+    size = _size(A, right, x)
     direction, before = np.zeros_like(x), 1.0
     for step in range(most):
         if np.linalg.norm(residual) <= precision * size:
@@ -65,6 +69,39 @@ def solve(A: Any, right: Array, start: Array, prolongations: list[Any], *, preci
         x += length * direction
         residual -= length * image
         before = now
+    return x
+
+
+def _size(A: Any, right: Array, x: Array) -> float:
+    """What a residual is measured by: that of the mean of x everywhere."""
+    return float(np.linalg.norm(right - A @ np.full_like(x, x.mean())) + 1e-300)
+
+
+def _solve_compiled(
+    run: Callable[..., None], A: Any, right: Array, start: Array, prolongations: list[Any], precision: float, most: int
+) -> Array:
+    """The same by the kernels, on the levels' arrays laid one behind the other."""
+    from scipy import sparse
+
+    set_up = kernel("hierarchy")
+    assert set_up is not None
+    sizes = np.array([A.shape[0], *(P.shape[1] for P in prolongations)], np.int64)
+    parents = np.concatenate([np.zeros(0, np.int64), *(P.indices for P in prolongations)]).astype(np.int64)
+    slot, rows = len(A.data), int(sizes.sum())
+    starts, columns = np.empty(rows + len(sizes), np.int64), np.empty(slot * len(sizes), np.int64)
+    values, inverse = np.empty(slot * len(sizes)), np.empty(rows)
+    starts[: len(A.indptr)], columns[:slot], values[:slot] = A.indptr, A.indices, A.data
+    set_up(len(sizes), slot, sizes, parents, starts, columns, values, inverse, np.empty(3 * sizes[0], np.int64))
+    coarsest = None
+    if sizes[-1] <= 4 * COARSEST:
+        indptr, first = starts[-sizes[-1] - 1 :], slot * len(prolongations)
+        some = slice(first, first + indptr[-1])
+        coarsest = _factor(sparse.csr_array((values[some], columns[some], indptr), shape=(sizes[-1], sizes[-1])))
+    factor = np.zeros(0) if coarsest is None else np.ascontiguousarray(coarsest[0])
+    x, enough = np.array(start, float), precision * _size(A, right, start)
+    levels = (len(sizes), slot, sizes, parents, starts, columns, values, inverse)
+    work = np.empty(3 * rows + 4 * int(sizes[0]))
+    run(*levels, coarsest is not None, factor, np.ascontiguousarray(right, float), x, work, enough, most, DAMPING, OVER_CORRECTION)
     return x
 
 

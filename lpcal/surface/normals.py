@@ -19,6 +19,7 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Lit, Sight
 
 MODEL = 0.015
@@ -157,6 +158,10 @@ def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Arra
 def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
     """b (P, 3) of the three lights whose proposal the other candidates contradict least."""
     best, least = np.full(B.shape[1:], np.nan), np.full(B.shape[1], np.inf)
+    if run := kernel("best_three"):
+        own, others = (np.ascontiguousarray(one, float) for one in (B, signal)), np.ascontiguousarray(variance, float)
+        run(*signal.shape, *own, np.ascontiguousarray(usable), others, OUTLIER**2, lambert.SINGULAR, best)
+        return best
     crossed, weight = lambert.crosses(B), usable / variance
     for three in combinations(range(len(B)), 3):
         b = lambert.three_lights(B, signal, crossed, three)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Indices, Sight, powers
 
 TOLERANCE = 0.003
@@ -44,6 +45,10 @@ class Relief:
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
         """Whether the surface stands between points (N, 3) and (N, 3), tried at `steps` places."""
         found = np.zeros(len(start_C), bool)
+        if run := kernel("hidden"):
+            ends = (np.ascontiguousarray(end, float) for end in (start_C, end_C))
+            run(len(found), *ends, steps, *self.front.shape, self.front, self.pixel_of_ray, TOLERANCE, THICKNESS, found)
+            return found
         for k in range(steps):
             found |= self.holds(start_C + (k + 0.5) / steps * (end_C - start_C))
         return found
@@ -55,6 +60,10 @@ class Relief:
 
     def behind(self, y_C: Array) -> Array:
         """How far (N,) points (N, 3) lie behind the surface, by its depth; -1 where there is none."""
+        if run := kernel("behind"):
+            found = np.empty(len(y_C))
+            run(len(found), np.ascontiguousarray(y_C, float), *self.front.shape, self.front, self.pixel_of_ray, found)
+            return found
         column, row, inside = self.pixels(y_C)
         return np.asarray(np.where(inside, y_C[:, 2] / self.front[row, column] - 1, -1.0))
 

@@ -1,0 +1,20 @@
+/* The lens: radial polynomials, their quotient, and tangential terms. Twin: geometry/camera.py. */
+
+#include "kernel.h"
+
+/* Distorted place of a point of the plane, and the derivatives J (2, 2); lens: k1 k2 p1 p2 k3 k4 k5 k6. */
+static void distorted(const double point[2], const double lens[8], double found[2], double J[4]) {
+    double x = point[0], y = point[1], r2 = x * x + y * y, p1 = lens[2], p2 = lens[3];
+    double above = 1 + r2 * (lens[0] + r2 * (lens[1] + r2 * lens[4])), below = 1 + r2 * (lens[5] + r2 * (lens[6] + r2 * lens[7]));
+    double slope_above = lens[0] + r2 * (2 * lens[1] + 3 * lens[4] * r2), slope_below = lens[5] + r2 * (2 * lens[6] + 3 * lens[7] * r2);
+    double radial = above / below, slope = 2 * (slope_above - radial * slope_below) / below;
+    found[0] = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
+    found[1] = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
+    J[0] = radial + slope * x * x + 2 * p1 * y + 6 * p2 * x;
+    J[1] = J[2] = slope * x * y + 2 * p1 * x + 2 * p2 * y;
+    J[3] = radial + slope * y * y + 6 * p1 * y + 2 * p2 * x;
+}
+
+KERNEL void lpcal_distort(int64_t count, const double *plane, const double *lens, double *found, double *J) {
+    for (int64_t p = 0; p < count; p++) distorted(plane + 2 * p, lens, found + 2 * p, J + 4 * p);
+}

@@ -1,0 +1,83 @@
+"""Where the compiled kernels are, and how they are called.
+
+A library is named after its sources' digest: one that was built from other sources is never loaded. This file imports nothing but the
+standard library before a kernel is asked for, since the build runs it too.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import hashlib
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+FOLDER = Path(__file__).resolve().parent
+ENDING = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+SWITCH = "LPCAL_KERNELS"
+"""Environment variable: `numpy` leaves the library alone and lets the twins do all the work."""
+
+SIGNATURES = {
+    "behind": "i f i i f f f",
+    "best_three": "i i f f b f d d f",
+    "cluster": "i i f f f f d f f",
+    "cubic": "i i i i s s n n f f n f s",
+    "distort": "i f f f f",
+    "hierarchy": "i i n n n n f f n",
+    "hidden": "i f f i i i f f d d b",
+    "misses": "i i f f f f f f",
+    "received": "i i i f f f f f f f i i f f i d d d d",
+    "multigrid": "i i n n n n f f i f f f f d i d d",
+    "turns": "i i i f f n n f",
+    "weighted": "i i f f f d f f",
+}
+"""Of each kernel: d a number, i a whole one; contiguous arrays: f, s of doubles and singles, n of 64-bit integers, b of booleans."""
+
+
+def sources() -> list[Path]:
+    """The C files and what they include, in the order in which they are compiled."""
+    return sorted([*FOLDER.glob("*.c"), *FOLDER.glob("*.h")])
+
+
+def built() -> Path:
+    """Where the library of these sources is, if it was built."""
+    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources())).hexdigest()
+    return FOLDER / f"kernels-{digest[:16]}{ENDING}"
+
+
+def who_works() -> str:
+    """Who does the kernels' work, in a word or two."""
+    return "compiled" if built().exists() and os.environ.get(SWITCH) != "numpy" else "not compiled, numpy does their work"
+
+
+def kernel(name: str) -> Callable[..., None] | None:
+    """The compiled kernel of a name, which checks the types of what it is given; None where its twin has to do."""
+    return None if os.environ.get(SWITCH) == "numpy" else _loaded().get(name)
+
+
+@functools.cache
+def _loaded() -> dict[str, Callable[..., None]]:
+    """All kernels by name; none where there is no library."""
+    try:
+        library = ctypes.CDLL(os.fspath(built()))
+    except OSError:
+        return {}
+    kinds = _kinds()
+    found: dict[str, Callable[..., None]] = {}
+    for name, signature in SIGNATURES.items():
+        function = library[f"lpcal_{name}"]
+        function.restype = None
+        function.argtypes = [kinds[one] for one in signature.split()]
+        found[name] = function
+    return found
+
+
+def _kinds() -> dict[str, Any]:
+    import numpy as np
+
+    dtypes = {"f": np.float64, "s": np.float32, "n": np.int64, "b": np.bool_}
+    arrays: dict[str, Any] = {one: np.ctypeslib.ndpointer(dtype, flags="C_CONTIGUOUS") for one, dtype in dtypes.items()}
+    return {"d": ctypes.c_double, "i": ctypes.c_int64, **arrays}

@@ -1,0 +1,97 @@
+/* The light of a cluster of LEDs. Twin: geometry/led_cluster.py (cluster_field).
+
+   Exponential and logarithm are written out, without branches and without calls, so that compilers do several points at once. */
+
+#include "kernel.h"
+
+#define BLOCK 64
+#define LN2 0.693147180559945309417
+#define LN2_HIGH 6.93147180369123816490e-01 /* its first 32 bits, so that whole multiples are exact (fdlibm) */
+#define LN2_LOW 1.90821492927058770002e-10
+#define WHOLE 6755399441055744.0 /* 1.5 * 2^52: the lowest bits of a number plus this are the number's nearest whole one */
+#define LEAST (-708.0)           /* under this an exponential is no normal number any more: 0 */
+
+static inline uint64_t bits_of(double x) {
+    uint64_t u;
+    memcpy(&u, &x, sizeof u);
+    return u;
+}
+
+static inline double of_bits(uint64_t u) {
+    double x;
+    memcpy(&x, &u, sizeof x);
+    return x;
+}
+
+/* Of a normal positive number: exponent times ln 2, and 2 atanh((f - 1) / (f + 1)) of its fraction f about 1. */
+static inline double logarithm(double x) {
+    uint64_t u = bits_of(x);
+    double exponent = of_bits((u >> 52) | 0x4330000000000000u) - (4503599627370496.0 + 1023.0);
+    double fraction = of_bits((u & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    bool large = fraction > 1.4142135623730951;
+    fraction = large ? 0.5 * fraction : fraction;
+    exponent = large ? exponent + 1.0 : exponent;
+    double s = (fraction - 1.0) / (fraction + 1.0), z = s * s, sum = 1.0 / 21.0;
+    sum = sum * z + 1.0 / 19.0;
+    sum = sum * z + 1.0 / 17.0;
+    sum = sum * z + 1.0 / 15.0;
+    sum = sum * z + 1.0 / 13.0;
+    sum = sum * z + 1.0 / 11.0;
+    sum = sum * z + 1.0 / 9.0;
+    sum = sum * z + 1.0 / 7.0;
+    sum = sum * z + 1.0 / 5.0;
+    sum = sum * z + 1.0 / 3.0;
+    return exponent * LN2 + (2.0 * s + 2.0 * s * z * sum);
+}
+
+/* Of a number up to 0: a power of two times the Taylor series within half of ln 2. */
+static inline double exponential(double y) {
+    double within = y < LEAST ? LEAST : y, shifted = within * (1.0 / LN2) + WHOLE, whole = shifted - WHOLE;
+    double r = (within - whole * LN2_HIGH) - whole * LN2_LOW, sum = 1.0 / 6227020800.0;
+    sum = sum * r + 1.0 / 479001600.0;
+    sum = sum * r + 1.0 / 39916800.0;
+    sum = sum * r + 1.0 / 3628800.0;
+    sum = sum * r + 1.0 / 362880.0;
+    sum = sum * r + 1.0 / 40320.0;
+    sum = sum * r + 1.0 / 5040.0;
+    sum = sum * r + 1.0 / 720.0;
+    sum = sum * r + 1.0 / 120.0;
+    sum = sum * r + 1.0 / 24.0;
+    sum = sum * r + 1.0 / 6.0;
+    sum = sum * r + 0.5;
+    sum = sum * r + 1.0;
+    sum = sum * r + 1.0;
+    double scaled = of_bits(bits_of(sum) + (bits_of(shifted) << 52));
+    return y < LEAST ? 0.0 : scaled;
+}
+
+/* Directions d (count, 3) and irradiances E (count) of LEDs (leds) of place, axis and power at points x (count, 3). */
+KERNEL void lpcal_cluster(int64_t count, int64_t leds, const double *x, const double *place, const double *axis, const double *power,
+                          double m, double *d, double *E) {
+    double at[3][BLOCK], total[3][BLOCK];
+    for (int64_t first = 0; first < count; first += BLOCK) {
+        int64_t some = count - first < BLOCK ? count - first : BLOCK;
+        for (int64_t p = 0; p < BLOCK; p++)
+            for (int i = 0; i < 3; i++) {
+                at[i][p] = x[3 * (first + (p < some ? p : some - 1)) + i];
+                total[i][p] = 0.0;
+            }
+        for (int64_t k = 0; k < leds; k++) {
+            const double *from = place + 3 * k, *ahead = axis + 3 * k;
+            for (int p = 0; p < BLOCK; p++) {
+                double a = from[0] - at[0][p], b = from[1] - at[1][p], c = from[2] - at[2][p];
+                double r2 = a * a + b * b + c * c, r = sqrt(r2);
+                double cosine = -(a * ahead[0] + b * ahead[1] + c * ahead[2]) / r;
+                double lit = power[k] * exponential(m * logarithm(cosine > 1e-6 ? cosine : 1e-6)) / (r2 * r);
+                total[0][p] += a * lit;
+                total[1][p] += b * lit;
+                total[2][p] += c * lit;
+            }
+        }
+        for (int64_t p = 0; p < some; p++) {
+            double irradiance = sqrt(total[0][p] * total[0][p] + total[1][p] * total[1][p] + total[2][p] * total[2][p]);
+            for (int i = 0; i < 3; i++) d[3 * (first + p) + i] = total[i][p] / fmax(irradiance, 1e-300);
+            E[first + p] = irradiance;
+        }
+    }
+}

@@ -1,0 +1,180 @@
+"""The compiled kernels beside their twins in numpy: equal to rounding, and the same bytes from any number of threads."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from lpcal.geometry import camera, lambert, led_cluster, park, se3
+from lpcal.kernels import library
+from lpcal.kernels.library import SWITCH, kernel
+from lpcal.surface import bounce, multigrid, normals
+from lpcal.surface.coarse import LightTable
+from lpcal.surface.integrate import Grid, system
+from lpcal.surface.relief import Relief
+from lpcal.surface.surroundings import Patches
+
+PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
+
+
+def points(rng, count):
+    z = 0.3 + 0.05 * rng.random(count)
+    return np.stack([z * 0.9 * (rng.random(count) - 0.5), z * 0.7 * (rng.random(count) - 0.5), z], axis=1)
+
+
+def relief(rng) -> Relief:
+    front = 0.3 + 0.02 * rng.random((60, 80))
+    front[:10] = np.inf
+    return Relief(front, PIXEL_OF_RAY)
+
+
+def patches(rng, count) -> Patches:
+    return Patches(points(rng, count), lambert.unit(rng.normal(size=(count, 3)))[0], 1e-5 * rng.random(count), rng.random((5, count)))
+
+
+def hidden(rng):
+    return relief(rng).hidden(points(rng, 4000), 1.2 * points(rng, 4000), 24).astype(float)
+
+
+def behind(rng):
+    return relief(rng).behind(np.concatenate([points(rng, 4000), [[0.0, 0.0, 0.0], [1e30, 0.0, 1.0], [np.nan, 0.0, 1.0]]]))
+
+
+def received(rng):
+    return bounce._received(patches(rng, 200), patches(rng, 150), relief(rng))
+
+
+def shading(rng, lights=6, pixels=800):
+    B = rng.normal(size=(lights, pixels, 3))
+    B[:, :50] = B[:1, :50]  # lights of one direction span nothing
+    signal = lambert.predicted(B, rng.normal(size=(pixels, 3))) + 0.02 * rng.normal(size=(lights, pixels))
+    return signal, B, rng.random((lights, pixels)) < 0.8, 4e-4 * (1 + rng.random((lights, pixels)))
+
+
+def weighted(rng):
+    signal, B, usable, variance = shading(rng)
+    b, inverse = lambert.weighted(B, signal, usable / variance)
+    return np.concatenate([b.ravel(), inverse.ravel()])
+
+
+def best_three(rng):
+    return np.concatenate([normals._best_three(*shading(rng, lights)).ravel() for lights in (3, 5, 8)])
+
+
+def cubic(rng):
+    table = LightTable(np.log(0.1), 0.05, rng.random((5, 40, 3, 700), np.float32), rng.random((5, 40, 700), np.float32))
+    some = rng.permutation(700)[:500]
+    B, doubt = table.at(np.log(0.08) + 2.5 * rng.random(500), some)
+    of_some = table.at_pixels(some).at(np.full(250, -1.0), np.arange(500)[::2])[0]
+    return np.concatenate([B.ravel(), doubt.ravel(), of_some.ravel()])
+
+
+def solved(rng):
+    y, x = np.indices((90, 100))
+    grid = Grid.of((x - 50) ** 2 + (y - 45) ** 2 < 40**2 + 200 * np.sin(x))
+    weight = rng.random(len(grid.a)) ** 4 + 1e-6
+    pixels = len(grid.rows)
+    A, right = system(grid, weight, rng.normal(size=len(weight)), np.full(pixels, 1e-3), rng.normal(size=pixels))
+    few = multigrid.solve(A[:150, :150], right[:150], np.zeros(150), [], precision=1e-13)  # one level
+    return np.concatenate([multigrid.solve(A, right, np.zeros(pixels), grid.prolongations, precision=1e-12), few])
+
+
+def cluster(rng):
+    axes = led_cluster.led_axes(19)
+    x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
+    power = rng.uniform(0.9, 1.1, 19)
+    found = [
+        led_cluster.cluster_field(at, 0.01 * axes, axes, power, led_cluster.exponent(led_cluster.HALF_POWER_RAD)) for at in (x_L, x_L[:5])
+    ]
+    return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
+
+
+def rotations(rng, *shape):
+    return se3.exp(np.concatenate([rng.normal(size=(*shape, 3)), np.zeros((*shape, 3))], axis=-1))
+
+
+def turns(rng):
+    one, other = (rotations(rng, 40, 9)[..., :3, :3] for _ in range(2))
+    one[0] = one[0, 0]  # no turn at all
+    other[1, 0] = other[1, 1] @ np.diag([1.0, -1.0, -1.0])  # half a turn
+    return np.concatenate([park._rotations(one, other).ravel(), park._rotations(one[3], other[3]).ravel()])
+
+
+def misses(rng):
+    return np.concatenate([each.ravel() for each in park._misses(*(rotations(rng, count) for count in (30, 30, 20, 20)))])
+
+
+def distort(rng):
+    found, J = camera._distort_with_jacobian(rng.normal(size=(2, 500, 2)), np.array([-0.3, 0.12, 1e-3, -2e-3, 0.01, 0.02, 0.03, 0.001]))
+    return np.concatenate([found.ravel(), J.ravel()])
+
+
+CASES: dict[Callable, tuple[float, set[str]]] = {
+    hidden: (0.0, {"hidden"}),
+    behind: (1e-13, {"behind"}),
+    received: (1e-13, {"received"}),
+    weighted: (1e-9, {"weighted"}),
+    best_three: (1e-9, {"best_three"}),
+    cubic: (1e-14, {"cubic"}),
+    cluster: (1e-12, {"cluster"}),
+    turns: (1e-10, {"turns"}),
+    misses: (1e-13, {"misses"}),
+    distort: (1e-13, {"distort"}),
+    solved: (1e-8, {"hierarchy", "multigrid"}),
+}
+"""Each kernel's work, the share of the largest value by which the twin may differ (of badly conditioned sums rounding makes more), and the
+kernels that it calls."""
+
+
+def test_every_kernel_is_held_against_its_twin():
+    assert set.union(*(names for _, names in CASES.values())) == set(library.SIGNATURES)
+
+
+@pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
+@pytest.mark.filterwarnings("ignore:(divide|invalid|overflow)")
+def test_a_kernel_does_what_its_twin_does(work, monkeypatch):
+    assert all(kernel(name) for name in CASES[work][1]), "the library is not built: uv sync --reinstall-package lpcal"
+    compiled = work(np.random.default_rng(3))
+    monkeypatch.setenv(SWITCH, "numpy")
+    assert kernel("hidden") is None
+    twin = work(np.random.default_rng(3))
+    np.testing.assert_allclose(compiled, twin, rtol=0, atol=CASES[work][0] * np.nanmax(np.abs(twin)))
+    assert np.isfinite(twin).mean() > 0.7
+    assert np.ptp(twin[np.isfinite(twin)]) > 0
+
+
+@pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
+def test_threads_change_no_byte(work):
+    with ThreadPoolExecutor(4) as pool:
+        found = {one.tobytes() for one in pool.map(lambda _: work(np.random.default_rng(3)), range(4))}
+    assert found == {work(np.random.default_rng(3)).tobytes()}
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda a: (4, a.astype(np.float32), a, 1),
+        lambda a: (4, a[:, ::2], a, 1),
+        lambda a: (4.5, a, a, 1),
+        lambda a: (4, a.tolist(), a, 1),
+    ],
+    ids=["type", "strides", "number", "list"],
+)
+def test_what_a_kernel_is_given_is_checked(wrong):
+    found = np.zeros(4, bool)
+    with pytest.raises(ctypes.ArgumentError):
+        kernel("hidden")(*wrong(np.ones((4, 6))), 2, 2, np.ones((2, 2)), PIXEL_OF_RAY, 0.1, 0.2, found)
+
+
+def test_a_library_of_other_sources_is_not_loaded(tmp_path, monkeypatch):
+    for path in library.sources():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / library.built().name).write_bytes(library.built().read_bytes())
+    monkeypatch.setattr(library, "FOLDER", tmp_path)
+    assert library._loaded.__wrapped__()
+    (tmp_path / "relief.c").write_text("/* another */", encoding="utf-8")
+    assert not library._loaded.__wrapped__()
