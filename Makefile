@@ -2,8 +2,8 @@
 .PHONY: check test test-all bench docs demo
 
 check:            ## format, lint, types, import rules, frame letters
-	uv run ruff format --check lpcal tests tools
-	uv run ruff check lpcal tests tools
+	uv run ruff format --check lpcal tests tools examples
+	uv run ruff check lpcal tests tools examples
 	uv run mypy
 	uv run lint-imports
 	uv run python tools/frame_letters.py lpcal

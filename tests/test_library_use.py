@@ -296,3 +296,14 @@ VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.
 def test_what_cannot_be_is_an_error_of_the_library(call, error: type, words: str) -> None:
     with pytest.raises(error, match=words):
         call()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_exact_poses_are_no_step(seed: int) -> None:
+    session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), seed=seed)
+    truth = session.board_truth()
+    rng = np.random.default_rng(seed)
+    for _ in range(4):
+        rounded = truth.H_CB + 1e-15 * rng.standard_normal(truth.H_CB.shape) * [[1], [1], [1], [0]]
+        found = lpcal.solve_handeye(truth.H_OP, rounded)
+        assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 1e-9

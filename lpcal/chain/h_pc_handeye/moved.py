@@ -26,6 +26,8 @@ NEEDED = 3.5
 """How many times smaller the mean square misplacement must be in two parts than in one; see tools/step_threshold.py."""
 PLACES = 24
 """Places in a long session at which a step is looked for first; then every place near the likeliest."""
+EXACT_M = 1e-6
+"""Metres of misplacement up to which nothing moved: no mocap measures a micrometre, and poses that are exact scatter by rounding alone."""
 BOARD = "the board"
 TRIM = 0.9
 """Share of the views that count, those that fit best: a blurred or flipped one is no step."""
@@ -77,7 +79,7 @@ def find_step(H_OP: Array, H_CB: Array, images: list[str], *, needed: float = NE
     at = min(tried, key=lambda place: tried[place])
     parted = tried[at]
     together = _trimmed(_squares(H_OP, H_CB, *whole))
-    if not together > needed * parted:
+    if together < EXACT_M**2 or not together > needed * parted:
         return None
     what, H = _which(H_OP, H_CB, at)
     step = Step(
