@@ -194,6 +194,18 @@ def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(
     assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
 
 
+@pytest.mark.parametrize(("place", "ours"), [((15, 25, 25, 35), True), ((8, 14, 22, 34), True), ((2, 8, 40, 52), False)])
+def test_other_matter_is_the_objects_where_the_object_lies_beside_it(place: tuple[int, int, int, int], ours: bool) -> None:
+    """Dark paint within the object, and at its rim; and a thing of its own before the wall."""
+    labels = np.full((40, 60), 1)
+    labels[8:30, 20:45] = 0
+    top, bottom, left, right = place
+    labels[top:bottom, left:right] = 3
+    true = (labels == 0) | (ours & (labels == 3))
+    found = background.object_of(labels, [WALL], view_of(np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))))
+    assert iou(found, true) > 0.97
+
+
 def test_what_lies_beyond_the_box_is_not_the_object() -> None:
     labels = np.full((40, 60), 1)
     labels[10:25, 10:20], labels[10:30, 35:50] = 0, 0

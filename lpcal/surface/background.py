@@ -24,7 +24,8 @@ SMALLEST_PIECE = 0.08
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
 NO_CREASE, MOSTLY, BESIDE = 0.97, 0.5, 2
-"""Cosine (14 degrees) of normals that go on smoothly, share of a plane's edge along which they do, and its width in coarse pixels."""
+"""Cosine (14 degrees) of normals that go on smoothly, share of an edge along which what lies beside it decides, and its width in coarse
+pixels."""
 FEWEST_BESIDE = 30
 """Coarse pixels beside a plane from which it is asked whether the surface goes on."""
 LEAST_SEEN_THROUGH = 6
@@ -72,13 +73,14 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
 
 
 def background_of(labels: Labels, planes: list[Array], view: View) -> Mask:
-    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter.
+    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter that lies among these.
 
-    A piece within the object is seen through it where it lies in the hindmost of the planes that reach the border.
+    A piece within the object is seen through it where it lies in the hindmost of the planes that reach the border. Other matter that has
+    the object beside it is a part of the object of another albedo.
     """
     from scipy import ndimage
 
-    found = labels > len(planes)
+    found = labels == len(planes) + 1
     rim = rim_of(labels.shape)
     if view.allowed is not None:
         found, rim = found | ~view.allowed, rim | ~view.allowed
@@ -96,10 +98,23 @@ def background_of(labels: Labels, planes: list[Array], view: View) -> Mask:
         for one in np.setdiff1d(np.flatnonzero(size >= LEAST_SEEN_THROUGH), [0, *ours, *np.unique(piece[rim])]):
             if any(q is wall for wall in walls) and _seen_through(view, q, (piece == one).ravel(), walls):
                 found |= piece == one
+    found |= _among(labels == len(planes) + 2, found)
     for at in view.points:
         same, _ = ndimage.label(labels == labels[at])
         found &= same != same[at]
     return np.asarray(found)
+
+
+def _among(matter: Mask, found: Mask) -> Mask:
+    """The connected components of `matter` (rows, columns) that lie mostly among what was `found` to be background."""
+    from scipy import ndimage
+
+    piece, count = ndimage.label(matter)
+    kept = np.zeros(count + 1, bool)
+    for one in range(1, count + 1):
+        beside = ndimage.binary_dilation(piece == one, iterations=BESIDE) & ~matter
+        kept[one] = not beside.any() or found[beside].mean() > MOSTLY
+    return np.asarray(kept[piece])
 
 
 def _goes_on(own: Mask, q: Array, labels: Labels, n_free: Array) -> bool:
