@@ -8,7 +8,7 @@ check:            ## format, lint, types, import rules, frame letters
 	uv run lint-imports
 	uv run python tools/frame_letters.py lpcal
 
-test:             ## the default tests, some five minutes on two cores
+test:             ## the default tests, some six minutes on two cores
 	uv run pytest
 
 test-all:         ## the slow ones too

@@ -146,12 +146,12 @@ def test_labels_are_smooth_and_end_at_edges() -> None:
     assert np.mean(layers.cheapest(cost, *layers.boundary(bright)) == true) > 0.95
 
 
-def view_of(n_free: np.ndarray, **hints: object) -> View:
+def view_of(n_free: np.ndarray, allowed: np.ndarray | None = None, points: tuple[tuple[int, int], ...] = ()) -> View:
     """A view of which nothing is known but the normals (rows, columns, 3) of matter of any normal."""
     pixels = n_free[..., 0].size
     image = Coarse(np.zeros((0, pixels)), np.zeros((0, pixels)), np.zeros((0, pixels), bool), np.ones((pixels, 3)), n_free.shape[:2], 1)
     no_light = LightTable(0.0, 1.0, np.zeros((0, 1, 3, pixels)), np.zeros((0, 1, pixels)))
-    return View(image, no_light, Sweep(np.zeros(1), n_free.reshape(1, -1, 3), np.zeros((1, pixels))), **hints)  # type: ignore[arg-type]
+    return View(image, no_light, Sweep(np.zeros(1), n_free.reshape(1, -1, 3), np.zeros((1, pixels))), allowed, points)
 
 
 def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> None:

@@ -99,14 +99,14 @@ def find_sphere(
     used = in_use.sensor
     plain = to_radiance(raw, used)
     refuse_auto_exposure(plain, raw, used)
-    told = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, used))
+    changes = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, used))
     own = [f"{raw.name}: sensor: {in_use.document()['in_words']}"] if {BY_CAPTURE, BY_LARGEST} & {*in_use.said_by.values()} else []
     radiance = with_short_exposures(plain, raw, used) if kind == "matte" else plain
     hint = None if hint_px is None else given.shaped(hint_px, (3,), "hint_px")
     view = observe_sphere(radiance, Expected(kind, radius_m, hint, distance_m), camera)
     return replace(
         view,
-        notes=(*own, *(f"sphere {raw.name}: {note}" for note in told), *view.notes),
+        notes=(*own, *(f"sphere {raw.name}: {note}" for note in changes), *view.notes),
         image_size=(raw.images.shape[2], raw.images.shape[1]),
     )
 

@@ -125,7 +125,7 @@ class _Window:
 
     @cached_property
     def _parts(self) -> list[tuple[Array, Array, Array]]:
-        """Of each offset: places from it (n,), the profiles there without their means (K, n), and the sums of their squares (K,)."""
+        """The places relative to each offset (n,), the profiles there without their means (K, n), and the sums of their squares (K,)."""
         found = []
         for offset in self.offsets:
             near = (self.s - offset >= -self.inner) & (self.s - offset <= self.outer)
