@@ -19,31 +19,30 @@ from lpcal.surface import regions
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
-    "": 2.32,
-    "frame": -0.979,
-    "plane": 1.71,
-    "frame, a plane": -6.38,
-    "spared": -0.172,
-    "off centre": -3.46,
-    "planes": 0.272,
-    "facing down": 1.56,
-    "bright": 0.355,
-    "nothing beside": -1.14,
-    "two sides": -1.69,
-    "before": 0.917,
-    "free beside, a plane": 2.51,
-    "edge, a plane": -2.84,
+    "": 3.35,
+    "frame": -0.717,
+    "plane": 2.77,
+    "frame, a plane": -6.8,
+    "spared": -0.188,
+    "off centre": -2.86,
+    "facing down": 1.51,
+    "bright": 0.295,
+    "nothing beside": -1.55,
+    "two sides": -1.55,
+    "before": 0.673,
+    "free beside, a plane": 1.77,
+    "edge, a plane": -3.61,
 }
 """Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
 BESIDE = {
-    "": 0.494,
+    "": 0.536,
     "itself": 0.331,
-    "about": 0.972,
-    "alike in the room's light": 0.288,
-    "alike in the lights', a plane": 0.215,
-    "frame of the whole plane": -2.65,
-    "facing the camera, a plane": 0.353,
-    "widely about, of any normal": -0.356,
+    "about": 0.924,
+    "alike in the room's light": 0.433,
+    "alike in the lights', a plane": 0.21,
+    "frame of the whole plane": -2.97,
+    "facing the camera, a plane": 0.381,
+    "widely about, of any normal": -0.193,
 }
 """Weights of what the regions about it say, likewise."""
 SMALLEST_PIECE = 0.08

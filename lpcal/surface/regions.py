@@ -174,7 +174,6 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
         "frame, a plane": np.sqrt(frame) * plane,
         "spared": regions.mean(pictures.spared),
         "off centre": np.hypot(2 * regions.mean(row) / rows - 1, 2 * regions.mean(column) / columns - 1),
-        "planes": np.full(len(plane), float(count)),
         "facing down": regions.mean(pictures.normals[..., 1]),
         "bright": regions.mean(pictures.bright) - np.median(pictures.bright[rim]),
         "nothing beside": regions.outline(along, regions.label == count + 1),
