@@ -82,7 +82,10 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
 
 
 def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judged:
-    """What is the object, from labels (rows, columns) and their costs (layers, rows, columns)."""
+    """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
+
+    Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
+    """
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels)
     probable = odds_of(pictures, found)
@@ -91,7 +94,8 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
     whole = Regions.of(labels)
     for at in view.points:
         odds[whole.number == whole.number[at]] = 1.0
-    behind = odds <= 0.5
+    likeliest = float(odds.max())
+    behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points))
 
 
