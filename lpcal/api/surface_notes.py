@@ -11,8 +11,8 @@ from lpcal.surface.convention import mirrored
 
 VAGUE_DEG = 6.0
 """Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so ill known serves nobody."""
-IN_DOUBT = 0.5
-"""Odds of being wrong from which a mask is spoken of."""
+IN_DOUBT = 0.33
+"""Odds of being wrong from which a mask is spoken of: a third, so that two of three wrong ones are named and one in seven right ones."""
 
 
 def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:

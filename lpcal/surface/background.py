@@ -19,32 +19,36 @@ from lpcal.surface import regions
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
-    "": 3.35,
-    "frame": -0.717,
-    "plane": 2.77,
-    "frame, a plane": -6.8,
-    "spared": -0.188,
-    "off centre": -2.86,
-    "facing down": 1.51,
-    "bright": 0.295,
-    "nothing beside": -1.55,
-    "two sides": -1.55,
-    "before": 0.673,
-    "free beside, a plane": 1.77,
-    "edge, a plane": -3.61,
+    "": 1.84,
+    "frame": -3.09,
+    "plane": 3.23,
+    "frame, a plane": -5.14,
+    "spared": -0.166,
+    "off centre": -1.84,
+    "facing down": 1.41,
+    "size": 0.57,
+    "size, of any normal": 4.35,
+    "dark frame": 2.42,
+    "nothing beside": -3.02,
+    "two sides": -1.41,
+    "before": 0.592,
+    "free beside, a plane": 2.19,
+    "edge, a plane": -3.44,
 }
 """Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
 BESIDE = {
-    "": 0.536,
-    "itself": 0.331,
-    "about": 0.924,
-    "alike in the room's light": 0.433,
-    "alike in the lights', a plane": 0.21,
-    "frame of the whole plane": -2.97,
-    "facing the camera, a plane": 0.381,
-    "widely about, of any normal": -0.193,
+    "": 0.513,
+    "itself": 0.365,
+    "about": 0.878,
+    "alike in the room's light": 0.429,
+    "alike in the lights', a plane": 0.344,
+    "frame of the whole plane": -3.09,
+    "facing the camera, a plane": 0.441,
+    "widely about, of any normal": -0.364,
 }
 """Weights of what the regions about it say, likewise."""
+RIM = 2
+"""Coarse pixels at the image's border, of which those without light say how much of the picture shows nothing."""
 SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
@@ -77,7 +81,7 @@ class Judged:
 def rim_of(shape: tuple[int, ...]) -> Mask:
     """The coarse pixels (rows, columns) at the border."""
     rim = np.ones(shape, bool)
-    rim[regions.RIM : -regions.RIM, regions.RIM : -regions.RIM] = False
+    rim[RIM:-RIM, RIM:-RIM] = False
     return rim
 
 

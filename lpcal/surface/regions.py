@@ -21,8 +21,6 @@ BEFORE = 0.02
 """Natural logarithm of a ratio of depths from which a region stands before the plane that holds most of the frame."""
 FEWEST = 6
 """Coarse pixels from which matter of any normal has a depth of its own: that at which its pixels together cost least."""
-RIM = 2
-"""Coarse pixels at the image's border whose median brightness the regions are compared with."""
 ALIKE_ROOM, ALIKE_BRIGHT = 0.1, 0.15
 """Natural logarithms of a step of the room's light and of the lights' that halve, or nearly so, how alike two regions are."""
 ABOUT = (0.05, 0.125)
@@ -164,8 +162,7 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
     count = len(pictures.planes)
     plane = ((regions.label > 0) & (regions.label <= count)).astype(float)
     frame = regions.frame()
-    rim = np.ones(regions.number.shape, bool)
-    rim[RIM:-RIM, RIM:-RIM] = False
+    size = np.sqrt(regions.area / regions.number.size)
     row, column = np.indices(regions.number.shape, float)
     along = np.ones(len(regions.pairs))
     return {
@@ -175,7 +172,9 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
         "spared": regions.mean(pictures.spared),
         "off centre": np.hypot(2 * regions.mean(row) / rows - 1, 2 * regions.mean(column) / columns - 1),
         "facing down": regions.mean(pictures.normals[..., 1]),
-        "bright": regions.mean(pictures.bright) - np.median(pictures.bright[rim]),
+        "size": size,
+        "size, of any normal": size * (regions.label == 0),
+        "dark frame": np.full(len(plane), frame[regions.label == count + 1].sum()),
         "nothing beside": regions.outline(along, regions.label == count + 1),
         "two sides": (regions.sides() >= 2).astype(float),
         "before": _before(pictures, regions, frame, plane > 0),
