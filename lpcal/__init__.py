@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from lpcal.api.lights import assemble_calibration as assemble_calibration
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
+    from lpcal.api.many import reconstruct_many as reconstruct_many
     from lpcal.api.mocap_formats import register_mocap as register_mocap
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
@@ -64,6 +65,7 @@ _HOME = {
     ),
     "api.handeye": ("solve_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
+    "api.many": ("reconstruct_many",),
     "api.mocap_formats": ("register_mocap",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
