@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from lpcal.api.boards import calibrate_camera as calibrate_camera
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
+    from lpcal.api.comparison import compare_calibrations as compare_calibrations
     from lpcal.api.evaluation import evaluate as evaluate
     from lpcal.api.files import read_calibration as read_calibration
     from lpcal.api.files import read_camera as read_camera
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "api.boards": ("calibrate_camera", "find_boards", "locate_boards"),
+    "api.comparison": ("compare_calibrations",),
     "api.evaluation": ("evaluate",),
     "api.files": (
         "read_calibration",

@@ -45,12 +45,12 @@ def reconstruct_many(
         Without an executor: how many processes; 1: one capture after the other, in this one.
     progress : callable, optional
         Called as ``progress("captures", done, total)``.
-    **options
+    options : keywords
         As those of `reconstruct`, for every capture.
 
-    Yields
-    ------
-    Surface or LpcalError
+    Returns
+    -------
+    iterator of Surface or LpcalError
         In the captures' order: the surface, or why there is none; an InputError where its worker was lost three times.
 
     Raises

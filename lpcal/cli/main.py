@@ -32,6 +32,7 @@ COMMANDS = {
     "reconstruct": "normals, albedo, depth and mesh of a capture",
     "integrate": "depth and mesh of a normal map from elsewhere",
     "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
+    "diff": "has my rig moved: two calibrations, light by light, each change with its sigma",
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
