@@ -176,6 +176,24 @@ def test_a_package_that_is_not_installed_is_named_with_its_extra(monkeypatch):
         engine_of("dask", 2)
 
 
+def test_a_folder_of_rigs_is_run_rig_by_rig_and_a_bad_one_is_named(lpcal, tmp_path):
+    panel = "lpcal: 1\ncamera: {cameramodel: camera.yaml}\n"
+    panel += "lights: {L0: {azimuth: 0 deg, joint_angle: 30 deg, disc_spacer: 29 mm, blob_spacer: 40 mm}}\n"
+    panel += "panel: {disc_radius: 60 mm, joint: 15 mm, blob: 30 mm}\n"
+    camera = library.Camera((640, 480), "opencv4", np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]), np.zeros(4))
+    for name in ("a", "b", "c"):
+        (tmp_path / "site" / name).mkdir(parents=True)
+        (tmp_path / "site" / name / "panel.yaml").write_text(panel if name != "b" else "lpcal: 1\nboard: 5\n")
+        library.write_camera(tmp_path / "site" / name / "camera.yaml", camera)
+    code, told, warned = lpcal("run", "site", cwd=tmp_path)
+    assert code == 3, warned
+    assert "site/b was not run to its end" in warned
+    for name in ("a", "c"):
+        assert (tmp_path / "site" / name / "calib/calibration.yaml").is_file(), told
+    assert lpcal("run", "site/a", "site/c", cwd=tmp_path)[0] == 0
+    assert lpcal("run", "site/a/calib", cwd=tmp_path)[0] == 3
+
+
 @dataclass(frozen=True)
 class Item:
     """What a worker is to do: answer, die so many times, or wait."""
