@@ -38,6 +38,7 @@ COMMANDS = {
     "report": "calib/report.html, one file, opens offline",
     "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
+    "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
