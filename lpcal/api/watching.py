@@ -13,11 +13,12 @@ from typing import Literal
 import numpy as np
 
 from lpcal.detect.board import find_board
+from lpcal.detect.board_glance import glance
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board
 
 WIDTH = 480
-"""Pixels across at which the board is looked for: a tenth of a second on one core."""
+"""Pixels across at which the board is looked for: a glance takes some ten milliseconds, a search a tenth of a second."""
 CELLS = (5, 4)
 """Cells across and down that corners are counted by: those of the stations that lpcal itself simulates."""
 SATURATED = 0.002
@@ -61,16 +62,19 @@ class Session:
     """Corners a cell, rows from the top."""
 
     def judge_board(self, name: str, pixels: Image, *, look: bool = True) -> Seen:
-        """An image that should show the board; `look`: whether there is time to search for it."""
+        """An image that should show the board; `look`: whether there is time to search where a glance does not see it."""
         words, tone = exposure_words(pixels)
-        if not look or self.board is None:
-            return self._noted(Seen(name, "board", tone, (*words, "not searched: too many at once")))
+        if self.board is None:
+            return self._noted(Seen(name, "board", tone, words or ("exposure is right",)))
         small = _shrunk(_grey(pixels))
-        view = find_board(small, self.board)
-        if view.corners_px is None:
-            return self._noted(Seen(name, "board", "poor", (*words, view.why or "no board found")))
-        share = np.asarray(view.corners_px) / [small.shape[1], small.shape[0]]
-        sharp = _sharpness(small, np.asarray(view.corners_px))
+        corners_px, why = glance(small, self.board), "no board at a glance; too many at once to search"
+        if corners_px is None and look:
+            view = find_board(small, self.board)
+            corners_px, why = view.corners_px, view.why or "no board found"
+        if corners_px is None:
+            return self._noted(Seen(name, "board", "poor" if look else "fair", (*words, why)))
+        share = np.asarray(corners_px) / [small.shape[1], small.shape[0]]
+        sharp = _sharpness(small, np.asarray(corners_px))
         before = [one.sharpness for one in self.seen if np.isfinite(one.sharpness)]
         if len(before) > 2 and sharp < BLURRED * float(np.median(before)):
             words, tone = (*words, "blurred: hold still, or a shorter exposure"), "fair"
