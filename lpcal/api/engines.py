@@ -148,8 +148,9 @@ def in_words(why: BaseException) -> str:
     name = type(why).__name__
     if name == "KilledWorker":
         return "the workers that tried it were killed, or ran out of memory, or their machines went"
-    last = (str(why).strip().splitlines() or [""])[-1]
-    return f"{name}: {last}" if last else name
+    lines = str(why).strip().splitlines() or [""]
+    said = lines[-1] if lines[0].rstrip().endswith(":") else lines[0]
+    return f"{name}: {said}" if said else name
 
 
 def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) -> Engine:

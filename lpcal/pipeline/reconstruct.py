@@ -22,6 +22,7 @@ from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import plain, sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
+from lpcal.formats.zarr_files import is_zarr
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
@@ -173,17 +174,32 @@ def peak_memory_mb() -> int | None:
 
 def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
     """sha256 of the calibration and of every file of the capture, by name."""
-    files = [path for path in sorted(task.capture.iterdir()) if path.is_file()]
-    return {calibration_path.name: sha256(calibration_path)} | {path.name: sha256(path) for path in files}
+    files = {path.relative_to(task.capture).as_posix(): sha256(path) for path in _files_of(task.capture)}
+    return {calibration_path.name: sha256(calibration_path)} | files
+
+
+def _files_of(capture: Path) -> list[Path]:
+    """The files of a capture: those in its folder; of one in Zarr every chunk."""
+    return [path for path in sorted(capture.rglob("*") if is_zarr(capture) else capture.iterdir()) if path.is_file()]
 
 
 def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
     """A digest of all that a surface is made from: lpcal's version, the files' contents, and all that is wished."""
-    files = [calibration_path, *(path for path in sorted(task.capture.iterdir()) if path.is_file())]
+    files = [calibration_path, *_files_of(task.capture)]
     files += [] if wishes.mask in MASK_WORDS else [Path(wishes.mask)]
-    said = [__version__, task.name, [[path.name, sha256(path)] for path in files], plain(asdict(replace(wishes, mask="")))]
+    said = [
+        __version__,
+        task.name,
+        [[_name_in(task.capture, path), sha256(path)] for path in files],
+        plain(asdict(replace(wishes, mask=""))),
+    ]
     said += [wishes.mask] if wishes.mask in MASK_WORDS else []
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+
+
+def _name_in(capture: Path, path: Path) -> str:
+    """A file's path in the capture; its name where it lies elsewhere."""
+    return path.relative_to(capture).as_posix() if path.is_relative_to(capture) else path.name
 
 
 def standing(task: Task, calibration_path: Path, wishes: Wishes) -> dict[str, Any] | None:
