@@ -9,7 +9,7 @@ import pytest
 
 import lpcal as library
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.zarr_files import MAPS, tiles, write_capture_zarr, write_surface_zarr
+from lpcal.formats.zarr_files import MAPS, tiles, write_capture_zarr
 from many_captures import collection, dome
 
 zarr = pytest.importorskip("zarr")
@@ -53,7 +53,7 @@ def test_tiles_are_the_image_piece_by_piece(tmp_path):
 def test_a_surface_is_written_by_tiles(tmp_path):
     (folder,) = collection(tmp_path, 1)
     surface = library.reconstruct(library.read_capture(folder, dome()), dome())
-    write_surface_zarr(tmp_path / "s.zarr", surface)
+    library.write_surface(tmp_path / "s.zarr", surface)
     group = zarr.open_group(tmp_path / "s.zarr", mode="r")
     assert set(MAPS) == set(group.array_keys())
     assert np.array_equal(group["normals"][...], surface.normals, equal_nan=True)
