@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from lpcal.api.boards import calibrate_camera as calibrate_camera
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
+    from lpcal.api.comparison import compare_calibrations as compare_calibrations
     from lpcal.api.evaluation import evaluate as evaluate
     from lpcal.api.files import read_calibration as read_calibration
     from lpcal.api.files import read_camera as read_camera
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from lpcal.api.lights import assemble_calibration as assemble_calibration
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
+    from lpcal.api.many import reconstruct_many as reconstruct_many
     from lpcal.api.mocap_formats import register_mocap as register_mocap
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
@@ -50,6 +52,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "api.boards": ("calibrate_camera", "find_boards", "locate_boards"),
+    "api.comparison": ("compare_calibrations",),
     "api.evaluation": ("evaluate",),
     "api.files": (
         "read_calibration",
@@ -64,6 +67,7 @@ _HOME = {
     ),
     "api.handeye": ("solve_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
+    "api.many": ("reconstruct_many",),
     "api.mocap_formats": ("register_mocap",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),

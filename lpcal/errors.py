@@ -17,6 +17,8 @@ One message says what was found, where, what was needed and what to do::
 
 from __future__ import annotations
 
+from functools import partial
+
 MOST_CHARACTERS = 590
 """Characters of a message: with the program's name before it, 600, which is what a reader takes in at once."""
 ELLIPSIS = " ... "
@@ -38,6 +40,10 @@ class LpcalError(Exception):
     def __init__(self, found: str, *, where: str = "", needed: str = "", todo: str = "") -> None:
         self.found, self.where, self.needed, self.todo = found, where, needed, todo
         super().__init__(self.message())
+
+    def __reduce__(self) -> tuple[partial[LpcalError], tuple[str]]:
+        """How it goes from one process to another, whole."""
+        return partial(type(self), where=self.where, needed=self.needed, todo=self.todo), (self.found,)
 
     def message(self) -> str:
         """Where it is, what was found, what was needed and what to do, on as few lines as it takes, and never on more than a screen.

@@ -18,7 +18,7 @@ BOARD = Board((9, 6), (0.025, 0.025))
 
 
 @pytest.mark.parametrize("draw", BOARDLESS)
-@pytest.mark.parametrize("corners", [(9, 6), (26, 16)])
+@pytest.mark.parametrize("corners", [(9, 6), pytest.param((26, 16), marks=pytest.mark.slow)])
 def test_a_frame_without_a_board_has_none(draw: Callable[..., np.ndarray], corners: tuple[int, int]) -> None:
     image = np.clip(np.rint(draw(np.random.default_rng(7), 1080, 1920)), 0, 255).astype(np.uint8)
     view = find_board(image, Board(corners, (0.025, 0.025)))

@@ -67,7 +67,7 @@ def test_unequal_powers_are_found_nearer_than_equal_ones(kind, seed):
     assert np.std(np.log(found / drawn.intensity)) < 0.5 * np.std(np.log(drawn.intensity))
 
 
-@pytest.mark.parametrize("kind", ["gloss", "broad gloss and shadows", "six lights", "fifty lights"])
+@pytest.mark.parametrize("kind", ["gloss", "broad gloss and shadows", "six lights", pytest.param("fifty lights", marks=pytest.mark.slow)])
 def test_equal_lights_come_out_better_than_plain_least_squares(kind):
     drawn = draw(EQUAL[kind], 4)
     seen, lights = seen_by(drawn)

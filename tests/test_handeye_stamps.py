@@ -25,13 +25,13 @@ def test_stamps_a_frame_off_are_named(seed: int, by_s: float) -> None:
     assert f"{abs(1e3 * by_s):.0f} ms {'earlier' if by_s > 0 else 'later'}" in words
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (2, 3))])
 def test_right_stamps_are_not_doubted(seed: int) -> None:
     session = moving_session(np.random.default_rng(seed), 48, flips=0.1 * (seed % 2))
     assert "stamps" not in warnings(session, session.boards.t_camera_s)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
 def test_blurred_boards_are_no_wrong_stamps(seed: int) -> None:
     session = moving_session(np.random.default_rng(seed), 72)
     rng = np.random.default_rng(seed + 20)

@@ -298,7 +298,7 @@ def test_what_cannot_be_is_an_error_of_the_library(call, error: type, words: str
         call()
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+@pytest.mark.parametrize("seed", [1, 2, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (3, 4))])
 def test_exact_poses_are_no_step(seed: int) -> None:
     session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), seed=seed)
     truth = session.board_truth()

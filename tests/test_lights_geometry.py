@@ -156,11 +156,10 @@ def test_sources_and_frames_lie_within_their_sigma() -> None:
 
 
 def test_more_spheres_do_not_make_it_worse() -> None:
-    rms = []
+    rms, scenes = [], [Scene(100 + seed, 4) for seed in range(16)]
     for count in (1, 2, 4):
         errors = []
-        for seed in range(16):
-            scene = Scene(100 + seed, 4)
+        for scene in scenes:
             views = scene.views[:count]
             fit = fit_geometry([w.name for w in DRAWN], views, [measure_centre(v, CAMERA) for v in views], CAMERA, scene.wings)
             errors.append(np.sqrt(np.mean((fit.source_C - scene.source_C) ** 2)))

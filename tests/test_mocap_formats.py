@@ -50,13 +50,14 @@ def motive(
     head = f"Format Version,{version},Take Name,Take 1,Capture Frame Rate,240.0,Rotation Type,{rotation},Length Units,{units}"
     rows = [head, "", *(",".join(row) for row in labels)]
     marker_P = np.array([0.08, 0.01, 0.0])
+    quaternions = se3.quaternion(H_OP[:, :3, :3])
     for k in range(len(t)):
         cells = [str(k), f"{t[k]:.6f}", *(["14:47:09:09.01"] if timecode else [])]
         for _ in bodies:
             if k in lost:
                 cells += [""] * (len(turn) + 8)
                 continue
-            numbers = se3.quaternion(H_OP[k, :3, :3]) if rotation == "Quaternion" else euler_deg(H_OP[k, :3, :3], rotation)
+            numbers = quaternions[k] if rotation == "Quaternion" else euler_deg(H_OP[k, :3, :3], rotation)
             marker = H_OP[k, :3, :3] @ marker_P + H_OP[k, :3, 3]
             cells += [f"{v:.9f}" for v in (*numbers, *(scale * H_OP[k, :3, 3]), scale * 1e-4, *(scale * marker))] + ["0.999"]
         cells += ["", "", ""] if k % 2 else ["1", "2", "3"]

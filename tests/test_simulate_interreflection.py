@@ -91,7 +91,7 @@ def test_one_bounce_in_a_corner_is_the_integral_over_the_other_plate(monkeypatch
     assert np.std(found / expected) < 0.16  # 64 rays each
 
 
-@pytest.mark.parametrize("albedo", [0.3, 0.8])
+@pytest.mark.parametrize("albedo", [0.8, pytest.param(0.3, marks=pytest.mark.slow)])
 def test_an_integrating_sphere_keeps_its_energy(albedo):
     """Whatever the lamp's place, the walls get 4 pi I / (4 pi R^2) on the mean, and rho of it again with every bounce, all over alike."""
 

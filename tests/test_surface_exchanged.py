@@ -8,6 +8,8 @@ import pytest
 from lpcal.surface.exchanged import exchanged
 
 NAMES = pytest.mark.parametrize("seed", range(4))
+USUAL = [(0, 0.0), (1, 0.3), (2, 1.0), (3, 0.3)]
+FURTHER = [(seed, gloss) for seed in range(4) for gloss in (0.0, 0.3, 1.0) if (seed, gloss) not in USUAL]
 
 
 def drawn(seed: int, lights: int = 12, *, near: bool = False, gloss: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -46,8 +48,7 @@ def test_three_that_went_round_are_named_whatever_their_powers(seed: int) -> Non
     assert exchanged(signal, B, b, np.ones(signal.shape, dtype=bool)) == {1: 5, 5: 8, 8: 1}
 
 
-@NAMES
-@pytest.mark.parametrize("gloss", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize(("seed", "gloss"), [*USUAL, *(pytest.param(*one, marks=pytest.mark.slow) for one in FURTHER)])
 def test_images_in_their_places_are_left_alone(seed: int, gloss: float) -> None:
     for lights in (6, 12, 40):
         signal, B, b = drawn(seed, lights, gloss=gloss)

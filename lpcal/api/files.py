@@ -24,6 +24,7 @@ from lpcal.formats.import_lights import import_lights
 from lpcal.formats.outputs import refuse_place, write_text
 from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.formats.panel_yaml import read_rig as read_panel
+from lpcal.formats.zarr_files import write_surface_zarr
 from lpcal.records.calibration import Calibration, Camera, CameraSolution
 from lpcal.records.observations import MarkerStream, PoseStream, RawCapture
 from lpcal.records.rig import RigFile
@@ -127,8 +128,8 @@ def read_capture(
     Parameters
     ----------
     folder : str or path
-        Holds ``<light>.png`` (or tif, jpg, ...), and where there are any ``ambient*.png``, ``short_<light>.png``, ``mask.png``,
-        ``capture.yaml``.
+        A capture in Zarr v3, or a folder of ``<light>.png`` (or tif, jpg, ...), and where there are any ``ambient*.png``,
+        ``short_<light>.png``, ``mask.png``, ``capture.yaml``.
     lights : Calibration, or sequence of str
         The calibrated lights, or their names.
     name : str, optional
@@ -322,7 +323,7 @@ def write_surface(folder: PathLike, surface: Surface, calibration: Calibration |
     Parameters
     ----------
     folder : str or path
-        Where to; it replaces an earlier surface, and nothing else.
+        Where to; it replaces an earlier surface, and nothing else. One that ends in ``.zarr`` becomes a Zarr v3 group of the maps.
     surface : Surface
         What `reconstruct` or `integrate` gives.
     calibration : Calibration, optional
@@ -341,5 +342,8 @@ def write_surface(folder: PathLike, surface: Surface, calibration: Calibration |
     >>> sorted(path.name for path in folder.glob("mesh.*"))
     ['mesh.glb', 'mesh.ply']
     """
+    if Path(folder).suffix == ".zarr":
+        write_surface_zarr(Path(folder), surface)
+        return
     page = None if calibration is None else render(surface, calibration)
     surface_files.write_surface(Path(folder), surface, build(surface), surface_files.summary_of(surface), page)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lpcal.api import stacks
 from lpcal.api.curve import settle_sensor
+from lpcal.api.light_check import contradicting
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import notes_of
@@ -158,7 +159,8 @@ def reconstruct(
     surface = solver.reconstruct(radiance, calibration, options, progress)
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
-    return replace(surface, warnings=notes_of(radiance.notes, surface), sensor=settled.used)
+    said = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration))
+    return replace(surface, warnings=said, sensor=settled.used)
 
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:

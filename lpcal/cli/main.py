@@ -32,11 +32,13 @@ COMMANDS = {
     "reconstruct": "normals, albedo, depth and mesh of a capture",
     "integrate": "depth and mesh of a normal map from elsewhere",
     "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
+    "diff": "has my rig moved: two calibrations, light by light, each change with its sigma",
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
     "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
+    "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")

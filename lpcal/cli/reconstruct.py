@@ -11,6 +11,7 @@ from lpcal.errors import InputError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
+    from lpcal.api.engines import Engine
     from lpcal.pipeline.workspace import Workspace
     from lpcal.records.sensor import StatedSensor
     from lpcal.surface.mask import Hints
@@ -31,12 +32,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
     parser.add_argument("--white-level", metavar="SHARE", help="the stored number at which the sensor saturates, of full scale")
     parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="captures that are worked on at a time (default: 1; with --on, every processor)"
+    )
+    parser.add_argument(
+        "--on", metavar="ENGINE", help="where: processes, dask, dask://HOST:PORT, slurm or slurm-trial (default: processes)"
+    )
+    parser.add_argument("--anew", action="store_true", help="do again what stands and is up to date")
     add_rig_option(parser)
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
-    from lpcal.pipeline.reconstruct import Wishes, calibration_of, capture_tasks, reconstruct_all, rig_tasks
+    from lpcal.pipeline.many import reconstruct_all
+    from lpcal.pipeline.reconstruct import Wishes, calibration_of, capture_tasks, rig_tasks
 
     wishes = Wishes(
         near=options.lights == "near",
@@ -48,12 +57,22 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
     )
     if not options.captures:
-        workspace = open_workspace(options)
-        tasks = rig_tasks(workspace, options.output)
-        return reconstruct_all(tasks, calibration_of(workspace, options.calibration), wishes, progress, workspace)
-    rig = _rig_if_any(options)
-    tasks = capture_tasks(options.captures, rig, options.output)
-    return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress, rig)
+        rig: Workspace | None = open_workspace(options)
+        tasks = rig_tasks(rig, options.output) if rig else []
+    else:
+        rig = _rig_if_any(options)
+        tasks = capture_tasks(options.captures, rig, options.output)
+    engine = _engine(options, tasks[0].target.parent) if len(tasks) > 1 else None
+    return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress, rig, engine=engine, anew=options.anew)
+
+
+def _engine(options: argparse.Namespace, folder: Path) -> Engine | None:
+    """Where many captures are worked on; None: one after the other, here."""
+    if options.on is None and options.jobs in {None, 1}:
+        return None
+    from lpcal.api.engines import engine_of
+
+    return engine_of(options.on or "processes", options.jobs, folder)
 
 
 def _sensor(options: argparse.Namespace) -> StatedSensor:

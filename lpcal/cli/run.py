@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from lpcal.cli.rig_option import add_rig_option, open_workspace
 from lpcal.records.outcome import Outcome, Progress
@@ -10,11 +11,14 @@ from lpcal.records.outcome import Outcome, Progress
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
+    parser.add_argument("rigs", nargs="*", type=Path, metavar="RIG", help="rig folders, or folders of such: each is run (default: the rig)")
     add_rig_option(parser)
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Run what is out of date."""
-    from lpcal.pipeline.run import run_all
+    from lpcal.pipeline.run import rigs_in, run_all, run_rigs
 
-    return run_all(open_workspace(options), progress)
+    if not options.rigs:
+        return run_all(open_workspace(options), progress)
+    return run_rigs(rigs_in(options.rigs), lambda rig: run_all(open_workspace(options, rig), progress))

@@ -13,6 +13,7 @@ from lpcal.formats.full_scale import full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import ENDINGS, StoredImage, read_image
 from lpcal.formats.named_files import exists, hidden, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
+from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
@@ -22,7 +23,7 @@ SHORT = "short_"
 
 
 def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None, use: Sequence[str] | None = None) -> RawCapture:
-    """Read a capture folder.
+    """Read a capture folder, or a capture in Zarr.
 
     Parameters
     ----------
@@ -38,6 +39,8 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         A light has no image, or two of one name; a name in `use` is no light; or images differ in size or channels.
     """
     _need_folder(folder, "a capture folder: one image a light, named after it")
+    if is_zarr(folder):
+        return read_capture_zarr(folder, lights, name=name, use=use)
     section = read_capture_section(folder / "capture.yaml")
     files = _by_name(folder)
     chosen = _chosen(folder, lights, use or section.lights, files)

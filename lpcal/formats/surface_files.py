@@ -65,9 +65,10 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
         )
         _write_images(draft, surface)
         _write_meshes(draft, mesh, str(summary.get("units", "metres")))
-        (draft / SUMMARY).write_text(json.dumps(plain(summary), indent=1) + "\n", encoding="utf-8")
         if page is not None:
             (draft / PAGE).write_text(page, encoding="utf-8")
+        files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
+        (draft / SUMMARY).write_text(json.dumps(plain({**summary, "files": files}), indent=1) + "\n", encoding="utf-8")
 
 
 def summary_of(surface: Surface) -> dict[str, Any]:

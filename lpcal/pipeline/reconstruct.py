@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import sys
 import time
 from collections.abc import Iterable
@@ -16,11 +18,11 @@ from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
 from lpcal.api.surface_notes import distance_said
 from lpcal.api.surfaces import mesh, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
-from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
-from lpcal.formats.documents import sha256
+from lpcal.formats.documents import plain, sha256
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
+from lpcal.formats.zarr_files import is_zarr
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
@@ -84,41 +86,6 @@ def capture_tasks(captures: list[Path], workspace: Workspace | None, folder: Pat
     return tasks
 
 
-def reconstruct_all(
-    tasks: list[Task], calibration_path: Path, wishes: Wishes, progress: Progress, workspace: Workspace | None = None
-) -> Outcome:
-    """Reconstruct each capture; a bad one is named at the end and does not stop the others.
-
-    What the rig's panel.yaml says of the sensor counts for captures and calibrations that lie in its folder, where these say nothing.
-
-    Raises
-    ------
-    LpcalError
-        The calibration cannot be read, the only capture is bad, or a surface would be written over something else.
-    """
-    refuse_targets(tasks, [calibration_path, *([] if wishes.mask in MASK_WORDS else [Path(wishes.mask)])])
-    calibration = read_calibration(calibration_path)
-    summary, documents, errors = [], [], []
-    for done, task in enumerate(tasks):
-        if len(tasks) > 1:
-            progress("captures", done, len(tasks))
-        try:
-            panel = stated_in_panel(workspace) if workspace and _belongs(workspace, task, calibration_path) else StatedSensor()
-            document = reconstruct_one(task, calibration, calibration_path, replace(wishes, panel=panel), progress)
-        except LpcalError as error:
-            if len(tasks) == 1:
-                raise
-            errors.append((task, error))
-            continue
-        documents.append(document)
-        summary.append(line_of(document, task.target))
-    if len(tasks) > 1:
-        progress("captures", len(tasks), len(tasks))
-    told = [f"{task.name} was not reconstructed: {error}" for task, error in errors]
-    told += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
-    return Outcome(summary, {"surfaces": documents}, told, exit_code=errors[0][1].exit_code if errors else 0)
-
-
 def refuse_targets(tasks: list[Task], inputs: list[Path]) -> None:
     """Refuse surfaces that would be written over each other, over an input, or over anything that is no surface of lpcal's.
 
@@ -148,6 +115,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     saying = [(BY_COMMAND, wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
     saying.append(("panel.yaml", wishes.panel))
     mask = read_mask(Path(wishes.mask), raw.images.shape[1:3]) if wishes.mask not in MASK_WORDS else wishes.mask
+    made_from = made_from_of(task, calibration_path, wishes)
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
     hints = wishes.hints
@@ -168,14 +136,18 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
         document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+    document["made_from"] = made_from
     write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
     return document
 
 
-def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
-    """Whether a capture or its calibration lies in the rig's folder."""
+def panel_of(workspace: Workspace | None, task: Task, calibration_path: Path) -> StatedSensor:
+    """What the rig's panel.yaml says of the sensor, for a capture or a calibration that lies in the rig's folder."""
+    if workspace is None:
+        return StatedSensor()
     folder = workspace.folder.resolve()
-    return any(path.resolve().is_relative_to(folder) for path in (task.capture, calibration_path))
+    within = any(path.resolve().is_relative_to(folder) for path in (task.capture, calibration_path))
+    return stated_in_panel(workspace) if within else StatedSensor()
 
 
 def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
@@ -202,8 +174,43 @@ def peak_memory_mb() -> int | None:
 
 def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
     """sha256 of the calibration and of every file of the capture, by name."""
-    files = [path for path in sorted(task.capture.iterdir()) if path.is_file()]
-    return {calibration_path.name: sha256(calibration_path)} | {path.name: sha256(path) for path in files}
+    files = {path.relative_to(task.capture).as_posix(): sha256(path) for path in _files_of(task.capture)}
+    return {calibration_path.name: sha256(calibration_path)} | files
+
+
+def _files_of(capture: Path) -> list[Path]:
+    """The files of a capture: those in its folder; of one in Zarr every chunk."""
+    return [path for path in sorted(capture.rglob("*") if is_zarr(capture) else capture.iterdir()) if path.is_file()]
+
+
+def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
+    """A digest of all that a surface is made from: lpcal's version, the files' contents, and all that is wished."""
+    files = [calibration_path, *_files_of(task.capture)]
+    files += [] if wishes.mask in MASK_WORDS else [Path(wishes.mask)]
+    said = [
+        __version__,
+        task.name,
+        [[_name_in(task.capture, path), sha256(path)] for path in files],
+        plain(asdict(replace(wishes, mask=""))),
+    ]
+    said += [wishes.mask] if wishes.mask in MASK_WORDS else []
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+
+
+def _name_in(capture: Path, path: Path) -> str:
+    """A file's path in the capture; its name where it lies elsewhere."""
+    return path.relative_to(capture).as_posix() if path.is_relative_to(capture) else path.name
+
+
+def standing(task: Task, calibration_path: Path, wishes: Wishes) -> dict[str, Any] | None:
+    """The document of a surface that stands, whole, and was made from what there is now; None where there is none."""
+    try:
+        document = json.loads((task.target / SUMMARY).read_text(encoding="utf-8"))
+        sizes = {name: (task.target / name).stat().st_size for name in document["files"]}
+        same = sizes == document["files"] and document["made_from"] == made_from_of(task, calibration_path, wishes)
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return document if same and isinstance(document, dict) else None
 
 
 def line_of(document: dict[str, Any], target: Path) -> str:
@@ -245,20 +252,16 @@ class SurfaceStage(Stage):
 
     def up_to_date(self, workspace: Workspace) -> bool:
         """Whether every surface stands and was made from what there is now."""
-        return all(_stands(task, workspace.calib(CALIBRATION)) for task in rig_tasks(workspace))
-
-
-def _stands(task: Task, calibration_path: Path) -> bool:
-    import json
-
-    try:
-        document = json.loads((task.target / SUMMARY).read_text(encoding="utf-8"))
-        return bool(document["versions"]["lpcal"] == __version__ and document["inputs"] == hashes(task, calibration_path))
-    except (OSError, ValueError, KeyError, TypeError):
-        return False
+        calibration_path = workspace.calib(CALIBRATION)
+        return all(
+            standing(task, calibration_path, Wishes(panel=panel_of(workspace, task, calibration_path))) is not None
+            for task in rig_tasks(workspace)
+        )
 
 
 def _run(workspace: Workspace, progress: Progress) -> Outcome:
+    from lpcal.pipeline.many import reconstruct_all  # which rests on this module
+
     return reconstruct_all(rig_tasks(workspace), workspace.calib(CALIBRATION), Wishes(), progress, workspace)
 
 

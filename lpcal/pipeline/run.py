@@ -12,9 +12,11 @@ captures, calibration    -> surfaces       reconstruct
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
-from lpcal.errors import InputError
+from lpcal.errors import InputError, LpcalError
+from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.pipeline import export, handeye, intrinsics, reconstruct, refine, report, wings
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
@@ -100,3 +102,53 @@ def run_all(workspace: Workspace, progress: Progress) -> Outcome:
         [*chain.warnings, *page.warnings],
         exit_code=chain.exit_code,
     )
+
+
+def rigs_in(folders: Sequence[Path]) -> list[Path]:
+    """Rigs that folders are or hold, each once.
+
+    Raises
+    ------
+    InputError
+        A folder is no rig and holds none.
+    """
+    found: dict[Path, None] = {}
+    for folder in folders:
+        inside = (
+            [folder]
+            if folder.is_file() or (folder / FILE_NAME).is_file()
+            else sorted(each.parent for each in folder.glob(f"*/{FILE_NAME}"))
+        )
+        if not inside:
+            raise InputError(f"no {FILE_NAME} in it or in a folder of it", where=str(folder), needed="a rig, or a folder of rigs")
+        found |= dict.fromkeys(inside)
+    return list(found)
+
+
+def run_rigs(rigs: Sequence[Path], run: Callable[[Path], Outcome]) -> Outcome:
+    """Run each rig; what goes wrong with one is named at the end and stops no other.
+
+    Raises
+    ------
+    LpcalError
+        The only one is bad.
+    """
+    summary: list[str] = []
+    warnings: list[str] = []
+    documents: dict[str, object] = {}
+    exit_code = 0
+    for rig in rigs:
+        try:
+            found = run(rig)
+        except LpcalError as error:
+            if len(rigs) == 1:
+                raise
+            summary.append(f"{rig}: not done")
+            warnings.append(f"{rig} was not run to its end: {error}")
+            exit_code = exit_code or error.exit_code
+            continue
+        summary += [f"{rig}:", *(f"  {line}" for line in found.summary)]
+        warnings += [f"{rig}: {warning}" for warning in found.warnings]
+        documents[str(rig)] = found.document
+        exit_code = exit_code or found.exit_code
+    return Outcome(summary, {"rigs": documents}, warnings, exit_code=exit_code)

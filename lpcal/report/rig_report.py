@@ -73,9 +73,9 @@ def items(document: Document, key: str) -> list[dict[str, Any]]:
 
 
 def board_points(report: RigReport) -> Array | None:
-    """Corners (M, 3) of the board with its warp, metres."""
+    """Corners (M, 3) of the board with its warp, metres; None where no board was seen."""
     found = (report.get("H_CB").get("board") or {}).get("points_m")
-    return None if found is None else array(found)
+    return array(found) if found else None
 
 
 def poses(document: Document, name: str) -> dict[str, Array]:

@@ -74,11 +74,14 @@ def station_poses(built: Built, corners: tuple[int, int], square_m: tuple[float,
     return np.array(poses)
 
 
-def board_pose(built: Built, pixel: Array, distance_m: float, tilt_rad: Array, roll_rad: float, centre_B: Array) -> Array:
-    """H_CB (4, 4) of a board whose centre is seen at a pixel, at a distance, tilted (2,) about x and y and rolled."""
-    R = se3.rotation(np.array([*tilt_rad, 0.0])) @ se3.rotation(np.array([0, 0, roll_rad]))
-    ray = np.array([*built.lens.plane(np.asarray(pixel)[None])[0], 1.0])
-    return se3.transform(R, distance_m * ray / np.linalg.norm(ray) - R @ centre_B)
+def board_pose(built: Built, pixel: Array, distance_m: Array | float, tilt_rad: Array, roll_rad: Array | float, centre_B: Array) -> Array:
+    """H_CB (..., 4, 4) of boards whose centre is seen at pixels (..., 2), at distances, tilted (..., 2) about x and y and rolled."""
+    flat, roll = np.zeros_like(tilt_rad[..., :1]), np.asarray(roll_rad)[..., None]
+    R = se3.rotation(np.concatenate([tilt_rad, flat], axis=-1)) @ se3.rotation(np.concatenate([flat, flat, roll], axis=-1))
+    plane = built.lens.plane(np.reshape(pixel, (-1, 2))).reshape(np.shape(pixel))
+    ray = np.concatenate([plane, np.ones_like(plane[..., :1])], axis=-1)
+    ray = ray / np.linalg.norm(ray, axis=-1, keepdims=True)
+    return se3.transform(R, np.asarray(distance_m)[..., None] * ray - R @ centre_B)
 
 
 def plan(built: Built, corners: tuple[int, int], square_m: tuple[float, float], recipe: Recipe) -> Session:
@@ -163,7 +166,7 @@ def _sweep_poses(built: Built, corners: tuple[int, int], square_m: tuple[float, 
         pixel = np.array([width, height]) * (0.5 + shrink * np.array([0.1, 0.08]) * wave[:, :2])
         distance_m = near_m * (1.75 + 0.15 * wave[:, 2])
         angles = np.radians([22, 22, 25]) * wave[:, 3:]
-        poses = np.array([board_pose(built, p, d, a[:2], a[2], centre_B) for p, d, a in zip(pixel, distance_m, angles, strict=True)])
-        if all(built.lens.inside(se3.apply(pose, outline_B), 5) for pose in poses):
+        poses = board_pose(built, pixel, distance_m, angles[:, :2], angles[:, 2], centre_B)
+        if built.lens.inside(se3.apply(poses, outline_B).reshape(-1, 3), 5):
             break
     return poses

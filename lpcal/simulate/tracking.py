@@ -99,10 +99,11 @@ def _failures(session: Session, tracking: Tracking, rng: np.random.Generator) ->
 
 
 def _noise(count: int, tracking: Tracking, rng: np.random.Generator) -> Array:
-    """Twists (count, 6) of coloured and white noise."""
-    from scipy.signal import lfilter
+    """Twists (count, 6) of coloured and white noise: ``c[k] - keep c[k-1] = sqrt(1 - keep^2) w[k]``, w white."""
+    from scipy.linalg import solve_banded
 
     keep = np.exp(-1 / (tracking.rate_hz * tracking.correlation_s))
-    coloured = lfilter([np.sqrt(1 - keep**2)], [1, -keep], rng.standard_normal((count + 2000, 6)), axis=0)[2000:]
+    white = np.sqrt(1 - keep**2) * rng.standard_normal((count + 2000, 6))
+    coloured = solve_banded((1, 0), np.stack([np.ones(len(white)), np.full(len(white), -keep)]), white)[2000:]
     coloured *= [tracking.coloured_rad] * 3 + [tracking.coloured_m] * 3
     return np.asarray(coloured + rng.standard_normal((count, 6)) * ([tracking.white_rad] * 3 + [tracking.white_m] * 3))

@@ -1,0 +1,325 @@
+"""Where many things are worked on: processes of this machine, the workers of dask, the jobs of SLURM.
+
+Each is a `concurrent.futures.Executor`, started by an `Engine`; `each` hands items over to it, a window of them at a time. What is to be
+done is a function of a module that raises nothing by itself. So an exception that comes out of a future says that the worker is gone
+(killed, out of memory, its machine down) or cannot work at all; the item is tried again, and in the end is `Lost`: its own result is
+missing, and no other.
+
+Nothing heavy is imported here: a worker sets its threads before it imports numpy.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import multiprocessing
+import os
+import signal
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from lpcal.errors import InputError, UsageError
+
+TRIES = 3
+"""How often an item is handed to a worker before it is given up: it may stand beside one that fills the memory, but not three times."""
+FRUITLESS = 12
+"""Workers lost in a row, nothing having been done between, after which no further one is started: no bad item takes more than `TRIES`
+of them, and four bad ones in a row are rarer than workers that cannot work at all."""
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+"""The variables that hold a worker to one thread of linear algebra; the user's own word wins."""
+REPLY_S = 15.0
+"""Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
+WORDS = "processes, dask, dask://HOST:PORT, slurm or slurm-trial"
+
+
+@dataclass(frozen=True)
+class Lost:
+    """An item whose worker was lost each time that it was tried."""
+
+    why: str
+    """In words."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A way to have many items worked on.
+
+    Parameters
+    ----------
+    name : str
+        In words, for messages.
+    start : callable
+        Starts an executor; it ends with the context, at once where that ends by an exception.
+    window : int
+        How many items are handed over at a time.
+    """
+
+    name: str
+    start: Callable[[], AbstractContextManager[Executor]]
+    window: int
+
+
+def each[I, R](work: Callable[[I], R], items: Sequence[I], engine: Engine) -> Iterator[tuple[int, R | Lost]]:
+    """Have every item worked on; (its number, what came of it) as they are done.
+
+    An item whose worker is lost goes to the end of the row, up to `TRIES` times.
+
+    Parameters
+    ----------
+    work : callable
+        A function of a module, which a worker can import; it returns and never raises.
+    items : sequence
+        What can be pickled.
+    engine : Engine
+        Where.
+
+    Yields
+    ------
+    (int, R or Lost)
+        The item's number, and its result.
+    """
+    row = deque(range(len(items)))
+    tries = [0] * len(items)
+    lost_in_a_row = 0
+    why: BaseException | None = None
+    while row and lost_in_a_row < FRUITLESS:
+        try:
+            with engine.start() as executor:
+                at_work: dict[Future[R], int] = {}
+                broken = False
+                while (row or at_work) and not broken and lost_in_a_row < FRUITLESS:
+                    why = _hand_over(executor, work, items, row, at_work, engine.window)
+                    broken = why is not None
+                    for future in wait(at_work, return_when=FIRST_COMPLETED).done:
+                        number = at_work.pop(future)
+                        said = GivenBack() if future.cancelled() else future.exception()
+                        if said is None:
+                            lost_in_a_row = 0
+                            yield number, future.result()
+                            continue
+                        why = said
+                        tries[number] += 1
+                        lost_in_a_row += 1
+                        if tries[number] < TRIES:
+                            row.append(number)
+                        else:
+                            yield number, Lost(in_words(said))
+                row.extend(at_work.values())
+                lost_in_a_row += broken
+        except (OSError, BrokenExecutor) as error:
+            why = error
+            break
+    for number in row:
+        yield number, Lost("no worker can work" if why is None else in_words(why))
+
+
+def _hand_over[I, R](
+    executor: Executor, work: Callable[[I], R], items: Sequence[I], row: deque[int], at_work: dict[Future[R], int], window: int
+) -> BaseException | None:
+    """Fill the window; what the executor says where it takes nothing any more."""
+    while row and len(at_work) < window:
+        number = row.popleft()
+        try:
+            at_work[executor.submit(work, items[number])] = number
+        except (BrokenExecutor, RuntimeError, OSError) as error:
+            row.appendleft(number)
+            return error
+    return None
+
+
+class GivenBack(Exception):  # noqa: N818 - a word for people, never raised
+    """An item was given back by its engine, as dask does where the scheduler is gone."""
+
+    def __str__(self) -> str:
+        return "the scheduler gave it back, or is gone"
+
+
+def in_words(why: BaseException) -> str:
+    """What a lost worker is to people."""
+    if isinstance(why, BrokenExecutor):
+        return "the worker was killed, or ran out of memory"
+    name = type(why).__name__
+    if name == "KilledWorker":
+        return "the workers that tried it were killed, or ran out of memory, or their machines went"
+    lines = str(why).strip().splitlines() or [""]
+    said = lines[-1] if lines[0].rstrip().endswith(":") else lines[0]
+    return f"{name}: {said}" if said else name
+
+
+def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) -> Engine:
+    """The engine that a word names.
+
+    Parameters
+    ----------
+    word : str
+        ``processes``; ``dask``, a cluster on this machine that is started for it; ``dask://HOST:PORT``, a scheduler that is there;
+        ``slurm``; ``slurm-trial``, the same jobs on this machine without SLURM.
+    jobs : int, optional
+        How many are worked on at a time; by default as many as there are processors.
+    folder : path, optional
+        Where SLURM's jobs leave what they say; the workers must see it.
+
+    Raises
+    ------
+    UsageError
+        No such engine, or fewer than one job.
+    InputError
+        The package that it needs is not installed, the scheduler does not answer, or there is no SLURM.
+    """
+    count = jobs if jobs is not None else os.cpu_count() or 1
+    if count < 1:
+        raise UsageError(f"{count} jobs", where="--jobs", needed="1 or more")
+    if word == "processes":
+        return Engine("processes", lambda: processes(count), count)
+    if word == "dask":
+        _package("distributed", "dask")
+        return Engine("dask", lambda: _dask_here(count), 2 * count)
+    if word.startswith("dask://"):
+        _package("distributed", "dask")
+        address = f"tcp://{word.removeprefix('dask://')}"
+        _dask_answers(address)
+        return Engine(f"dask at {word.removeprefix('dask://')}", lambda: _dask_at(address), 4 * count)
+    if word in {"slurm", "slurm-trial"}:
+        from lpcal.api import slurm
+
+        _package("submitit", "slurm")
+        return slurm.engine(count, folder or Path(), trial=word == "slurm-trial")
+    raise UsageError(word, where="--on", needed=WORDS)
+
+
+def _package(name: str, extra: str) -> ModuleType:
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise InputError(f"{name} is not installed", where="--on", needed=f"lpcal[{extra}]", todo=f"uv add 'lpcal[{extra}]'") from error
+
+
+class Processes(Executor):
+    """So many processes of this machine, each a pool of its own: one that is killed takes its own item with it and no other."""
+
+    def __init__(self, count: int) -> None:
+        self._count = count
+        self._pools: list[tuple[ProcessPoolExecutor, Future[Any]]] = []
+
+    def submit[**P, T](self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        """Hand a call to a process that is idle; to a new one where there are fewer than there may be; else to the next."""
+        self._pools = [(pool, last) for pool, last in self._pools if not (last.done() and _is_broken(last))]
+        at = next((k for k, (_, last) in enumerate(self._pools) if last.done()), None)
+        if at is not None or len(self._pools) >= self._count:
+            pool, _ = self._pools.pop(at or 0)
+            try:
+                return self._noted(pool, pool.submit(fn, *args, **kwargs))
+            except BrokenExecutor:  # killed while it had nothing to do
+                pool.shutdown(wait=False)
+        with one_thread():
+            pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), begin_worker)
+            return self._noted(pool, pool.submit(fn, *args, **kwargs))
+
+    def _noted[T](self, pool: ProcessPoolExecutor, future: Future[T]) -> Future[T]:
+        self._pools.append((pool, future))
+        return future
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the processes; with `cancel_futures` without their finishing what they are at."""
+        for pool, _ in self._pools if cancel_futures else []:
+            for process in [*(getattr(pool, "_processes", None) or {}).values()]:
+                process.terminate()
+        for pool, _ in self._pools:
+            pool.shutdown(wait=wait, cancel_futures=cancel_futures)
+        self._pools = []
+
+
+def _is_broken(future: Future[Any]) -> bool:
+    return not future.cancelled() and isinstance(future.exception(), BrokenExecutor)
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Executor]:
+    """Processes of this machine, which are ended at once where an exception ends the context."""
+    pool = Processes(count)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(cancel_futures=True)
+        raise
+    pool.shutdown()
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """The environment in which a process that is started now takes one thread of linear algebra."""
+    lacking = [name for name in THREADS if name not in os.environ]
+    os.environ |= dict.fromkeys(lacking, "1")
+    try:
+        yield
+    finally:
+        for name in lacking:
+            os.environ.pop(name, None)
+
+
+def begin_worker() -> None:
+    """What a process does first: Ctrl-C is its parent's affair, and where that is gone it ends too."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: Any) -> None:
+    parent.join()
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
+@contextmanager
+def _dask_here(count: int) -> Iterator[Executor]:
+    """A dask cluster on this machine, reached over loopback alone."""
+    distributed: Any = importlib.import_module("distributed")
+    with (
+        one_thread(),
+        distributed.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        _undone_cancelled(client) as executor,
+    ):
+        yield executor
+
+
+@contextmanager
+def _dask_at(address: str) -> Iterator[Executor]:
+    """The workers of a dask scheduler."""
+    distributed: Any = importlib.import_module("distributed")
+    with distributed.Client(address, timeout=REPLY_S) as client, _undone_cancelled(client) as executor:
+        yield executor
+
+
+@contextmanager
+def _undone_cancelled(client: Any) -> Iterator[Executor]:
+    executor = client.get_executor(pure=False)
+    try:
+        yield executor
+    finally:
+        with contextlib.suppress(Exception):  # a scheduler that is gone cancels nothing
+            executor.shutdown(wait=False)
+
+
+def _dask_answers(address: str) -> None:
+    """Whether a scheduler is there.
+
+    Raises
+    ------
+    InputError
+        It does not answer.
+    """
+    try:
+        with _dask_at(address):
+            return
+    except (OSError, ValueError) as error:
+        raise InputError(
+            "no dask scheduler answers", where=address, needed="the address that dask scheduler prints", todo="start one: dask scheduler"
+        ) from error

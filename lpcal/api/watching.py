@@ -1,0 +1,174 @@
+"""What a new image is worth while one captures: measured at once, without a solve.
+
+An image is read, measured (saturated share, brightest value, blur) and, where it should show the board, searched for it at no more than
+`WIDTH` pixels across. What was seen so far tells what is needed next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from lpcal.detect.board import find_board
+from lpcal.detect.board_glance import glance
+from lpcal.geometry.arrays import Array, Image
+from lpcal.records.observations import Board
+
+WIDTH = 480
+"""Pixels across at which the board is looked for: a glance takes some ten milliseconds, a search a tenth of a second."""
+CELLS = (5, 4)
+"""Cells across and down that corners are counted by: those of the stations that lpcal itself simulates."""
+SATURATED = 0.002
+"""Share of pixels at full scale from which an image is called saturated: a highlight's, of a chrome sphere, is a tenth of it."""
+DIM, BRIGHT = 0.25, 0.995
+"""The 99.9th percentile under which an image is dim (two bits are lost), and from which its brightest parts saturate."""
+BLURRED = 0.5
+"""Of the median sharpness of the boards before it, under which a board is called blurred."""
+TILT = 0.06
+"""How far, in logarithm, opposite sides of the board differ where it is tilted by some ten degrees or more."""
+BOARDS_WANTED, TILTED_WANTED = 12, 6
+"""Boards for the intrinsics, and how many of them tilted: with fewer lpcal warns."""
+PLACES = (("top left", "top", "top right"), ("left", "middle", "right"), ("bottom left", "bottom", "bottom right"))
+type Tone = Literal["good", "fair", "poor"]
+
+
+@dataclass(frozen=True)
+class Seen:
+    """One image as it was judged."""
+
+    name: str
+    kind: Literal["board", "light"]
+    tone: Tone
+    words: tuple[str, ...]
+    corners_share: Array | None = None
+    """(N, 2) of the board, as shares of width and height."""
+    tilted: bool = False
+    sharpness: float = float("nan")
+
+
+@dataclass
+class Session:
+    """What was seen so far."""
+
+    board: Board | None
+    lights: tuple[str, ...]
+    seen: list[Seen] = field(default_factory=list)
+    folders: dict[str, set[str]] = field(default_factory=dict)
+    """Light images by the folder that they lie in."""
+    counted: Array = field(default_factory=lambda: np.zeros((CELLS[1], CELLS[0])))
+    """Corners a cell, rows from the top."""
+
+    def judge_board(self, name: str, pixels: Image, *, look: bool = True) -> Seen:
+        """An image that should show the board; `look`: whether there is time to search where a glance does not see it."""
+        words, tone = exposure_words(pixels)
+        if self.board is None:
+            return self._noted(Seen(name, "board", tone, words or ("exposure is right",)))
+        small = _shrunk(_grey(pixels))
+        corners_px, why = glance(small, self.board), "no board at a glance; too many at once to search"
+        if corners_px is None and look:
+            view = find_board(small, self.board)
+            corners_px, why = view.corners_px, view.why or "no board found"
+        if corners_px is None:
+            return self._noted(Seen(name, "board", "poor" if look else "fair", (*words, why)))
+        share = np.asarray(corners_px) / [small.shape[1], small.shape[0]]
+        sharp = _sharpness(small, np.asarray(corners_px))
+        before = [one.sharpness for one in self.seen if np.isfinite(one.sharpness)]
+        if len(before) > 2 and sharp < BLURRED * float(np.median(before)):
+            words, tone = (*words, "blurred: hold still, or a shorter exposure"), "fair"
+        columns, rows = (np.clip((share[:, k] * CELLS[k]).astype(int), 0, CELLS[k] - 1) for k in (0, 1))
+        np.add.at(self.counted, (rows, columns), 1)
+        return self._noted(Seen(name, "board", tone, (*words, "board found"), share, _tilted(share, self.board.corners), sharp))
+
+    def judge_light(self, folder: str, light: str, pixels: Image, *, chrome: bool = False) -> Seen:
+        """An image of a capture; a chrome sphere's may be dark but for its highlight."""
+        self.folders.setdefault(folder, set()).add(light)
+        words, tone = exposure_words(pixels)
+        if chrome and tone == "fair" and words[0].startswith("dim"):
+            words, tone = (), "good"
+        return self._noted(Seen(f"{folder}/{light}" if folder else light, "light", tone, words or ("exposure is right",)))
+
+    def _noted(self, seen: Seen) -> Seen:
+        self.seen.append(seen)
+        return seen
+
+    @property
+    def boards(self) -> list[Seen]:
+        """Images in which the board was found."""
+        return [one for one in self.seen if one.corners_share is not None]
+
+    @property
+    def covered(self) -> float:
+        """Share of the image's cells in which corners were found."""
+        return float((self.counted > 0).mean())
+
+    def following(self) -> str:
+        """What to do next."""
+        for folder, found in self.folders.items():
+            lacking = [light for light in self.lights if light not in found]
+            if lacking:
+                return f"{folder or 'the capture'}: {len(lacking)} of {len(self.lights)} lights are lacking, next {lacking[0]}"
+        if self.board is None:
+            return "every capture has all its lights"
+        tilted = sum(one.tilted for one in self.boards)
+        if self.covered < 1:
+            return f"the board to the {_emptiest(self.counted)} of the image ({100 * self.covered:.0f} % is covered)"
+        if tilted < TILTED_WANTED:
+            return f"tilt the board: {tilted} of {len(self.boards)} are tilted, {TILTED_WANTED} are wanted"
+        if len(self.boards) < BOARDS_WANTED:
+            return f"{BOARDS_WANTED - len(self.boards)} boards more"
+        return "enough for the intrinsics"
+
+
+def exposure_words(pixels: Image) -> tuple[tuple[str, ...], Tone]:
+    """What is to be said of an image's exposure."""
+    grey = _grey(pixels)
+    share, top = float((grey >= BRIGHT).mean()), float(np.quantile(grey, 0.999))
+    if share > SATURATED:
+        return (f"{100 * share:.1f} % saturated: a shorter exposure",), "poor" if share > 10 * SATURATED else "fair"
+    if top < DIM:
+        return (f"dim: its brightest is {100 * top:.0f} % of full scale",), "fair"
+    return (), "good"
+
+
+def _grey(pixels: Image) -> Image:
+    return pixels if pixels.ndim == 2 else np.asarray(pixels.mean(axis=2), np.float32)
+
+
+def _shrunk(grey: Image) -> Image:
+    """Means of blocks, so that it is no more than `WIDTH` pixels across."""
+    step = -(-grey.shape[1] // WIDTH)
+    h, w = (size // step for size in grey.shape)
+    return np.asarray(grey[: h * step, : w * step].reshape(h, step, w, step).mean(axis=(1, 3)), np.float32)
+
+
+def _sharpness(grey: Image, corners_px: Array) -> float:
+    """The steepest step inside the board's bounds over its contrast, a pixel of the shrunk image."""
+    low, high = np.floor(corners_px.min(axis=0)).astype(int), np.ceil(corners_px.max(axis=0)).astype(int) + 1
+    inside = grey[max(low[1], 0) : high[1], max(low[0], 0) : high[0]].astype(float)
+    contrast = float(np.ptp(np.quantile(inside, [0.05, 0.95])))
+    steps = np.abs(np.diff(inside, axis=1)).ravel()
+    return float(np.quantile(steps, 0.98)) / max(contrast, 1e-6)
+
+
+def _tilted(share: Array, corners: tuple[int, int]) -> bool:
+    """Whether opposite sides of the board are of clearly unlike length."""
+    grid = share.reshape(corners[1], corners[0], 2)
+    ends = [(grid[0, 0], grid[0, -1]), (grid[-1, 0], grid[-1, -1]), (grid[0, 0], grid[-1, 0]), (grid[0, -1], grid[-1, -1])]
+    top, bottom, left, right = (float(np.linalg.norm(b - a)) for a, b in ends)
+    return max(abs(np.log(top / bottom)), abs(np.log(left / right))) > TILT
+
+
+def _emptiest(counted: Array) -> str:
+    """Where the image is least covered, in words."""
+    rows, columns = np.nonzero(counted == counted.min())
+    far = np.hypot(rows / (CELLS[1] - 1) - 0.5, columns / (CELLS[0] - 1) - 0.5)
+    k = int(far.argmax())
+    return PLACES[round(2 * rows[k] / (CELLS[1] - 1))][round(2 * columns[k] / (CELLS[0] - 1))]
+
+
+def lacking(session: Session) -> dict[str, Sequence[str]]:
+    """Lights that each capture lacks."""
+    return {folder: [light for light in session.lights if light not in found] for folder, found in session.folders.items()}

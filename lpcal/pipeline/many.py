@@ -1,0 +1,174 @@
+"""Many captures: each is one item of work, done where an engine says, and what stands and is up to date is not done again.
+
+What goes wrong with one capture costs that one: a bad image, a full disk, a worker that is killed. At the end stands one table.
+"""
+
+from __future__ import annotations
+
+import logging
+import traceback
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Literal
+
+from lpcal.api.engines import Engine, Lost, each
+from lpcal.errors import InputError, LpcalError
+from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.pipeline.collection import COLLECTION, write_collection
+from lpcal.pipeline.reconstruct import MASK_WORDS, Task, Wishes, line_of, panel_of, reconstruct_one, refuse_targets, standing
+from lpcal.pipeline.workspace import Workspace
+from lpcal.records.calibration import Calibration
+from lpcal.records.outcome import Outcome, Progress, silent
+
+logger = logging.getLogger("lpcal")
+BUG = 1
+"""The exit code of what no capture may cause."""
+type State = Literal["done", "up to date", "failed", "lost"]
+
+
+@dataclass(frozen=True)
+class Job:
+    """One capture to reconstruct, as it goes to a worker."""
+
+    task: Task
+    calibration_path: Path
+    wishes: Wishes
+    anew: bool = False
+    """Whether it is done again although it stands and is up to date."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """What became of one capture."""
+
+    state: State
+    document: dict[str, Any] = field(default_factory=dict)
+    """That of summary.json; empty where there is no surface."""
+    error: LpcalError | None = None
+    exit_code: int = 0
+
+
+def do(job: Job, progress: Progress = silent) -> Done:
+    """Reconstruct one capture, unless it stands and is up to date; what goes wrong is said and not raised."""
+    try:
+        stands = None if job.anew else standing(job.task, job.calibration_path, job.wishes)
+        if stands is not None:
+            return Done("up to date", stands)
+        calibration = _calibration(job.calibration_path, job.calibration_path.stat().st_mtime_ns)
+        return Done("done", reconstruct_one(job.task, calibration, job.calibration_path, job.wishes, progress))
+    except LpcalError as error:
+        return Done("failed", error=error, exit_code=error.exit_code)
+    except MemoryError:
+        return _refused(InputError("not enough memory", where=str(job.task.capture), todo="have fewer worked on at a time: --jobs"))
+    except OSError as error:
+        return _refused(InputError(error.strerror or str(error), where=str(error.filename or job.task.capture)))
+    except Exception as error:
+        logger.exception("%s", job.task.name)
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        said = f"{type(error).__name__}: {error}, in {Path(last.filename).name}:{last.lineno}"
+        found = LpcalError(f"a bug of lpcal: {said}", where=str(job.task.capture), todo="please report it; alone the capture says more")
+        return Done("failed", error=found, exit_code=BUG)
+
+
+def _refused(error: LpcalError) -> Done:
+    return Done("failed", error=error, exit_code=error.exit_code)
+
+
+@lru_cache(maxsize=2)
+def _calibration(path: Path, changed_ns: int) -> Calibration:  # noqa: ARG001 - one that was changed is read again
+    """The calibration, which a worker reads once for all its captures."""
+    return read_calibration(path)
+
+
+def reconstruct_all(
+    tasks: list[Task],
+    calibration_path: Path,
+    wishes: Wishes,
+    progress: Progress,
+    workspace: Workspace | None = None,
+    *,
+    engine: Engine | None = None,
+    anew: bool = False,
+) -> Outcome:
+    """Reconstruct each capture; a bad one is named at the end and does not stop the others.
+
+    What the rig's panel.yaml says of the sensor counts for captures and calibrations that lie in its folder, where these say nothing.
+
+    Parameters
+    ----------
+    engine : where they are worked on; None: one after the other, here
+    anew : whether what stands and is up to date is done again
+
+    Raises
+    ------
+    LpcalError
+        The calibration cannot be read, the only capture is bad, or a surface would be written over something else.
+    """
+    refuse_targets(tasks, [calibration_path, *([] if wishes.mask in MASK_WORDS else [Path(wishes.mask)])])
+    root = tasks[0].target.parent if len(tasks) > 1 else None
+    if root is not None:
+        COLLECTION.refuse(root)
+    read_calibration(calibration_path)  # once here: what is wrong with it is wrong with every capture
+    jobs = [Job(task, calibration_path, replace(wishes, panel=panel_of(workspace, task, calibration_path)), anew) for task in tasks]
+    done = _here(jobs, progress) if engine is None or len(jobs) == 1 else _there(jobs, engine, progress)
+    if len(done) == 1 and done[0].error is not None:
+        raise done[0].error
+    told = [f"{task.name} was not reconstructed: {one.error}" for task, one in zip(tasks, done, strict=True) if one.error is not None]
+    documents = [one.document for one in done if one.document]
+    told += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
+    summary = [_line(task, one) for task, one in zip(tasks, done, strict=True) if one.document]
+    if root is not None:
+        page = write_collection(root, [(task, one.state, one.document, one.error) for task, one in zip(tasks, done, strict=True)])
+        summary += [_counted(done), f"written {page}"]
+    return Outcome(summary, {"surfaces": documents}, told, exit_code=next((one.exit_code for one in done if one.exit_code), 0))
+
+
+def _line(task: Task, done: Done) -> str:
+    said = line_of(done.document, task.target)
+    return said if done.state == "done" else f"{said.splitlines()[0]} (up to date)"
+
+
+def _counted(done: Sequence[Done]) -> str:
+    """How many captures came to what."""
+    counts = {state: sum(one.state == state for one in done) for state in ("done", "up to date", "failed", "lost")}
+    return f"{len(done)} captures: " + ", ".join(f"{count} {state}" for state, count in counts.items() if count)
+
+
+def _here(jobs: Sequence[Job], progress: Progress) -> list[Done]:
+    """One after the other, in this process."""
+    done = []
+    for number, job in enumerate(jobs):
+        if len(jobs) > 1:
+            progress("captures", number, len(jobs))
+        done.append(do(job, progress))
+    if len(jobs) > 1:
+        progress("captures", len(jobs), len(jobs))
+    return done
+
+
+def _there(jobs: Sequence[Job], engine: Engine, progress: Progress) -> list[Done]:
+    """Where the engine says; files by their whole paths, for a worker may stand elsewhere."""
+    done: dict[int, Done] = {}
+    progress("captures", 0, len(jobs))
+    for number, found in _each(jobs, engine):
+        done[number] = found
+        progress("captures", len(done), len(jobs))
+    return [done[number] for number in range(len(jobs))]
+
+
+def _each(jobs: Sequence[Job], engine: Engine) -> Iterator[tuple[int, Done]]:
+    for number, found in each(do, [_absolute(job) for job in jobs], engine):
+        if isinstance(found, Lost):
+            where, todo = str(jobs[number].task.capture), "the same command again does what is not done yet"
+            yield number, Done("lost", error=(error := InputError(found.why, where=where, todo=todo)), exit_code=error.exit_code)
+        else:
+            yield number, found
+
+
+def _absolute(job: Job) -> Job:
+    task, wishes = job.task, job.wishes
+    task = replace(task, capture=task.capture.absolute(), target=task.target.absolute())
+    mask = wishes.mask if wishes.mask in MASK_WORDS else str(Path(wishes.mask).absolute())
+    return replace(job, task=task, calibration_path=job.calibration_path.absolute(), wishes=replace(wishes, mask=mask))

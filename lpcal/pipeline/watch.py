@@ -1,0 +1,188 @@
+"""``lpcal watch``: the folder is looked at five times a second, and each new image is judged as soon as it is whole.
+
+Where more come than can be searched for the board, the newest is searched first and the others are only measured: what is said is never
+far behind. The page is served to this machine alone.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lpcal.api.boards import board_of
+from lpcal.api.watching import Seen, Session, lacking
+from lpcal.detect.board import find_board
+from lpcal.errors import InputError, LpcalError, UsageError
+from lpcal.formats.images import read_image
+from lpcal.formats.named_files import hidden
+from lpcal.pipeline.workspace import IMAGE_ENDINGS, natural
+from lpcal.records.outcome import Outcome
+from lpcal.records.rig import Rig
+from lpcal.report.watch_page import render
+
+LOOK_S = 0.2
+"""Seconds between two looks at the folder: ten in the two seconds that are allowed."""
+BUDGET_S = 0.4
+"""Seconds after which the images that still wait are no longer searched for the board: with a look and what comes meanwhile, under two."""
+SHOWN = 60
+"""Images that the page lists."""
+LOOPBACK = "127.0.0.1"
+
+
+@dataclass
+class Watch:
+    """A folder that is watched."""
+
+    folder: Path
+    rig: Rig | None
+    session: Session
+    known: dict[Path, tuple[int, int]] = field(default_factory=dict)
+    """Size and time of each image when it was last looked at."""
+    done: set[tuple[Path, int, int]] = field(default_factory=set)
+    behind_s: float = 0.0
+    """The longest that an image has waited from its last change to its verdict."""
+
+    def new(self) -> list[Path]:
+        """Images that have come or changed, and did not change since the last look."""
+        found = []
+        for path in sorted(self.folder.rglob("*"), key=natural):
+            if path.suffix.lower() not in IMAGE_ENDINGS or hidden(path):
+                continue
+            try:
+                state = path.stat()
+            except OSError:
+                continue
+            now = (state.st_size, state.st_mtime_ns)
+            if self.known.get(path) == now and (path, *now) not in self.done and state.st_size:
+                found.append(path)
+            self.known[path] = now
+        return found
+
+    def judge(self, path: Path, *, look: bool) -> Seen:
+        """Judge one image; one that cannot be read says why."""
+        self.done.add((path, *self.known[path]))
+        name = path.relative_to(self.folder).as_posix()
+        try:
+            pixels = read_image(path).pixels
+        except LpcalError as error:
+            seen = Seen(name, "board", "poor", (error.found,))
+            self.session.seen.append(seen)
+            return seen
+        stem = path.stem.removeprefix("short_")
+        if stem in self.session.lights:
+            chrome = self._is_chrome(path.parent)
+            seen = self.session.judge_light(path.parent.relative_to(self.folder).as_posix(), stem, pixels, chrome=chrome)
+        else:
+            seen = self.session.judge_board(name, pixels, look=look)
+        self.behind_s = max(self.behind_s, time.time() - self.known[path][1] / 1e9)
+        return seen
+
+    def _is_chrome(self, folder: Path) -> bool:
+        spheres = self.rig.spheres if self.rig else {}
+        return any(sphere.kind == "chrome" and Path(sphere.images).name == folder.name for sphere in spheres.values())
+
+    def state(self) -> dict[str, Any]:
+        """What the page shows."""
+        session = self.session
+        return {
+            "folder": str(self.folder),
+            "next": session.following(),
+            "images": len(session.seen),
+            "boards": len(session.boards),
+            "covered": session.covered,
+            "cells": session.counted.astype(int).tolist(),
+            "lacking": {folder or ".": list(names) for folder, names in lacking(session).items()},
+            "seen": [{"name": one.name, "tone": one.tone, "words": "; ".join(one.words)} for one in session.seen[-SHOWN:][::-1]],
+            "behind_s": round(self.behind_s, 2),
+        }
+
+
+def watch(
+    folder: Path, rig: Rig | None, say: Callable[[str], None], *, port: int | None = 0, idle_s: float | None = None, sleep: Any = time.sleep
+) -> Outcome:
+    """Watch a folder until nothing has come for `idle_s` seconds (None: until it is interrupted).
+
+    Raises
+    ------
+    InputError
+        There is no such folder.
+    UsageError
+        The port is taken.
+    """
+    if not folder.is_dir():
+        raise InputError("no such folder", where=str(folder), needed="a folder that images come into")
+    board = None if rig is None or rig.board is None else board_of(rig.board)
+    at = Watch(folder, rig, Session(board, tuple(rig.lights) if rig else ()))
+    if board is not None:
+        find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
+    with _served(at, port) as address:
+        if address:
+            say(f"watching {folder}; the page: {address}")
+        last, told = time.monotonic(), ""
+        while idle_s is None or time.monotonic() - last < idle_s:
+            waiting = at.new()
+            begun = time.monotonic()
+            for path in reversed(waiting):
+                seen = at.judge(path, look=time.monotonic() - begun < BUDGET_S)
+                say(f"{'ok  ' if seen.tone == 'good' else '!   ' if seen.tone == 'fair' else '!!  '}{seen.name}: {'; '.join(seen.words)}")
+                last = time.monotonic()
+            if waiting and at.session.following() != told:
+                told = at.session.following()
+                say(f"    next: {told}")
+            sleep(LOOK_S)
+    found = at.state()
+    lines = [f"{found['images']} images, {found['boards']} with the board, {100 * found['covered']:.0f} % of the image covered"]
+    lines += [f"{where} lacks {', '.join(names)}" for where, names in found["lacking"].items() if names]
+    return Outcome([*lines, f"next: {found['next']}"], found)
+
+
+@contextmanager
+def _served(at: Watch, port: int | None) -> Iterator[str | None]:
+    """The page, served to this machine alone; its address."""
+    if port is None:
+        yield None
+        return
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            host = (self.headers.get("Host") or "").rpartition(":")[0]
+            if host not in {LOOPBACK, "localhost"}:  # a page of elsewhere that calls itself by another name
+                self.send_error(403)
+            elif self.path == "/state.json":
+                self._send("application/json", json.dumps(at.state(), allow_nan=False))
+            elif self.path == "/":
+                self._send("text/html; charset=utf-8", render(at.state()))
+            else:
+                self.send_error(404)
+
+        def _send(self, media: str, text: str) -> None:
+            content = text.encode("utf-8")
+            self.send_response(200)
+            self.send_header("Content-Type", media)
+            self.send_header("Content-Length", str(len(content)))
+            self.send_header("Cache-Control", "no-store")
+            self.end_headers()
+            self.wfile.write(content)
+
+        def log_message(self, *_: Any) -> None:
+            """Say nothing."""
+
+    try:
+        server = ThreadingHTTPServer((LOOPBACK, port), Handler)
+    except (OSError, OverflowError) as error:
+        raise UsageError(f"port {port} cannot be had: {error}", where="--port", needed="a free port, or 0 for any") from error
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        yield f"http://{LOOPBACK}:{server.server_address[1]}/"
+    finally:
+        server.shutdown()
+        server.server_close()

@@ -1,0 +1,97 @@
+"""What has changed between two calibrations of one rig."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array
+
+
+@dataclass(frozen=True)
+class LightChange:
+    """How one light stands against the others, after what all lights share is taken out.
+
+    Lengths in metres, angles in radians; the standard deviation of each is that of a light that has not moved.
+    """
+
+    name: str
+    moved_C: Array
+    """(3,) of its source, or of its direction where it is distant (then a unit's share)."""
+    moved: float
+    moved_std: float
+    turned_rad: float
+    """Of its axis of emission; NaN where it has none."""
+    turned_std_rad: float
+    power: float
+    """Relative change of its intensity against the others'."""
+    power_std: float
+    says: tuple[str, ...] = ()
+    """What has changed beyond chance: moved, turned, power."""
+
+
+@dataclass(frozen=True)
+class PartChange:
+    """A part of the rig that is one: all lights together, the hand-eye, the camera. NaN where nothing tells."""
+
+    moved: float = float("nan")
+    """Metres; pixels rms for the camera."""
+    moved_std: float = float("nan")
+    turned_rad: float = float("nan")
+    turned_std_rad: float = float("nan")
+    chance: float = float("nan")
+    """Of so large a change where there is none."""
+
+
+@dataclass(frozen=True)
+class CalibrationChange:
+    """Whether a rig has moved between two calibrations.
+
+    Parameters
+    ----------
+    lights : tuple of LightChange
+        The lights that both hold.
+    together : PartChange
+        What the lights have moved together against the camera; in part it is what the spheres' outlines leave open.
+    scale : float
+        By how much all distances differ, relative.
+    handeye, camera : PartChange
+        The camera in the tracked body; the camera's projection, pixels rms over the image, a turn taken out.
+    exchanged : tuple of (str, str)
+        Lights that stand where the other stood.
+    missing : tuple of str
+        Lights that only one of the two holds.
+    notes : tuple of str
+        What could not be compared, and why.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> rig = lpcal.assemble_calibration(lpcal.design_lights(lpcal.read_rig("lightpanel-6")))
+    >>> lpcal.compare_calibrations(rig, rig).changed
+    ()
+    """
+
+    lights: tuple[LightChange, ...]
+    together: PartChange
+    scale: float
+    handeye: PartChange = PartChange()
+    camera: PartChange = PartChange()
+    exchanged: tuple[tuple[str, str], ...] = ()
+    missing: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """What has changed beyond chance, in words."""
+        said = [f"{light.name}: {what}" for light in self.lights for what in light.says]
+        said += [f"{one} and {other} stand where the other stood" for one, other in self.exchanged]
+        said += [f"{name} is in one of the two only" for name in self.missing]
+        for part, words in ((self.handeye, "the camera on the body"), (self.camera, "the camera itself"), (self.together, "all lights")):
+            said += [f"{words} changed"] if np.isfinite(part.chance) and part.chance < UNLIKELY else []
+        return tuple(said)
+
+
+UNLIKELY = 0.0027
+"""The chance of three standard deviations either way of a normal distribution, under which a change is one."""

@@ -1,0 +1,164 @@
+"""Two calibrations of one rig: what has moved is named, what has not is not, and what both share is taken out."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lpcal as library
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.formats.calibration_yaml import write_calibration
+from lpcal.formats.documents import Provenance
+from lpcal.geometry import se3
+from lpcal.records.calibration import Calibration, Light
+
+FOCUS = np.array([0.0, 0.0, 0.35])
+
+
+def rig(count: int = 8) -> Calibration:
+    lights = []
+    for k in range(count):
+        angle = 2 * np.pi * k / count + 0.2
+        source = np.array([0.17 * np.cos(angle), 0.17 * np.sin(angle), 0.04 + 0.02 * (k % 2)])
+        axis = (FOCUS - source) / np.linalg.norm(FOCUS - source)
+        H_CL = se3.transform(
+            np.stack(
+                [side := np.cross([0, 1, 0.2], axis) / np.linalg.norm(np.cross([0, 1, 0.2], axis)), np.cross(axis, side), axis], axis=1
+            ),
+            source,
+        )
+        lights.append(
+            Light(f"L{k}", -axis, np.ones(1), H_CL, source, axis, position_std_m=1.4e-3, direction_std_rad=1e-3, intensity_std=3e-3)
+        )
+    camera = library.Camera(
+        (640, 480),
+        "opencv4",
+        np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]),
+        np.zeros(4),
+        parameters=("fx", "fy", "cx", "cy"),
+        covariance=np.diag([0.2, 0.2, 0.3, 0.3]) ** 2,
+    )
+    return Calibration("rig", tuple(lights), camera, np.eye(4), 0.35, FOCUS)
+
+
+def moved(light: Light, by_m: np.ndarray, turn_rad: np.ndarray | float = 0.0, power: float = 1.0) -> Light:
+    R = se3.rotation(turn_rad + np.zeros(3))
+    return replace(light, source_C=light.source_C + by_m, axis_C=R @ light.axis_C, intensity=light.intensity * power)
+
+
+def measured(true: Calibration, seed: int) -> Calibration:
+    """As spheres show it: a shift, a turn and a scale of all lights, and a light's own errors across and along."""
+    rng = np.random.default_rng(seed)
+    H, scale = se3.exp(rng.normal(size=6) * ([1e-3] * 3 + [1e-3] * 3)), 1 + 4e-3 * rng.normal()
+    lights = []
+    for light in true.lights:
+        across, along = 1.3e-4 * rng.normal(size=3), 4e-4 * rng.normal() * light.direction_C
+        source = se3.apply(H, (FOCUS + scale * (light.source_C - FOCUS))[None])[0] + across + along
+        axis = se3.rotate(H, light.axis_C[None])[0] + 3e-3 * rng.normal(size=3)
+        power = light.intensity * np.exp(1e-3 * rng.normal())
+        lights.append(
+            replace(
+                light,
+                source_C=source,
+                axis_C=axis / np.linalg.norm(axis),
+                intensity=power,
+                direction_C=(source - FOCUS) / np.linalg.norm(source - FOCUS),
+            )
+        )
+    return replace(true, lights=tuple(lights))
+
+
+@pytest.mark.parametrize("count", [6, 12])
+def test_an_unmoved_rig_is_silent(count):
+    true = rig(count)
+    said = [library.compare_calibrations(measured(true, 2 * k), measured(true, 2 * k + 1)).changed for k in range(20)]
+    assert said == [()] * 20
+
+
+@pytest.mark.parametrize("count", [6, 12])
+@pytest.mark.parametrize(("by_mm", "turn_deg", "power", "word"), [(3.0, 0, 1, "moved"), (0, 4.0, 1, "turned"), (0, 0, 1.04, "power")])
+def test_the_one_that_changed_is_named_and_no_other(count, by_mm, turn_deg, power, word):
+    true = rig(count)
+    for seed in range(6):
+        k = seed % count
+        direction = np.cross(true.lights[k].direction_C, [0.3, 0.5, 0.8])
+        direction /= np.linalg.norm(direction)
+        changed = moved(true.lights[k], 1e-3 * by_mm * direction, np.radians(turn_deg) * direction, power)
+        after = replace(true, lights=(*true.lights[:k], changed, *true.lights[k + 1 :]))
+        found = library.compare_calibrations(measured(true, 2 * seed), measured(after, 2 * seed + 1))
+        assert found.changed == (f"L{k}: {word}",)
+        if word == "moved":
+            assert abs(found.lights[k].moved - 1e-3 * by_mm) < 4 * found.lights[k].moved_std
+
+
+def test_the_stated_scatter_is_what_unmoved_lights_show():
+    ratios = []
+    for seed in range(40):
+        true = rig(8)
+        found = library.compare_calibrations(measured(true, 2 * seed), measured(true, 2 * seed + 1))
+        ratios += [light.power / light.power_std for light in found.lights]
+    assert 0.3 < np.std(ratios) < 1.3
+
+
+def test_lights_that_were_exchanged_or_are_missing_are_named():
+    true = rig(8)
+    one, two = (replace(true.lights[a], name=true.lights[b].name) for a, b in ((1, 5), (5, 1)))
+    after = replace(true, lights=(true.lights[0], one, *true.lights[2:5], two, *true.lights[6:7]))
+    found = library.compare_calibrations(measured(true, 0), measured(after, 1))
+    assert "L1 and L5 stand where the other stood" in found.changed
+    assert "L7 is in one of the two only" in found.changed
+
+
+def test_hand_eye_and_camera_are_held_against_both_covariances():
+    true = rig()
+    covariance = np.diag([2e-4] * 3 + [2e-4] * 3) ** 2
+    same = replace(true, H_PC=se3.exp(1e-4 * np.array([1.0, -1, 1, 1, 1, -1])))
+    assert library.compare_calibrations(true, same, H_PC_covariances=(covariance, covariance)).changed == ()
+    off = replace(
+        true, H_PC=se3.exp(np.array([0, 0, 0, 1.6e-3, 0, 0])), camera=replace(true.camera, K=true.camera.K + np.diag([3.0, 3.0, 0]))
+    )
+    found = library.compare_calibrations(true, off, H_PC_covariances=(covariance, covariance))
+    assert found.changed == ("the camera on the body changed", "the camera itself changed")
+    assert found.camera.moved == pytest.approx(np.sqrt(np.mean(np.sum(((GRID - [320, 240]) * 3 / 600) ** 2, axis=1))), rel=0.2)
+
+
+GRID = np.stack(np.meshgrid(np.linspace(0, 639, 40), np.linspace(0, 479, 30)), axis=-1).reshape(-1, 2)
+
+
+def test_what_cannot_be_compared():
+    true = rig()
+    with pytest.raises(DegenerateError, match="3 lights in common"):
+        library.compare_calibrations(true, replace(true, lights=true.lights[:3]))
+    far = replace(true, lights=tuple(replace(light, source_C=None, axis_C=None) for light in true.lights))
+    with pytest.raises(DisagreementError, match="near lights beside distant"):
+        library.compare_calibrations(true, far)
+
+
+def test_distant_lights_are_compared_by_their_directions():
+    far = replace(rig(), camera=None, lights=tuple(replace(light, source_C=None, axis_C=None, H_CL=None) for light in rig().lights))
+    turn = se3.rotation(np.radians([0.0, 0.0, 2.0]))
+    lights = [replace(light, direction_C=turn @ light.direction_C) for light in far.lights]
+    lights[3] = replace(lights[3], direction_C=se3.rotation(np.radians([1.5, 0, 0])) @ lights[3].direction_C)
+    assert library.compare_calibrations(far, replace(far, lights=tuple(lights))).changed == ("L3: moved",)
+
+
+def test_the_command_says_it_and_draws_it(lpcal, tmp_path):
+    true = rig()
+    after = replace(true, lights=(*true.lights[:2], moved(true.lights[2], np.array([0.004, 0, 0])), *true.lights[3:]))
+    for name, one in (("old.yaml", measured(true, 0)), ("new/calib/calibration.yaml", measured(after, 1))):
+        write_calibration(tmp_path / name, one, Provenance())
+    code, told, _ = lpcal("diff", "old.yaml", "new", cwd=tmp_path)
+    assert code == 0
+    assert "changed beyond chance: L2: moved" in told
+    page = (tmp_path / "diff.html").read_text()
+    assert "L2: moved" in page
+    scene = json.loads(page.partition('<script type="application/json">')[2].partition("</script>")[0])
+    arrows = [item for item in scene["items"] if item["kind"] == "arrow"]
+    assert len(arrows) == 8
+    assert [item["tone"] for item in arrows].count("poor") == 1
+    assert lpcal("diff", "old.yaml", "new", "--json", "-o", "other.html", cwd=tmp_path)[0] == 0
+    assert lpcal("diff", "old.yaml", "old.yaml", "-o", "old.yaml", cwd=tmp_path)[0] == 2
+    assert lpcal("diff", "old.yaml", "nothing.yaml", cwd=tmp_path)[0] == 3

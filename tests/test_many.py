@@ -1,0 +1,327 @@
+"""Many captures: the same bytes wherever they are worked on, nothing done twice, and what goes wrong costs its own capture only."""
+
+from __future__ import annotations
+
+import csv
+import errno
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lpcal as library
+from lpcal.api import engines
+from lpcal.api.engines import Lost, each, engine_of
+from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
+from lpcal.pipeline import many
+from many_captures import collection, dome, draw, same_bytes
+
+
+@pytest.fixture
+def captures(tmp_path: Path) -> list[Path]:
+    return collection(tmp_path, 3)
+
+
+def rows(folder: Path) -> list[dict[str, str]]:
+    return list(csv.DictReader((folder / "surfaces.csv").read_text().splitlines()))
+
+
+def changed_ns(folder: Path) -> dict[str, int]:
+    return {path.name: (path / "summary.json").stat().st_mtime_ns for path in folder.iterdir() if path.is_dir()}
+
+
+def test_processes_give_the_bytes_of_the_loop_and_nothing_is_done_twice(lpcal, captures, tmp_path):
+    words = ["reconstruct", *captures, "-c", "dome.yaml", "-o"]
+    assert lpcal(*words, "loop", cwd=tmp_path)[0] == 0
+    code, told, _ = lpcal(*words, "many", "--jobs", "2", cwd=tmp_path)
+    assert code == 0
+    assert "3 captures: 3 done" in told
+    assert all(same_bytes(tmp_path / "loop" / one.name, tmp_path / "many" / one.name) for one in captures)
+    before = changed_ns(tmp_path / "many")
+    assert "3 captures: 3 up to date" in lpcal(*words, "many", cwd=tmp_path)[1]
+    assert changed_ns(tmp_path / "many") == before
+
+    draw(tmp_path / "other", 9)
+    (tmp_path / "other/L3.png").replace(captures[1] / "L3.png")
+    assert "1 done, 2 up to date" in lpcal(*words, "many", cwd=tmp_path)[1]
+    (tmp_path / "many/c0002/depth.tif").unlink()
+    assert "1 done, 2 up to date" in lpcal(*words, "many", cwd=tmp_path)[1]
+    assert "3 captures: 3 done" in lpcal(*words, "many", "--use", "L0,L1,L2,L3", cwd=tmp_path)[1]
+    assert "3 captures: 3 done" in lpcal(*words, "many", cwd=tmp_path)[1]
+    calibration = (tmp_path / "dome.yaml").read_text()
+    (tmp_path / "dome.yaml").write_text(calibration.replace("name: dome", "name: other"))
+    assert "3 captures: 3 done" in lpcal(*words, "many", cwd=tmp_path)[1]
+    assert "3 captures: 3 done" in lpcal(*words, "many", "--anew", cwd=tmp_path)[1]
+
+
+def test_one_capture_that_is_up_to_date_is_not_done_again(lpcal, captures, tmp_path):
+    words = ["reconstruct", captures[0], "-c", "dome.yaml", "-o", "one"]
+    assert lpcal(*words, cwd=tmp_path)[0] == 0
+    before = (tmp_path / "one/summary.json").stat().st_mtime_ns
+    code, told, _ = lpcal(*words, cwd=tmp_path)
+    assert (code, "(up to date)" in told) == (0, True)
+    assert (tmp_path / "one/summary.json").stat().st_mtime_ns == before
+    assert "(up to date)" not in lpcal(*words, "--anew", cwd=tmp_path)[1]
+
+
+def test_the_mask_is_part_of_what_a_surface_is_made_from(lpcal, captures, tmp_path):
+    mask = tmp_path / "given.png"
+    mask.write_bytes((captures[0] / "mask.png").read_bytes())
+    words = ["reconstruct", captures[0], "-c", "dome.yaml", "--mask", mask, "-o", "one"]
+    assert lpcal(*words, cwd=tmp_path)[0] == 0
+    assert "(up to date)" in lpcal(*words, cwd=tmp_path)[1]
+    mask.write_bytes((captures[1] / "mask.png").read_bytes())
+    assert "(up to date)" not in lpcal(*words, cwd=tmp_path)[1]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_bad_captures_are_named_first_and_cost_themselves(lpcal, captures, tmp_path, jobs):
+    (captures[0] / "L2.png").unlink()
+    (captures[2] / "L4.png").write_bytes(b"no image")
+    code, told, warned = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", "--jobs", jobs, cwd=tmp_path)
+    assert code == 6  # the first bad one's
+    assert "3 captures: 1 done, 2 failed" in told
+    assert "c0000 was not reconstructed" in warned
+    assert "c0002 was not reconstructed" in warned
+    assert [(row["name"], row["state"]) for row in rows(tmp_path / "out")] == [("c0000", "failed"), ("c0002", "failed"), ("c0001", "done")]
+    assert "no image of L2" in rows(tmp_path / "out")[0]["error"]
+    assert "no image of L2" in (tmp_path / "out/surfaces.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("fault", "words", "expected"),
+    [
+        (OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), "No space left on device", 3),
+        (MemoryError(), "not enough memory", 3),
+        (OSError(errno.EIO, os.strerror(errno.EIO)), "Input/output error", 3),
+        (ZeroDivisionError("of lpcal's"), "a bug of lpcal: ZeroDivisionError: of lpcal's", 1),
+    ],
+)
+def test_what_the_system_refuses_costs_its_own_capture_and_is_made_good(lpcal, captures, tmp_path, monkeypatch, fault, words, expected):
+    written = many.reconstruct_one
+
+    def refuse(task, *given):
+        if task.name == "c0001":
+            raise fault
+        return written(task, *given)
+
+    monkeypatch.setattr(many, "reconstruct_one", refuse)
+    all_words = ["reconstruct", *captures, "-c", "dome.yaml", "-o", "out"]
+    code, told, warned = lpcal(*all_words, cwd=tmp_path)
+    assert (code, "2 done, 1 failed" in told) == (expected, True)
+    assert words in warned
+    assert not (tmp_path / "out/c0001").exists()
+    monkeypatch.undo()
+    code, told, _ = lpcal(*all_words, cwd=tmp_path)
+    assert (code, "1 done, 2 up to date" in told) == (0, True)
+
+
+def test_a_disk_that_fills_while_a_surface_is_written_leaves_nothing_half(lpcal, captures, tmp_path, monkeypatch):
+    """The eighth write and all after it are refused, as on a full disk."""
+    from lpcal.formats import surface_files
+
+    count = 0
+    encode = surface_files._write_png
+
+    def full(path: Path, pixels) -> None:
+        nonlocal count
+        count += 1
+        if count > 4:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        encode(path, pixels)
+
+    monkeypatch.setattr(surface_files, "_write_png", full)
+    code, told, warned = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
+    assert (code, "1 done, 2 failed" in told) == (3, True)
+    assert warned.count("No space left on device") == 2
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["c0000", "surfaces.csv", "surfaces.html"]
+
+
+def test_the_table_replaces_nothing_of_anybodys(lpcal, captures, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/surfaces.csv").write_text("my,own\n1,2\n")
+    code, _, told = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
+    assert code == 3
+    assert "surfaces.csv" in told
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["surfaces.csv"]
+
+
+@pytest.mark.parametrize(
+    ("words", "error", "said"),
+    [
+        (("cloud", 2), UsageError, "processes, dask"),
+        (("processes", 0), UsageError, "0 jobs"),
+        (("dask://127.0.0.1:9", 2), InputError, "no dask scheduler answers"),
+        (("slurm", 2), InputError, "no sbatch here"),
+    ],
+)
+def test_engines_that_are_not_there(words, error, said, monkeypatch):
+    monkeypatch.setattr(engines, "REPLY_S", 0.5)
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(error, match=said):
+        engine_of(*words)
+
+
+def test_a_package_that_is_not_installed_is_named_with_its_extra(monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"lpcal\[dask\]"):
+        engine_of("dask", 2)
+
+
+def test_a_folder_of_rigs_is_run_rig_by_rig_and_a_bad_one_is_named(lpcal, tmp_path):
+    panel = "lpcal: 1\ncamera: {cameramodel: camera.yaml}\n"
+    panel += "lights: {L0: {azimuth: 0 deg, joint_angle: 30 deg, disc_spacer: 29 mm, blob_spacer: 40 mm}}\n"
+    panel += "panel: {disc_radius: 60 mm, joint: 15 mm, blob: 30 mm}\n"
+    camera = library.Camera((640, 480), "opencv4", np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]), np.zeros(4))
+    for name in ("a", "b", "c"):
+        (tmp_path / "site" / name).mkdir(parents=True)
+        (tmp_path / "site" / name / "panel.yaml").write_text(panel if name != "b" else "lpcal: 1\nboard: 5\n")
+        library.write_camera(tmp_path / "site" / name / "camera.yaml", camera)
+    code, told, warned = lpcal("run", "site", cwd=tmp_path)
+    assert code == 3, warned
+    assert "site/b was not run to its end" in warned
+    for name in ("a", "c"):
+        assert (tmp_path / "site" / name / "calib/calibration.yaml").is_file(), told
+    assert lpcal("run", "site/a", "site/c", cwd=tmp_path)[0] == 0
+    assert lpcal("run", "site/a/calib", cwd=tmp_path)[0] == 3
+
+
+@dataclass(frozen=True)
+class Item:
+    """What a worker is to do: answer, die so many times, or wait."""
+
+    number: int
+    folder: Path
+    deaths: int = 0
+    wait_s: float = 0.0
+
+
+def sturdy(item: Item) -> int:
+    died = list(item.folder.glob(f"died_{item.number}_*"))
+    if len(died) < item.deaths:
+        (item.folder / f"died_{item.number}_{len(died)}").touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    time.sleep(item.wait_s)
+    return item.number * item.number
+
+
+@pytest.mark.parametrize("deaths", [1, 2])
+def test_a_worker_that_dies_costs_a_retry(tmp_path, deaths):
+    items = [Item(k, tmp_path, deaths=deaths * (k == 1)) for k in range(4)]
+    assert sorted(each(sturdy, items, engine_of("processes", 2))) == [(k, k * k) for k in range(4)]
+
+
+def test_an_item_that_always_kills_is_lost_and_no_other(tmp_path):
+    items = [Item(k, tmp_path, deaths=99 * (k == 2)) for k in range(6)]
+    found = dict(each(sturdy, items, engine_of("processes", 2)))
+    assert found.pop(2) == Lost("the worker was killed, or ran out of memory")
+    assert found == {k: k * k for k in (0, 1, 3, 4, 5)}
+    assert len(list(tmp_path.glob("died_2_*"))) == engines.TRIES
+
+
+def test_where_no_worker_can_work_that_is_said_soon(tmp_path, monkeypatch):
+    monkeypatch.setattr(engines, "FRUITLESS", 3)
+    items = [Item(k, tmp_path, deaths=99) for k in range(40)]
+    found = dict(each(sturdy, items, engine_of("processes", 1)))
+    assert len(found) == 40
+    assert all(isinstance(one, Lost) for one in found.values())
+    assert len(list(tmp_path.glob("died_*"))) == 3
+
+
+@pytest.mark.parametrize(
+    "error", [InputError("a", where="b", needed="c", todo="d"), DegenerateError("x"), DisagreementError("y", todo="z")]
+)
+def test_errors_come_whole_out_of_another_process(error):
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), again.where, again.todo) == (type(error), str(error), error.where, error.todo)
+
+
+def test_the_library_takes_an_executor_and_gives_results_in_order(captures):
+    (captures[1] / "L2.png").unlink()
+    with ThreadPoolExecutor(2) as pool:
+        first, bad, last = library.reconstruct_many(captures, dome(), executor=pool)
+    assert isinstance(bad, DisagreementError)
+    plain = [*library.reconstruct_many([captures[0], captures[2]], dome())]
+    for one, other in zip((first, last), plain, strict=True):
+        assert np.array_equal(one.normals, other.normals, equal_nan=True)
+    with pytest.raises(UsageError, match="no option is called masc"):
+        library.reconstruct_many(captures, dome(), masc="auto")
+
+
+def test_dask_arrays_are_taken(captures):
+    array = pytest.importorskip("dask.array")
+    raw = library.read_capture(captures[0], dome())
+    lazy = array.from_array(raw.images, chunks=(1, 24, 24))
+    found = library.reconstruct(lazy, dome(), ambient=array.from_array(raw.ambient), mask=array.from_array(raw.mask))
+    plain = library.reconstruct(raw.images, dome(), ambient=raw.ambient, mask=raw.mask)
+    assert np.array_equal(found.normals, plain.normals, equal_nan=True)
+
+
+def children_of(parent: int) -> list[int]:
+    """The processes that a process has started, but for Python's own tracker of resources."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            inside = stat.read_text().rpartition(")")[2].split()
+            words = (stat.parent / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if int(inside[1]) == parent and b"spawn_main" in words:
+            found.append(int(stat.parent.name))
+    return found
+
+
+def started(tmp_path: Path, captures: list[Path]) -> subprocess.Popen[str]:
+    words = ["reconstruct", *map(str, captures), "-c", "dome.yaml", "-o", "out", "--jobs", "2", "--quiet"]
+    return subprocess.Popen(
+        [sys.executable, "-m", "lpcal", *words], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def wait_for(condition, seconds: float = 90.0) -> bool:
+    until = time.monotonic() + seconds
+    while not condition() and time.monotonic() < until:
+        time.sleep(0.02)
+    return bool(condition())
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found by /proc")
+@pytest.mark.parametrize("after", range(10))
+def test_a_worker_killed_by_its_id_costs_nothing_but_time(tmp_path, after):
+    """At ten moments: before it has begun, and after so many surfaces stand."""
+    captures = collection(tmp_path, 12)
+    with started(tmp_path, captures) as run:
+        wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= after and children_of(run.pid))
+        os.kill(children_of(run.pid)[0], signal.SIGKILL)
+        told, warned = run.communicate()
+    assert run.returncode == 0, warned
+    assert "12 captures: 12 done" in told
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [*(one.name for one in captures), "surfaces.csv", "surfaces.html"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found by /proc")
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(lpcal, tmp_path, number):
+    captures = collection(tmp_path, 12)
+    with started(tmp_path, captures) as run:
+        assert wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= 3)
+        workers = children_of(run.pid)
+        run.send_signal(number)
+        run.communicate()
+    assert run.returncode == (-9 if number == signal.SIGKILL else 128 + number)
+    assert wait_for(lambda: not any(Path(f"/proc/{worker}").exists() for worker in workers), 20)
+    stand = len(list((tmp_path / "out").glob("c*/summary.json")))
+    code, told, _ = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
+    assert code == 0
+    assert f"{12 - stand} done, {stand} up to date" in told
+    assert not list((tmp_path / "out").glob(".lpcal-draft-*"))

@@ -1,0 +1,98 @@
+"""The engines that labs have: dask on this machine and by its address, a worker and the scheduler killed, SLURM's jobs without SLURM."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from lpcal.api.engines import Lost, each, engine_of
+from many_captures import collection, same_bytes
+
+pytestmark = pytest.mark.slow
+DASK = pytest.mark.filterwarnings("ignore")  # dask's own, of ports and of workers that go
+
+
+@pytest.fixture
+def captures(tmp_path: Path) -> list[Path]:
+    return collection(tmp_path, 4)
+
+
+@DASK
+def test_dask_gives_the_bytes_of_the_loop(lpcal, captures, tmp_path):
+    pytest.importorskip("distributed")
+    words = ["reconstruct", *captures, "-c", "dome.yaml", "-o"]
+    (captures[1] / "L2.png").unlink()
+    assert lpcal(*words, "loop", cwd=tmp_path)[0] == 6
+    code, told, _ = lpcal(*words, "dask", "--on", "dask", "--jobs", "2", cwd=tmp_path)
+    assert (code, "4 captures: 3 done, 1 failed" in told) == (6, True)
+    assert all(same_bytes(tmp_path / "loop" / one.name, tmp_path / "dask" / one.name) for one in captures if one != captures[1])
+
+
+def test_slurms_jobs_without_slurm_give_the_bytes_of_the_loop(lpcal, captures, tmp_path):
+    pytest.importorskip("submitit")
+    words = ["reconstruct", *captures[:2], "-c", "dome.yaml", "-o"]
+    assert lpcal(*words, "loop", cwd=tmp_path)[0] == 0
+    code, told, _ = lpcal(*words, "jobs", "--on", "slurm-trial", "--jobs", "2", cwd=tmp_path)
+    assert (code, "2 captures: 2 done" in told) == (0, True)
+    assert all(same_bytes(tmp_path / "loop" / one.name, tmp_path / "jobs" / one.name) for one in captures[:2])
+    assert not (tmp_path / "jobs/.lpcal-jobs").exists()
+
+
+def started(*words: str) -> subprocess.Popen[str]:
+    """A program of dask's that finds this module too."""
+    here = Path(__file__).resolve().parent
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(here), str(here.parent / "tools")])}
+    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment)
+
+
+@pytest.fixture
+def scheduler() -> Iterator[tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]]:
+    """A dask scheduler and two workers without nannies: killed ones stay dead."""
+    pytest.importorskip("distributed")
+    head = started("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    assert head.stderr is not None
+    address = next(found[1] for line in head.stderr if (found := re.search(r"tcp://(127\.0\.0\.1:\d+)", line)))
+    workers = [started("dask_worker", f"tcp://{address}", "--no-nanny", "--nthreads", "1", "--no-dashboard") for _ in range(2)]
+    yield address, head, workers
+    for process in (*workers, head):
+        process.kill()
+        process.communicate()
+
+
+def slow_square(item: tuple[int, float]) -> tuple[int, int]:
+    time.sleep(item[1])
+    return item[0] ** 2, os.getpid()
+
+
+@DASK
+def test_a_dask_worker_that_is_killed_costs_a_retry(scheduler):
+    address, _, workers = scheduler
+    found = {}
+    for number, one in each(slow_square, [(k, 0.2) for k in range(16)], engine_of(f"dask://{address}", 2)):
+        found[number] = one
+        if len(found) == 4:
+            os.kill(workers[0].pid, signal.SIGKILL)
+    assert {number: one[0] for number, one in found.items()} == {k: k * k for k in range(16)}
+
+
+@DASK
+def test_where_the_dask_scheduler_is_killed_what_is_not_done_is_named(scheduler):
+    address, head, _ = scheduler
+    found = {}
+    for number, one in each(slow_square, [(k, 0.2) for k in range(12)], engine_of(f"dask://{address}", 2)):
+        found[number] = one
+        if len(found) == 3:
+            os.kill(head.pid, signal.SIGKILL)
+    assert sorted(found) == list(range(12))
+    lost = [one for one in found.values() if isinstance(one, Lost)]
+    assert 0 < len(lost) <= 9
+    assert all(one.why for one in lost)

@@ -1,0 +1,78 @@
+"""Captures and surfaces in Zarr v3: the same numbers, read by tiles, and what is wrong with one is said."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lpcal as library
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.zarr_files import MAPS, tiles, write_capture_zarr
+from many_captures import collection, dome
+
+zarr = pytest.importorskip("zarr")
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_a_capture_comes_back_and_makes_the_same_surface(lpcal, tmp_path, bits):
+    (folder,) = collection(tmp_path, 1)
+    raw = library.read_capture(folder, dome())
+    stored = raw if bits == 8 else replace(raw, step=1 / 65535)
+    write_capture_zarr(tmp_path / "c.zarr", stored)
+    again = library.read_capture(tmp_path / "c.zarr", dome())
+    np.testing.assert_allclose(again.images, raw.images, atol=1e-6)
+    np.testing.assert_allclose(again.ambient, raw.ambient, atol=1e-6)
+    assert np.array_equal(again.mask, raw.mask)
+    assert lpcal("reconstruct", tmp_path / "c.zarr", "-c", "dome.yaml", "-o", "out", cwd=tmp_path)[0] == 0
+    assert "(up to date)" in lpcal("reconstruct", tmp_path / "c.zarr", "-c", "dome.yaml", "-o", "out", cwd=tmp_path)[1]
+    plain = library.reconstruct(raw, dome())
+    np.testing.assert_allclose(library.read_surface(tmp_path / "out").normals, plain.normals, atol=1e-3)
+
+
+def test_a_subset_of_lights_is_taken_and_a_lacking_one_is_named(tmp_path):
+    (folder,) = collection(tmp_path, 1)
+    write_capture_zarr(tmp_path / "c.zarr", library.read_capture(folder, ["L1", "L3", "L4"]))
+    assert library.read_capture(tmp_path / "c.zarr", dome(), use=["L4", "L1"]).lights == ("L1", "L4")
+    with pytest.raises(DisagreementError, match="no image of L0, L2, L5"):
+        library.read_capture(tmp_path / "c.zarr", dome())
+
+
+def test_tiles_are_the_image_piece_by_piece(tmp_path):
+    (folder,) = collection(tmp_path, 1)
+    raw = library.read_capture(folder, dome())
+    write_capture_zarr(tmp_path / "c.zarr", raw)
+    pieced = np.zeros(raw.images.shape, np.uint8)
+    for rows, columns, numbers in tiles(tmp_path / "c.zarr", 20):
+        assert max(numbers.shape[1:]) <= 20
+        pieced[:, rows, columns] = numbers
+    assert np.array_equal(pieced, np.rint(255 * raw.images))
+
+
+def test_a_surface_is_written_by_tiles(tmp_path):
+    (folder,) = collection(tmp_path, 1)
+    surface = library.reconstruct(library.read_capture(folder, dome()), dome())
+    library.write_surface(tmp_path / "s.zarr", surface)
+    group = zarr.open_group(tmp_path / "s.zarr", mode="r")
+    assert set(MAPS) == set(group.array_keys())
+    assert np.array_equal(group["normals"][...], surface.normals, equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda group: group.attrs.update({"kind": "picture"}), "of kind 'picture'"),
+        (lambda group: group.__delitem__("images"), "no array images"),
+        (lambda group: group.attrs.update({"lights": ["L0"]}), "for 1 lights"),
+    ],
+)
+def test_groups_that_are_no_captures(tmp_path, spoil, words):
+    (folder,) = collection(tmp_path, 1)
+    write_capture_zarr(tmp_path / "c.zarr", library.read_capture(folder, dome()))
+    spoil(zarr.open_group(tmp_path / "c.zarr", mode="a"))
+    with pytest.raises(InputError, match=words):
+        library.read_capture(tmp_path / "c.zarr", dome())
+    (tmp_path / "c.zarr/zarr.json").write_text("{")
+    with pytest.raises(InputError, match=r"c\.zarr"):
+        library.read_capture(tmp_path / "c.zarr", dome())

@@ -1,0 +1,104 @@
+"""Many small captures: drawn, and reconstructed by an engine beside the plain loop.
+
+``python tools/many_captures.py DIR [--count 200] [--jobs 2] [--on dask]`` draws a ball under six distant lights so many times, each
+another ball, reconstructs them one after the other and by the engine, and prints wall clock and processor time of both, the share of
+two cores' throughput, and whether the bytes are the same. Processor time is that of this process and its children.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from lpcal.formats.calibration_yaml import write_calibration
+from lpcal.formats.documents import Provenance
+from lpcal.records.calibration import Calibration, Light
+
+SIZE = 48
+LIGHTS = 6
+OF_THE_RUN = ("times_s", "peak_memory_mb", "files")
+"""What of summary.json is of the run, not of the surface."""
+
+
+def dome() -> Calibration:
+    """Six distant lights at half a right angle, no camera."""
+    angle = 2 * np.pi * np.arange(LIGHTS) / LIGHTS
+    directions = np.stack([0.6 * np.cos(angle), 0.6 * np.sin(angle), -0.8 * np.ones(LIGHTS)], axis=1)
+    return Calibration("dome", tuple(Light(f"L{k}", d, np.ones(1)) for k, d in enumerate(directions)))
+
+
+def draw(folder: Path, seed: int, size: int = SIZE) -> Path:
+    """A capture of a ball somewhere, with a mask."""
+    rng = np.random.default_rng(seed)
+    centre, radius = size * rng.uniform(0.42, 0.58, 2), size * rng.uniform(0.28, 0.4)
+    row, column = np.mgrid[:size, :size]
+    x, y = (column - centre[0]) / radius, (row - centre[1]) / radius
+    ball = x**2 + y**2 < 0.95
+    n = np.stack([x, y, -np.sqrt(np.maximum(1 - x**2 - y**2, 0.01))], axis=-1)
+    folder.mkdir(parents=True)
+    for light in dome().lights:
+        shading = np.where(ball, 0.8 * np.maximum(n @ light.direction_C, 0), 0.3) + 0.02 + 0.002 * rng.standard_normal(ball.shape)
+        Image.fromarray(np.rint(255 * np.clip(shading, 0, 1)).astype(np.uint8)).save(folder / f"{light.name}.png")
+    Image.fromarray(np.full((size, size), 5, np.uint8)).save(folder / "ambient.png")
+    Image.fromarray((255 * ball).astype(np.uint8)).save(folder / "mask.png")
+    return folder
+
+
+def collection(folder: Path, count: int) -> list[Path]:
+    """So many captures and dome.yaml beside them."""
+    write_calibration(folder / "dome.yaml", dome(), Provenance())
+    return [draw(folder / f"c{k:04d}", k) for k in range(count)]
+
+
+def same_bytes(one: Path, other: Path) -> bool:
+    """Whether two folders of a surface hold the same but for what is of the run."""
+    names = {path.name for path in one.iterdir()}
+    if names != {path.name for path in other.iterdir()}:
+        return False
+    documents = [json.loads((folder / "summary.json").read_text()) for folder in (one, other)]
+    for document in documents:
+        for key in OF_THE_RUN:
+            document.pop(key)
+    plain = all((one / name).read_bytes() == (other / name).read_bytes() for name in names - {"summary.json"})
+    return plain and documents[0] == documents[1]
+
+
+def spent() -> tuple[float, float]:
+    """Wall clock and processor time so far, seconds."""
+    used = os.times()
+    return time.perf_counter(), used.user + used.system + used.children_user + used.children_system
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--on", default="dask")
+    asked = parser.parse_args()
+    from lpcal.cli.main import main as lpcal
+
+    captures = collection(asked.folder, asked.count)
+    words = ["reconstruct", *map(str, captures), "-c", str(asked.folder / "dome.yaml"), "--quiet", "-o"]
+    took = {}
+    for name, more in (("loop", []), (asked.on, ["--on", asked.on, "--jobs", str(asked.jobs)])):
+        begun = spent()
+        assert lpcal([*words, str(asked.folder / f"by_{name}"), *more]) == 0
+        took[name] = [after - before for after, before in zip(spent(), begun, strict=True)]
+    for name, (wall, processor) in took.items():
+        print(f"{name}: {wall:.1f} s, {processor:.1f} s of processor time, {wall / asked.count:.3f} s a capture")
+    wall = took["loop"][0] / took[asked.on][0]
+    print(f"the loop's time is {wall:.2f} times {asked.on}'s: {wall / asked.jobs:.2f} of {asked.jobs} cores' throughput")
+    print(f"processor time is {took[asked.on][1] / took['loop'][1]:.2f} times the loop's")
+    same = [same_bytes(asked.folder / "by_loop" / one.name, asked.folder / f"by_{asked.on}" / one.name) for one in captures]
+    print(f"{sum(same)} of {len(same)} surfaces have the same bytes")
+
+
+if __name__ == "__main__":
+    main()
