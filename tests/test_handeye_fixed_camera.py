@@ -14,11 +14,11 @@ from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.set_up import SetUp, of_pairs
 from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
 from lpcal.errors import DisagreementError
-from lpcal.formats.documents import Provenance
 from lpcal.formats.handeye_yaml import read_handeye, write_handeye
 from lpcal.formats.pasted_transforms import write_easy_handeye
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import poses_at
+from lpcal.records.provenance import Provenance
 
 SEEDS = [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))]
 

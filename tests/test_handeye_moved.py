@@ -111,7 +111,7 @@ def test_a_board_of_another_size_than_stated_is_solved_for_and_said(scale: float
     error = se3.log(found.H_PC @ se3.inv(H_PC))
     nees = error @ np.linalg.solve(found.H_PC_covariance, error)
     assert nees < 16.8
-    assert abs(found.evidence["board_size_by_mocap"] - scale) < 4 * found.evidence["board_size_by_mocap_std"]
+    assert abs(found.evidence.board_size_by_mocap - scale) < 4 * found.evidence.board_size_by_mocap_std
     assert any("mocap measures the board" in warning and "H_PC is in the mocap's metres" in warning for warning in found.warnings)
     sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, Options()).handeye
     assert not any("mocap measures the board" in warning for warning in sound.warnings)

@@ -60,7 +60,7 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
         session = static_session(np.random.default_rng(seed), 30)
         found = _static(with_square_stated(session, 1 / (1 + off)))
         nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
-        size, std = (found.evidence[key] for key in ("board_size_by_mocap", "board_size_by_mocap_std"))
+        size, std = found.evidence.board_size_by_mocap, found.evidence.board_size_by_mocap_std
         assert abs(size - 1 - off) < 5 * std
         assert 2e-4 < std < 3e-3
         said = any("mocap measures the board" in line for line in found.warnings)
@@ -81,7 +81,7 @@ def test_the_covariance_holds_whatever_the_square_is_stated(off):
 def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
     session = static_session(np.random.default_rng(4), 12, 12.0, Noise(mocap_rad=np.radians(0.5), mocap_m=3e-3))
     found = _static(session)
-    assert 1.8e-3 < found.evidence["board_size_by_mocap_std"] < 8e-3  # no surer than before the data, or little
+    assert 1.8e-3 < found.evidence.board_size_by_mocap_std < 8e-3  # no surer than before the data, or little
     depth_P = found.H_PC[:3, 2]
     sigma = np.sqrt(depth_P @ se3.origin_covariance(found.H_PC, found.H_PC_covariance) @ depth_P)
     assert sigma > 0.5e-3
@@ -130,7 +130,7 @@ def test_drifting_noise_does_not_make_it_sure_of_itself():
 def test_camera_error_is_refined_away():
     session = static_session(np.random.default_rng(7), 40, 30.0)
     found = _static(session)
-    off = np.abs(found.evidence["camera_as_refined_here"][:2] - [712.4, 713.1]).max()
+    off = np.abs(found.evidence.camera_as_refined_here[:2] - [712.4, 713.1]).max()
     wrong = replace(
         session.camera, K=session.camera.K * [[1.002, 1, 1], [1, 1.002, 1], [1, 1, 1]], covariance=session.camera.covariance * 25
     )
@@ -163,7 +163,7 @@ def test_a_splined_camera():
     corners = np.array([camera.project(se3.apply(H, points_B)) for H in H_CB]) + rng.normal(0, 0.15, (24, len(points_B), 2))
     boards = replace(session.boards, H_CB=H_CB, corners_px=corners)
     found = solve_paired(boards, session.H_OP, camera, Options()).handeye
-    assert found.evidence["corner_sigma_px"] == pytest.approx(0.15, rel=0.1)
+    assert found.evidence.corner_sigma_px == pytest.approx(0.15, rel=0.1)
     assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 22
 
 

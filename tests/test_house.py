@@ -60,6 +60,57 @@ def test_a_module_says_what_it_is(path: Path) -> None:
     assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), f"{name_of(path)} has no docstring"
 
 
+def annotations(tree: ast.Module) -> Iterator[ast.expr]:
+    """Every type that is written down: of arguments, results, variables and aliases."""
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.returns is not None:
+            yield node.returns
+        if isinstance(node, (ast.arg, ast.AnnAssign)) and node.annotation is not None:
+            yield node.annotation
+        if isinstance(node, ast.TypeAlias):
+            yield node.value
+
+
+UNTYPED = re.compile(r"(dict|Mapping)\[str, (object|Any)\]")
+TYPED_ROOMS = ("chain", "surface", "report", "records")
+PAGE_DATA = {"report/scene.py": 2, "report/relight_pack.py": 1, "records/outcome.py": 1, "records/provenance.py": 1, "records/sensor.py": 3}
+"""Where a record becomes JSON for a page's script or a document, and how often; nothing else may hold an untyped mapping."""
+
+
+@pytest.mark.parametrize("room", TYPED_ROOMS)
+def test_stages_hand_on_records_not_dicts(room: str) -> None:
+    """What a stage found is a record with typed fields; a mapping of anything exists only where a file or a page is written."""
+    for path in sorted((REPOSITORY / "lpcal" / room).rglob("*.py")):
+        count = sum(len(UNTYPED.findall(ast.unparse(one))) for one in annotations(ast.parse(path.read_text(encoding="utf-8"))))
+        assert count <= PAGE_DATA.get(path.relative_to(REPOSITORY / "lpcal").as_posix(), 0), f"{name_of(path)}: a frozen record, not a dict"
+
+
+def looked_up(tree: ast.Module) -> list[str]:
+    """Keys that are looked up as literal strings, by subscription or ``get``."""
+    found = []
+    for node in ast.walk(tree):
+        key = node.slice if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Load) else None
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "get" and node.args:
+            key = node.args[0]
+        if isinstance(key, ast.Constant) and isinstance(key.value, str):
+            found.append(key.value)
+    return found
+
+
+UNKNOWNS = {"H_CD", "H_OP", "H_PC", "H_OB", "camera", "clock", "scale", "setting", "offset", "source", "centre", "bias", "core"}
+UNKNOWNS |= {"roll", "dome", "intensity", "albedo", "delta"}
+"""Names of the solvers' unknowns, which a solution is asked for by name."""
+MRCALS = "rms_reproj_error__pixels"
+"""What mrcal calls the one figure that is taken from what it returns."""
+
+
+@pytest.mark.parametrize("room", ["chain", "report"])
+def test_no_figure_is_looked_up_by_a_string(room: str) -> None:
+    for path in sorted((REPOSITORY / "lpcal" / room).rglob("*.py")):
+        keys = looked_up(ast.parse(path.read_text(encoding="utf-8")))
+        assert not set(keys) - (UNKNOWNS | {MRCALS} if room == "chain" else set()), name_of(path)
+
+
 def test_no_vague_names() -> None:
     vague = [name_of(path) for path in tracked() if VAGUE & {part.lower() for part in (path.stem, *path.relative_to(REPOSITORY).parts)}]
     assert not vague

@@ -19,13 +19,14 @@ from lpcal.formats import calibration_yaml, camera_yaml, capture, mocap, surface
 from lpcal.formats.bundled import folder, rig_file
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
-from lpcal.formats.documents import Provenance, document_kind
+from lpcal.formats.documents import document_kind
 from lpcal.formats.import_lights import import_lights
 from lpcal.formats.outputs import refuse_place, write_text
 from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.formats.panel_yaml import read_rig as read_panel
 from lpcal.records.calibration import Calibration, Camera, CameraSolution
 from lpcal.records.observations import MarkerStream, PoseStream, RawCapture
+from lpcal.records.provenance import Provenance
 from lpcal.records.rig import RigFile
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.figures import ConventionFound
 from lpcal.records.observations import RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import StatedSensor
@@ -262,7 +263,7 @@ def integrate(
     Returns
     -------
     Surface
-        Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures["convention"]`` holds what the
+        Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures.convention`` holds what the
         curl says of y. Standard deviations are NaN: nothing tells them.
 
     Raises
@@ -297,9 +298,9 @@ def _integrated(normals_C: Image, inside: Mask, camera: Camera | None, distance_
     check(name, inside, camera)
     found = convention.settled(name, normals_C, inside, camera, green)
     surface = surface_of_normals(name, found.normals_C, inside, camera, distance_m)
-    said = {"green_turned_over": found.flipped, "curl_as_is": asdict(found.as_is), "curl_turned_over": asdict(found.turned)}
+    said = ConventionFound(green_turned_over=found.flipped, curl_as_is=found.as_is, curl_turned_over=found.turned)
     warnings = (UNMEASURED,) if found.note is None else (found.note, UNMEASURED)
-    return replace(surface, figures=surface.figures | {"convention": said}, warnings=warnings)
+    return replace(surface, figures=replace(surface.figures, convention=said), warnings=warnings)
 
 
 def mesh(surface: Surface) -> Mesh:

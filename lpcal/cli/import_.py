@@ -23,9 +23,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
     from lpcal.formats.calibration_yaml import KIND, write_calibration
-    from lpcal.formats.documents import Provenance, document_kind, sha256
+    from lpcal.formats.documents import document_kind, sha256
     from lpcal.formats.import_lights import import_lights, named_after
     from lpcal.formats.outputs import refuse_place
+    from lpcal.records.provenance import Provenance
 
     refuse_place(options.output, document_kind(KIND), [options.source])
     progress("reading", 0, 1)

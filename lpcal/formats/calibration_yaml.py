@@ -28,12 +28,13 @@ from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.document_numbers import rigid, sigma
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
 from lpcal.formats.reading import reader
 from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
+from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 
 KIND = "calibration"
@@ -65,7 +66,17 @@ def read_calibration(path: Path) -> Calibration:
     InputError
         Not there, cut off, of another kind, or a value that is lacking, of another form, or no number; the light is named.
     """
-    document = read_document(path, KIND)
+    return calibration_from_document(read_document(path, KIND), path)
+
+
+def calibration_from_document(document: dict[str, Any], path: Path) -> Calibration:
+    """A calibration as written; `path` is what errors name.
+
+    Raises
+    ------
+    InputError
+        As `read_calibration`.
+    """
     try:
         camera, sensor = _camera(document.get("camera"), path)
         lights = tuple(_light(path, entry) for entry in document["lights"])

@@ -14,6 +14,7 @@ from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
+from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import SURFACE, summary_of, write_surface
 from lpcal.pipeline.reconstruct import from_here
 from lpcal.records.calibration import Camera
@@ -42,10 +43,10 @@ def integrate_file(
     *told, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
-    convention = surface.figures["convention"]
+    figures = document_of(surface.figures)
     document = summary_of(surface) | {
-        "convention": convention,
-        "counts_and_residuals": {key: value for key, value in surface.figures.items() if key != "convention"},
+        "convention": figures.pop("convention"),
+        "counts_and_residuals": figures,
         "times_s": {"solving": seconds},
         "inputs": inputs,
     }

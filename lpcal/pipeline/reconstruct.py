@@ -16,6 +16,7 @@ from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
 from lpcal.api.surface_notes import distance_said
 from lpcal.api.surfaces import mesh, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
+from lpcal.formats import record_documents
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
@@ -167,7 +168,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
-        document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+        document["flatness_distant"] = _flatness(made(mask=surface.mask, method="distant"))
     write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
     return document
 
@@ -181,13 +182,18 @@ def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
 def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
     return summary_of(surface) | {
-        "flatness": flatness(surface),
+        "flatness": _flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
         "options": asdict(replace(wishes, panel=StatedSensor())),
         "inputs": hashes(task, calibration_path),
     }
+
+
+def _flatness(surface: Surface) -> dict[str, Any] | None:
+    found = flatness(surface)
+    return None if found is None else record_documents.document_of(found)
 
 
 def peak_memory_mb() -> int | None:

@@ -13,6 +13,7 @@ import numpy as np
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
+from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
@@ -77,7 +78,8 @@ class HandEye(Shown):
     """By how much the camera's clock runs faster, s/s; the offset holds at the camera's time `clock_middle_s`. 0: no drift shows."""
     clock_middle_s: float = 0.0
     warnings: tuple[str, ...] = ()
-    evidence: dict[str, object] = field(default_factory=dict)
+    evidence: HandEyeEvidence | None = None
+    """What the solve rests on; None where the transform was not solved for here."""
     carries: Carries = "camera"
     taken_offset_s: float = 0.0
     """The clock offset at which the body's poses were taken, where the data do not show it too."""
@@ -143,6 +145,20 @@ class Wings(Shown):
     source_of_H_CD: str = ""
     """Where H_CD comes from, in words."""
     d_object_m: float = float("nan")
+
+    @property
+    def position_std_m(self) -> Array:
+        """Standard deviation (L,) of each light's position, an axis, metres."""
+        blocks = [self._block(k) for k in range(len(self.wings))]
+        return np.array([np.sqrt(np.trace(se3.origin_covariance(H_CL, b)) / 3) for H_CL, b in zip(self.H_CL, blocks, strict=True)])
+
+    @property
+    def axis_std_rad(self) -> Array:
+        """Standard deviation (L,) of each light's axis, an axis, radians."""
+        return np.array([np.sqrt(np.trace(self._block(k)[:3, :3]) / 3) for k in range(len(self.wings))])
+
+    def _block(self, k: int) -> Array:
+        return self.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
 
 
 @dataclass(frozen=True)
@@ -285,7 +301,7 @@ class LightsSolution(Shown):
     H_CD: Array | None
     spheres: tuple[SphereFinding, ...]
     warnings: tuple[str, ...] = ()
-    evidence: dict[str, object] = field(default_factory=dict)
+    evidence: LightsEvidence = field(default_factory=LightsEvidence)
     H_CD_covariance: Array | None = None
     camera: Camera | None = None
     """The camera as the joint solve has it; None: it was taken as it is."""

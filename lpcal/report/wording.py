@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from lpcal.records.digits import fine
-
-type Document = Mapping[str, Any]
-"""A document that a stage wrote, as read."""
 
 NOTHING = "–"
 MINUS = "−"
