@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from lpcal.api.files import write_camera as write_camera
     from lpcal.api.files import write_surface as write_surface
     from lpcal.api.handeye import solve_handeye as solve_handeye
+    from lpcal.api.handeye_check import check_handeye as check_handeye
     from lpcal.api.lights import assemble_calibration as assemble_calibration
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
@@ -35,9 +36,11 @@ if TYPE_CHECKING:
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
     from lpcal.api.spheres import refine_lights as refine_lights
+    from lpcal.api.studies import study as study
     from lpcal.api.surfaces import integrate as integrate
     from lpcal.api.surfaces import mesh as mesh
     from lpcal.api.surfaces import reconstruct as reconstruct
+    from lpcal.api.wing_settings import wing_settings as wing_settings
     from lpcal.records.calibration import Calibration as Calibration
     from lpcal.records.calibration import Camera as Camera
     from lpcal.records.calibration import HandEye as HandEye
@@ -63,11 +66,14 @@ _HOME = {
         "write_surface",
     ),
     "api.handeye": ("solve_handeye",),
+    "api.handeye_check": ("check_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.mocap_formats": ("register_mocap",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
+    "api.studies": ("study",),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
+    "api.wing_settings": ("wing_settings",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),
     "records.sensor": ("StatedSensor",),

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.records.surface import Surface
 from lpcal.surface.convention import mirrored
 
@@ -50,7 +51,7 @@ def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, .
     found = surface.figures.ambient
     if found is None:
         return notes
-    others = tuple(note for note in notes if not note.startswith("no ambient image"))
+    others = tuple(note for note in notes if note != NO_AMBIENT)
     if not found.estimated:
         return (*others, found.note or "")
     percent, doubt = 100 * (found.share_of_signal or 0.0), 100 * (found.relative_std or 0.0)

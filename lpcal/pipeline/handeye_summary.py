@@ -89,7 +89,7 @@ def _left_out(handeye: HandEye) -> list[str]:
     why: dict[str, list[str]] = {}
     for view in handeye.views:
         if not view.used:
-            why.setdefault(str(view.why).split(" by ")[0], []).append(view.image)
+            why.setdefault(view.reason or view.why or "no reason given", []).append(view.image)
     if not why:
         return []
     texts = [f"{reason}: {', '.join(images[:NAMED_VIEWS])}{_more(len(images) - NAMED_VIEWS)}" for reason, images in why.items()]

@@ -348,6 +348,8 @@ class Calibration(Shown):
     """What is stated of the sensor where there is no camera; else the camera holds it."""
     warnings: tuple[str, ...] = ()
     """What is to be said of the file that it comes from, in words."""
+    origin: str = ""
+    """The format of another system that it was read from."""
 
     def of_images(self, size: tuple[int, int]) -> Calibration:
         """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""

@@ -129,6 +129,8 @@ class ViewVerdict:
     """Share of a board that is as bright as the image gets."""
     held_out_m: float | None = None
     """What it misses a solve of the other views by."""
+    reason: str | None = None
+    """`why` without this view's own figures: the same for all views that were left out for it."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -23,6 +23,8 @@ from lpcal.records.calibration import Carries, HandEye, ViewVerdict
 from lpcal.records.evidence import HandEyeEvidence
 
 ON_BODY = SetUp()
+MISFIT = "its mocap pose misses the others"
+"""Why a view was left out whose pose was measured but does not fit."""
 MOST_BAD = 0.5
 """Share of the views that may not fit one rigid camera."""
 
@@ -132,7 +134,7 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
         why = state.panel.why[k]
         used = bool(state.inliers[k])
         if why is None and not used:
-            why = f"its mocap pose misses the others by {np.degrees(angle[k]):.2f} deg, {1e3 * distance[k]:.1f} mm"
+            why = f"{MISFIT} by {np.degrees(angle[k]):.2f} deg, {1e3 * distance[k]:.1f} mm"
         seen = why is None or used or state.panel.why[k] is None
         verdicts.append(
             ViewVerdict(
@@ -143,6 +145,7 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
                 residual_m=float(distance[k]) if seen else None,
                 residual_rad=float(angle[k]) if seen else None,
                 held_out_m=float(held_out_m[k]) if np.isfinite(held_out_m[k]) else None,
+                reason=None if used else state.panel.why[k] or MISFIT,
             )
         )
     return tuple(verdicts)

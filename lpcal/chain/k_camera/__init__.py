@@ -191,12 +191,20 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
         if index not in rows:
             verdicts.append(ViewVerdict(view.image, used=False, why=misfits.get(index, view.why)))
             continue
-        seen = {"blur_px": view.blur_px, "glare": view.glare}
         inlier, residual_px = fit.inlier[rows[index]], fit.residual_px[rows[index]]
         used = int(inlier.sum())
         rejected = int(np.isfinite(residual_px).all(axis=-1).sum()) - used
         verdicts.append(
-            ViewVerdict(view.image, used=True, why=None, residual_px=rms(residual_px, inlier), corners=used, rejected=rejected, **seen)
+            ViewVerdict(
+                view.image,
+                used=True,
+                why=None,
+                residual_px=rms(residual_px, inlier),
+                corners=used,
+                rejected=rejected,
+                blur_px=view.blur_px,
+                glare=view.glare,
+            )
         )
     return tuple(verdicts)
 
