@@ -14,6 +14,7 @@ TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import h
 
 if TYPE_CHECKING:
     from lpcal import errors as errors
+    from lpcal.api import methods as methods
     from lpcal.api.boards import calibrate_camera as calibrate_camera
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
@@ -81,7 +82,10 @@ _HOME = {
 }
 """The module that each public name is loaded from when it is first used."""
 
-__all__ = [*sorted(name for names in _HOME.values() for name in names), "errors"]  # noqa: PLE0604
+MODULES = {"errors": "errors", "methods": "api.methods"}
+"""Modules that are public as a whole."""
+
+__all__ = [*sorted(name for names in _HOME.values() for name in names), *MODULES]  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> object:
@@ -91,8 +95,8 @@ def __getattr__(name: str) -> object:
     home = next((module for module, names in _HOME.items() if name in names), None)
     if home is not None:
         found = getattr(import_module(f"lpcal.{home}"), name)
-    elif name == "errors":
-        found = import_module("lpcal.errors")
+    elif name in MODULES:
+        found = import_module(f"lpcal.{MODULES[name]}")
     else:
         raise AttributeError(f"module 'lpcal' has no attribute {name!r}")
     globals()[name] = found

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from lpcal.errors import InputError
 from lpcal.formats.guarded_yaml import load_yaml
 from lpcal.formats.outputs import Kind, marked, refuse_place, write_text
 from lpcal.formats.reading import reader, reading
+from lpcal.formats.record_documents import document_of
 from lpcal.records.provenance import Provenance
 
 VERSION = 1
@@ -126,6 +127,8 @@ def plain(value: Any) -> Any:
     """The value in types that YAML and JSON know; NaN becomes null."""
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
+    if is_dataclass(value):
+        return plain(document_of(value))
     if isinstance(value, Mapping):
         return {str(key): plain(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):

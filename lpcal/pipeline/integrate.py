@@ -25,7 +25,13 @@ HEAD = 1000
 
 
 def integrate_file(
-    normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None, green: Green = "auto"
+    normals: Path,
+    calibration: Path | None,
+    mask: Path | None,
+    target: Path,
+    distance_m: float | None = None,
+    green: Green = "auto",
+    integrator: str = "lpcal",
 ) -> Outcome:
     """Integrate a normal map and write its folder.
 
@@ -39,7 +45,8 @@ def integrate_file(
     values, good = read_normals(normals)
     inside = good if mask is None else good & read_mask(mask, good.shape)
     camera, working_m = (None, None) if calibration is None else _camera(calibration)
-    surface = integrate(values, camera, inside, distance_m=distance_m or working_m or DISTANCE_M, green=green, name=normals.stem)
+    distance_m = distance_m or working_m or DISTANCE_M
+    surface = integrate(values, camera, inside, distance_m=distance_m, green=green, integrator=integrator, name=normals.stem)
     *told, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}

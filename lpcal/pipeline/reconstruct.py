@@ -16,7 +16,6 @@ from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
 from lpcal.api.surface_notes import distance_said
 from lpcal.api.surfaces import mesh, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
-from lpcal.formats import record_documents
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
@@ -51,6 +50,9 @@ class Wishes:
     """What the user asks for, for every capture."""
 
     near: bool = True
+    method: str | None = None
+    """A method to compare with; None: lpcal's own."""
+    integrator: str = "lpcal"
     distance_m: float | None = None
     mask: str = "auto"
     """auto | none | a file."""
@@ -164,11 +166,11 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         progress=progress,
     )
     read = time.perf_counter()
-    surface = made(mask=mask, method="near" if wishes.near else "distant")
+    surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
-    if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
-        document["flatness_distant"] = _flatness(made(mask=surface.mask, method="distant"))
+    if document["flatness"] and wishes.near and wishes.method is None and calibration.lights[0].source_C is not None:
+        document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
     write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
     return document
 
@@ -182,18 +184,13 @@ def _belongs(workspace: Workspace, task: Task, calibration_path: Path) -> bool:
 def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
     return summary_of(surface) | {
-        "flatness": _flatness(surface),
+        "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
         "options": asdict(replace(wishes, panel=StatedSensor())),
         "inputs": hashes(task, calibration_path),
     }
-
-
-def _flatness(surface: Surface) -> dict[str, Any] | None:
-    found = flatness(surface)
-    return None if found is None else record_documents.document_of(found)
 
 
 def peak_memory_mb() -> int | None:
@@ -230,9 +227,9 @@ def _flat_said(document: dict[str, Any]) -> str:
     near, distant = document["flatness"], document.get("flatness_distant")
     if not near:
         return ""
-    said = f"\n  nearly flat: {near['plane_rms_mm']:.2f} mm rms from a plane, {near['plane_peak_to_valley_mm']:.2f} mm from peak to valley"
-    said += f" over {near['extent_mm']:.0f} mm, a bowl of {near['bowl_mm']:.2f} mm"
-    return said + (f"; with distant lights it would be one of {distant['bowl_mm']:.1f} mm" if distant else "")
+    said = f"\n  nearly flat: {near.plane_rms_mm:.2f} mm rms from a plane, {near.plane_peak_to_valley_mm:.2f} mm from peak to valley"
+    said += f" over {near.extent_mm:.0f} mm, a bowl of {near.bowl_mm:.2f} mm"
+    return said + (f"; with distant lights it would be one of {distant.bowl_mm:.1f} mm" if distant else "")
 
 
 def from_here(target: Path) -> Path:
