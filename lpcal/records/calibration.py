@@ -91,6 +91,16 @@ class HandEye(Shown):
         return np.asarray(t_camera_s - self.clock_drift * (t_camera_s - self.clock_middle_s) - self.taken_offset_s)
 
     @property
+    def position_std_m(self) -> Array:
+        """Standard deviation (3,) of the camera's place: of the last column of ``H_PC``, metres."""
+        return np.asarray(se3.origin_sigmas(self.H_PC, self.H_PC_covariance))
+
+    @property
+    def rotation_std_rad(self) -> Array:
+        """Standard deviation (3,) of the turn of ``H_PC``, about the axes of the body, radians."""
+        return np.sqrt(np.diag(self.H_PC_covariance)[:3])
+
+    @property
     def names(self) -> tuple[str, str]:
         """What ``H_PC`` and ``H_OB`` are."""
         return NAMES[self.carries]
