@@ -43,6 +43,21 @@ def test_errors_and_their_codes_are_those_of_the_code() -> None:
     assert rows == {kind.__name__: kind.exit_code for kind in lpcal.errors.LpcalError.__subclasses__()}
 
 
+def test_messages_on_the_page_are_those_of_the_code() -> None:
+    page = (DOCS / "errors.md").read_text(encoding="utf-8")
+    fragments = re.findall(r"^\| `([^`]+)` \| [^|\d]", page, re.MULTILINE)
+    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "lpcal").rglob("*.py"))
+    assert len(fragments) > 20
+    assert [one for one in fragments if one not in source] == []
+
+
+def test_tests_on_the_page_are_there() -> None:
+    named = re.findall(r"`(test_\w+)`", (DOCS / "uncertainty.md").read_text(encoding="utf-8"))
+    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "tests").glob("test_*.py"))
+    assert len(named) > 10
+    assert [one for one in named if f"def {one}(" not in source] == []
+
+
 @pytest.mark.slow
 def test_the_site_builds_strictly(tmp_path: Path) -> None:
     if find_spec("mkdocs") is None:
