@@ -7,7 +7,7 @@ import pytest
 
 from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
-from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -66,7 +66,7 @@ def test_a_session_in_one_piece_is_left_alone(shared: float) -> None:
 def test_handeye_refuses_a_step() -> None:
     H_OP, H_CB = session(7)
     with pytest.raises(DisagreementError, match=r"the board moved between v14\.png and v15\.png"):
-        solve_paired(BoardPoses(tuple(NAMES[:30]), None, step_of(TURN, H_CB)), H_OP, None, Options())
+        solve_paired(BoardPoses(tuple(NAMES[:30]), None, step_of(TURN, H_CB)), H_OP, None, HandEyeOptions())
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -98,7 +98,7 @@ def test_a_few_lost_poses_lend_no_axis(lost: int) -> None:
     H_OP = H_OP.copy()
     H_OP[4 : 4 + lost] = np.eye(4)
     with pytest.raises(DegenerateError, match="about one axis only, about its z"):
-        solve_paired(BoardPoses(tuple(NAMES[:24]), None, H_CB), H_OP, None, Options())
+        solve_paired(BoardPoses(tuple(NAMES[:24]), None, H_CB), H_OP, None, HandEyeOptions())
 
 
 @pytest.mark.parametrize("scale", [1.015, 0.98, 1.03])
@@ -107,13 +107,13 @@ def test_a_board_of_another_size_than_stated_is_solved_for_and_said(scale: float
     small = H_CB.copy()
     small[:, :3, 3] /= scale
     boards = BoardPoses(tuple(NAMES[:30]), None, small)
-    found = solve_paired(boards, H_OP, None, Options()).handeye
+    found = solve_paired(boards, H_OP, None, HandEyeOptions()).handeye
     error = se3.log(found.H_PC @ se3.inv(H_PC))
     nees = error @ np.linalg.solve(found.H_PC_covariance, error)
     assert nees < 16.8
     assert abs(found.evidence.board_size_by_mocap - scale) < 4 * found.evidence.board_size_by_mocap_std
     assert any("mocap measures the board" in warning and "H_PC is in the mocap's metres" in warning for warning in found.warnings)
-    sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, Options()).handeye
+    sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, HandEyeOptions()).handeye
     assert not any("mocap measures the board" in warning for warning in sound.warnings)
 
 

@@ -174,3 +174,13 @@ def command_module(name: str) -> Path:
 @pytest.mark.parametrize("command", [name for name in COMMANDS if command_module(name).exists()])
 def test_a_commands_help_is_there_at_once(command: str) -> None:
     assert not imported_by(command, "--help") & set(HEAVY)
+
+
+def test_no_two_public_classes_share_a_name() -> None:
+    """A name that is read in a message, a signature or a search means one thing."""
+    homes: dict[str, list[str]] = {}
+    for path in MODULES:
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes.setdefault(node.name, []).append(name_of(path))
+    assert not {name: found for name, found in homes.items() if len(found) > 1}

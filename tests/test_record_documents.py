@@ -19,8 +19,8 @@ from lpcal.records.evidence import (
     LightsEvidence,
     NextSphere,
     OtherSolver,
+    RefinedSetting,
     TriedModel,
-    WingSetting,
 )
 from lpcal.records.figures import Anchor, SurfaceFigures
 
@@ -50,7 +50,7 @@ COVERAGE = Coverage(
 TRIED = TriedModel(model="opencv5", board="bowed", cross_validation_px=float("nan"), expected_error_px=0.1)
 CAMERA = CameraEvidence(cross_validation=(TRIED,), coverage=COVERAGE, independent_check=OtherSolver(by="OpenCV", f_px=(700.0, 701.0)))
 SPHERE = NextSphere(where="at the left", centre_m=np.array([0.1, 0.0, 0.3]), direction_std_deg=0.1, with_it_deg=0.05)
-SETTING = WingSetting(azimuth_deg=1.0, joint_angle_deg=30.0, d1_m=0.1, d2_m=0.09)
+SETTING = RefinedSetting(azimuth_deg=1.0, joint_angle_deg=30.0, d1_m=0.1, d2_m=0.09)
 LIGHTS = LightsEvidence(model="round lobe", settings={"L0": SETTING}, next_sphere=SPHERE, outline_bias_px={"chrome": 0.1})
 SURFACE = SurfaceFigures(pixels=9, shadow_anchors={1: Anchor(0.3, 0.31, 0.02)}, images_exchanged={"L0": "L1"})
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from lpcal.api.staged import staged
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DisagreementError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records import given
@@ -86,7 +86,7 @@ def solve_handeye(
     True
     """
     boards = boards_of(H_CB, t_camera_s)
-    options = Options(clock_offset_s, camera_share, inverted=inverted, carries=carries)
+    options = HandEyeOptions(clock_offset_s, camera_share, inverted=inverted, carries=carries)
     lens = camera if boards.corners_px is not None else None
     progress("hand-eye", 0, 1)
     stream = stream_of(H_OP, t_mocap_s)

@@ -15,7 +15,7 @@ from lpcal.chain.h_pc_handeye import clock, congruence, observability, set_up
 from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.ends import all_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
-from lpcal.chain.h_pc_handeye.state import Options
+from lpcal.chain.h_pc_handeye.state import HandEyeOptions
 from lpcal.errors import DegenerateError, DisagreementError, InputError, LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array, Mask
@@ -113,15 +113,15 @@ def check_handeye(
         findings.say("poses", f"{len(poses)}, one a view, no clock")
         pairs = poses, np.ones(len(poses), dtype=bool)
     if pairs is not None:
-        _motion(boards, *pairs, findings, Options(inverted=inverted, carries=carries))
+        _motion(boards, *pairs, findings, HandEyeOptions(inverted=inverted, carries=carries))
     return HandEyeCheck(tuple(findings.notes), tuple(findings.wrong), tuple(findings.warnings), findings.figures)
 
 
 @screens.screen_of.register
-def _check_screen(found: HandEyeCheck) -> screens.Screen:
+def _check_screen(found: HandEyeCheck) -> screens.RecordScreen:
     rows = [*found.notes, *(("WRONG", error.message().partition("\n")[0]) for error in found.wrong)]
     title = f"HandEyeCheck  {len(found.wrong)} wrong" if found.wrong else "HandEyeCheck  nothing wrong found"
-    return screens.Screen(title, rows, found.warnings)
+    return screens.RecordScreen(title, rows, found.warnings)
 
 
 def _of_recording(stream: PoseStream, boards: BoardPoses, stated_s: float | None, findings: _Findings) -> tuple[Array, Mask] | None:
@@ -212,7 +212,7 @@ def _lost_views(boards: BoardPoses, panel: TrackPoses, findings: _Findings) -> N
         findings.say("", f"{len(images)} views without a pose, {why}: {', '.join(images[:NAMED])}{more}")
 
 
-def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings, options: Options) -> None:
+def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings, options: HandEyeOptions) -> None:
     found = set_up.of_pairs(H_OP[trusted], boards.H_CB[trusted], options, from_images=boards.corners_px is not None)
     if found.board_carried:
         findings.say("set-up", "the camera stands still in the room, the tracked body carries the board")

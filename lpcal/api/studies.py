@@ -211,9 +211,9 @@ def study(which: Which, *, at: Sequence[float] | None = None, progress: Progress
 
 
 @screens.screen_of.register
-def _study_screen(found: Study) -> screens.Screen:
+def _study_screen(found: Study) -> screens.RecordScreen:
     rows = [(curve.name, f"best {_range(curve)}: {curve.least_percent:.2f} %") for curve in found.curves]
-    return screens.Screen(f"Study  mean error of the normals over {found.across}", rows)
+    return screens.RecordScreen(f"Study  mean error of the normals over {found.across}", rows)
 
 
 def _phase_said(found: dict[Variant, StudyCurve]) -> str:

@@ -309,8 +309,8 @@ def mesh(surface: Surface) -> Mesh:
 
 
 @screens.screen_of.register
-def _mesh_screen(found: Mesh) -> screens.Screen:
+def _mesh_screen(found: Mesh) -> screens.RecordScreen:
     low, high = found.vertices_C.min(axis=0, initial=np.inf), found.vertices_C.max(axis=0, initial=-np.inf)
     rows = [("vertices", str(len(found.vertices_C))), ("faces", str(len(found.faces)))]
     rows += [("size", " x ".join(f"{side:.4g}" for side in high - low) + " along x, y, z of C")] if len(found.vertices_C) else []
-    return screens.Screen("Mesh", rows)
+    return screens.RecordScreen("Mesh", rows)

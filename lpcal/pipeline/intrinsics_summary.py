@@ -11,7 +11,7 @@ import numpy as np
 from lpcal.formats.record_documents import document_of
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.digits import fine
-from lpcal.records.evidence import CameraEvidence, Term
+from lpcal.records.evidence import CameraEvidence, ShapeTerm
 from lpcal.records.observations import BoardPoses
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
@@ -60,7 +60,7 @@ def _figures(solution: CameraSolution) -> list[str]:
     return [*lines, f"board       {_board(evidence.board_shape or {})}", f"model       {camera.model}: {why}", *_sureness(evidence)]
 
 
-def _board(shape: Mapping[str, Term]) -> str:
+def _board(shape: Mapping[str, ShapeTerm]) -> str:
     """The board's shape in words."""
     if not shape:
         return "taken as flat"
@@ -76,7 +76,7 @@ def _board(shape: Mapping[str, Term]) -> str:
     return words
 
 
-def _mm(term: Term) -> str:
+def _mm(term: ShapeTerm) -> str:
     """A term of the board's shape in mm, with its sigma where that is known."""
     sigma = "" if not np.isfinite(term.std) else f" +- {fine(1e3 * term.std)}"
     return f"{fine(1e3 * term.value)}{sigma} mm"

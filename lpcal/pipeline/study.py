@@ -7,7 +7,7 @@ from pathlib import Path
 from lpcal.api.studies import ACROSS, Study, StudyCurve, Which, study
 from lpcal.formats.outputs import marked, refuse_place, whole, write_text
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.report.study_plot import SOFTWARE, Curve, plot_png
+from lpcal.report.study_plot import SOFTWARE, PlotLine, plot_png
 
 TABLE = marked("a study's table", *(across.replace(",", "") for across in ACROSS.values()))
 PLOT = marked("a study's plot", SOFTWARE)
@@ -22,7 +22,7 @@ def write_study(which: Which, folder: Path, progress: Progress) -> Outcome:
     refuse_place(plot, PLOT)
     found = study(which, progress=progress)
     scale = 1.0 if which == "phase-angle" else FULL_SCALE
-    curves = [Curve(curve.name, scale * curve.x, curve.mean_percent) for curve in found.curves]
+    curves = [PlotLine(curve.name, scale * curve.x, curve.mean_percent) for curve in found.curves]
     lines = [f"{'x':>8} " + "".join(f"{curve.name[:24]:>26}" for curve in curves)]
     lines += [f"{x:8.1f} " + "".join(f"{curve.y[k]:26.3f}" for curve in curves) for k, x in enumerate(curves[0].x)]
     write_text(table, "\n".join(",".join(row) for row in _csv(found, curves)) + "\n", TABLE)
@@ -44,6 +44,6 @@ def _row(curve: StudyCurve) -> dict[str, object]:
     }
 
 
-def _csv(found: Study, curves: list[Curve]) -> list[list[str]]:
+def _csv(found: Study, curves: list[PlotLine]) -> list[list[str]]:
     head = [found.across.replace(",", ""), *(curve.name.replace(",", "") for curve in curves)]
     return [head, *([f"{x:g}", *(f"{curve.y[k]:.4f}" for curve in curves)] for k, x in enumerate(curves[0].x))]

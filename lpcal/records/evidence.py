@@ -31,7 +31,7 @@ class TriedModel:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Term:
+class ShapeTerm:
     """A term of the board's shape (metres; stretch and shear without unit) with its standard deviation."""
 
     value: float
@@ -120,7 +120,7 @@ class CameraEvidence:
     corner_sigma_px: float | None = None
     board_warp_m: tuple[float, ...] | None = None
     """How far the board bows along x and y; None: it was taken as flat."""
-    board_shape: dict[str, Term] | None = None
+    board_shape: dict[str, ShapeTerm] | None = None
     """Terms of the board's shape, by name."""
     board_warp_allowed: bool | None = None
     coverage: Coverage | None = None
@@ -176,7 +176,7 @@ type LightsModel = Literal["sum of LEDs", "round lobe", "geometry only", "distan
 
 
 @dataclass(frozen=True, kw_only=True)
-class WingSetting:
+class RefinedSetting:
     """A wing's setting as refined."""
 
     azimuth_deg: float
@@ -215,7 +215,7 @@ class LightsEvidence:
     """How far a blob's source lies before its mechanical centre, by its count of LEDs."""
     outline_bias_px: dict[str, float] | None = None
     """By how much outlines are found too large, by the spheres' kind."""
-    settings: dict[str, WingSetting] | None = None
+    settings: dict[str, RefinedSetting] | None = None
     lobe_seen_deg: dict[str, float] | None = None
     """The largest angle from the axis at which spheres showed each light."""
     highlight_rms_px: float | None = None

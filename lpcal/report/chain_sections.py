@@ -43,7 +43,7 @@ class LensChoice:
 
 
 @dataclass(frozen=True)
-class CameraSection:
+class CameraPart:
     """Intrinsics with their sigmas, residuals a view, coverage of the image, the board's shape."""
 
     rows: list[Row]
@@ -71,7 +71,7 @@ class TransformFigures:
 
 
 @dataclass(frozen=True)
-class HandEyeSection:
+class HandEyePart:
     """H_PC with its sigmas, the views used and why not, the clock."""
 
     transforms: list[TransformFigures]
@@ -102,7 +102,7 @@ MEASURES = (
 )
 
 
-def camera_section(report: RigReport) -> CameraSection | None:
+def camera_section(report: RigReport) -> CameraPart | None:
     """The camera's section; None where there is no camera."""
     camera, solution = report.lens, report.camera
     if camera is None:
@@ -110,7 +110,7 @@ def camera_section(report: RigReport) -> CameraSection | None:
     points_B = None if report.boards is None else report.boards.points_B
     views = () if solution is None else solution.views
     seen = None if solution is None or report.boards is None else _corners(report.boards, solution)
-    return CameraSection(
+    return CameraPart(
         rows=_intrinsics(camera, solution),
         parameters=[(name, with_sigma(camera.value_of(name), camera.std_of(name))) for name in camera.parameters],
         residuals=_view_bars(views, MEASURES[0]) if views else None,
@@ -125,7 +125,7 @@ def camera_section(report: RigReport) -> CameraSection | None:
     )
 
 
-def handeye_section(report: RigReport) -> HandEyeSection | None:
+def handeye_section(report: RigReport) -> HandEyePart | None:
     """The hand-eye's section; None where it has not run."""
     found = report.handeye
     if found is None:
@@ -133,7 +133,7 @@ def handeye_section(report: RigReport) -> HandEyeSection | None:
     used = [view for view in found.views if view.used]
     camera, board = found.names
     offset, std = found.clock_offset_s, found.clock_offset_std_s
-    return HandEyeSection(
+    return HandEyePart(
         transforms=[_transform(camera, found.H_PC, found.H_PC_covariance), _transform(board, found.H_OB, found.H_OB_covariance)],
         board_carried=found.carries == "board",
         clock=with_sigma(1000 * offset, None if std is None else 1000 * std, "ms") if offset is not None else None,

@@ -42,7 +42,7 @@ class LightRow:
 
 
 @dataclass(frozen=True)
-class LightsSection:
+class LightsPart:
     """One row a light, the focus, and charts of intensities and lobes."""
 
     rows: list[LightRow]
@@ -71,7 +71,7 @@ class SphereRow:
 
 
 @dataclass(frozen=True)
-class SpheresSection:
+class SpheresPart:
     """What each sphere says: where it is, what was left over, and how far its own light directions are from the refined lights."""
 
     rows: list[SphereRow]
@@ -82,14 +82,14 @@ class SpheresSection:
     used: str
 
 
-def lights_section(report: RigReport) -> LightsSection | None:
+def lights_section(report: RigReport) -> LightsPart | None:
     """The lights' section; None where none are refined or imported."""
     found, measured = report.placed, report.intensities_measured
     if found is None or not found.lights:
         return None
     before = {} if report.wings is None else {light.name: light for light in designed(report.wings)}
     focus = found.focus_C
-    return LightsSection(
+    return LightsPart(
         rows=[_row(light, before.get(light.name), measured=measured) for light in found.lights],
         moved=any(light.name in before for light in found.lights),
         measured=measured,
@@ -102,7 +102,7 @@ def lights_section(report: RigReport) -> LightsSection | None:
     )
 
 
-def spheres_section(report: RigReport) -> SpheresSection | None:
+def spheres_section(report: RigReport) -> SpheresPart | None:
     """The spheres' section; None where none were looked at."""
     if report.lights is None or not report.lights.spheres:
         return None
@@ -116,7 +116,7 @@ def spheres_section(report: RigReport) -> SpheresSection | None:
                 dots.append((angle, label, "accent" if sphere.used else "fair"))
         rows.append((light.name, dots))
     angles = [angle for _, dots in rows for angle, _, _ in dots]
-    return SpheresSection(
+    return SpheresPart(
         rows=[_sphere(sphere) for sphere in spheres],
         median=fixed(float(np.median(angles)), 2, "°") if angles else None,
         largest=fixed(max(angles), 2, "°") if angles else None,

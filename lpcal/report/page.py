@@ -16,7 +16,7 @@ from lpcal.records.surface import Component
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.light_sections import lights_section, spheres_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
-from lpcal.report.scene import Scene, layers_of, rig_caption, rig_scene, room_scene
+from lpcal.report.scene import LineScene, layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.templates import environment
 from lpcal.report.verdict import headline, verdicts
 from lpcal.report.wording import with_sigma
@@ -67,7 +67,7 @@ def script_json(value: Any) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def _script(scene: Scene | None) -> str | None:
+def _script(scene: LineScene | None) -> str | None:
     return None if scene is None else script_json(scene.document())
 
 

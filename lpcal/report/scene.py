@@ -22,7 +22,7 @@ type Kind = Literal["line", "point", "label", "arrow"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Item:
+class LineItem:
     """A line, a point, a label or an arrow; `points` (N, 3) metres, of an arrow its foot alone. Its look: tone, layer, and the flags."""
 
     kind: Kind
@@ -51,10 +51,10 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Scene:
+class LineScene:
     """What is drawn, the middle (3,) and radius of it all, which way is up, and from where it is seen at first, radians."""
 
-    items: tuple[Item, ...]
+    items: tuple[LineItem, ...]
     centre: Array
     radius: float
     up: Array
@@ -89,7 +89,7 @@ BOARDS_SHOWN = 48
 MANY = 30
 
 
-def rig_scene(report: RigReport) -> Scene | None:
+def rig_scene(report: RigReport) -> LineScene | None:
     """The rig in C: camera, lights with axis and cone, where they were designed, panel frame, focus, the board's stations."""
     lights, placed, camera = report.shown_lights, report.placed, report.lens
     if not lights:
@@ -111,8 +111,8 @@ def rig_scene(report: RigReport) -> Scene | None:
         drawn += _triad(se3.inv(report.handeye.H_PC), 0.075, "P", "frames")
     if focus is not None:
         text = f"focus, {1000 * np.linalg.norm(focus):.0f} mm"
-        drawn.append(Item(kind="point", points=focus[None], tone="focus", r=4, layer="rig"))
-        drawn.append(Item(kind="label", points=focus[None], text=text, tone="focus", layer="rig"))
+        drawn.append(LineItem(kind="point", points=focus[None], tone="focus", r=4, layer="rig"))
+        drawn.append(LineItem(kind="label", points=focus[None], text=text, tone="focus", layer="rig"))
         reach.append(focus)
     drawn += _boards(report)
     return _scene(drawn, np.array(reach), up=np.array([0, -1.0, 0]), yaw=-0.75, pitch=0.35)
@@ -122,7 +122,7 @@ LAYERS = {"axes": "axes", "wings": "wings", "designed": "as designed", "frames":
 """What of the rig can be shown or hidden, and its name on the page."""
 
 
-def layers_of(scene: Scene | None) -> list[tuple[str, str, bool]]:
+def layers_of(scene: LineScene | None) -> list[tuple[str, str, bool]]:
     """Layers that the scene has, their names, and whether they show at first."""
     found = {item.layer for item in scene.items} if scene is not None else set()
     return [(layer, name, layer != "boards") for layer, name in LAYERS.items() if layer in found]
@@ -136,20 +136,20 @@ def rig_caption(report: RigReport) -> str:
     return f"{view}, at true scale" if placed else f"{view}, lights drawn where they come from, not how far" if camera else view
 
 
-def room_scene(report: RigReport) -> Scene | None:
+def room_scene(report: RigReport) -> LineScene | None:
     """The room in O: the board, and the camera wherever a view was taken."""
     handeye, found = report.handeye, report.body_poses
     if handeye is None or handeye.carries == "board" or not found:
         return None
     used = {view.image: view.used for view in handeye.views}
     H_OC = {image: H_OP @ handeye.H_PC for image, H_OP in found.items() if image in used}
-    drawn: list[Item] = []
+    drawn: list[LineItem] = []
     for image, pose in H_OC.items():
         drawn += _camera(pose, report.lens, 0.05, "accent" if used[image] else "fair", "used" if used[image] else "left out")
     reach = [pose[:3, 3] for image, pose in H_OC.items() if used[image]]
     if report.boards is not None and report.boards.points_B is not None:
         outline = se3.apply(handeye.H_OB, _outline(report.boards.points_B))
-        drawn.append(Item(kind="line", points=outline, tone="board", closed=True, fill=0.25, layer="board"))
+        drawn.append(LineItem(kind="line", points=outline, tone="board", closed=True, fill=0.25, layer="board"))
         drawn += _triad(handeye.H_OB, 0.08, "B", "board")
         reach += list(outline)
     if not reach:
@@ -158,14 +158,14 @@ def room_scene(report: RigReport) -> Scene | None:
     return _scene(drawn, np.array(reach), up=up / max(float(np.linalg.norm(up)), 1e-9), yaw=0.6, pitch=0.4)
 
 
-def _scene(drawn: Sequence[Item], reach: Array, *, up: Array, yaw: float, pitch: float) -> Scene:
+def _scene(drawn: Sequence[LineItem], reach: Array, *, up: Array, yaw: float, pitch: float) -> LineScene:
     centre = (reach.min(axis=0) + reach.max(axis=0)) / 2 if len(reach) < MANY else np.median(reach, axis=0)
     away = np.linalg.norm(reach - centre, axis=1)
     radius = float(away.max()) if len(reach) < MANY else 1.2 * float(np.percentile(away, 90))
-    return Scene(tuple(drawn), centre, radius or 0.1, up, yaw, pitch)
+    return LineScene(tuple(drawn), centre, radius or 0.1, up, yaw, pitch)
 
 
-def _camera(H_AC: Array, camera: Camera | None, length: float, tone: str, layer: str) -> list[Item]:
+def _camera(H_AC: Array, camera: Camera | None, length: float, tone: str, layer: str) -> list[LineItem]:
     """The frustum of a camera, from its image size and K where they are known."""
     K = PLAIN_K if camera is None else camera.K
     w, h = (1, 1) if camera is None else camera.image_size
@@ -173,8 +173,8 @@ def _camera(H_AC: Array, camera: Camera | None, length: float, tone: str, layer:
     rays = np.column_stack([(corners_px - K[:2, 2]) / [K[0, 0], K[1, 1]], np.ones(4)]) * length
     far = se3.apply(H_AC, rays)
     eye, thin = H_AC[:3, 3], tone != "camera"
-    sides = [Item(kind="line", points=np.stack([eye, corner]), tone=tone, thin=thin, layer=layer) for corner in far]
-    return [*sides, Item(kind="line", points=far, closed=True, fill=0.12, tone=tone, thin=thin, layer=layer)]
+    sides = [LineItem(kind="line", points=np.stack([eye, corner]), tone=tone, thin=thin, layer=layer) for corner in far]
+    return [*sides, LineItem(kind="line", points=far, closed=True, fill=0.12, tone=tone, thin=thin, layer=layer)]
 
 
 def _place(light: Light) -> Array | None:
@@ -187,17 +187,17 @@ def _towards(light: Light, focus: Array | None) -> Array:
     return np.stack([centre + DISTANT_M[1] * light.direction_C, centre + DISTANT_M[0] * light.direction_C])
 
 
-def _light(light: Light, focus: Array | None) -> list[Item]:
+def _light(light: Light, focus: Array | None) -> list[LineItem]:
     where = _place(light)
     if where is None:
         line = _towards(light, focus)
         return [
-            Item(kind="line", points=line, tone="light", layer="rig"),
-            Item(kind="label", points=line[:1], text=light.name, tone="light", layer="rig"),
+            LineItem(kind="line", points=line, tone="light", layer="rig"),
+            LineItem(kind="label", points=line[:1], text=light.name, tone="light", layer="rig"),
         ]
     drawn = [
-        Item(kind="point", points=where[None], tone="light", r=5, layer="rig"),
-        Item(kind="label", points=where[None], text=light.name, tone="light", layer="rig"),
+        LineItem(kind="point", points=where[None], tone="light", r=5, layer="rig"),
+        LineItem(kind="label", points=where[None], text=light.name, tone="light", layer="rig"),
     ]
     axis = light.axis_C if light.axis_C is not None else light.H_CL[:3, 2] if light.H_CL is not None else None
     if axis is None:
@@ -207,10 +207,10 @@ def _light(light: Light, focus: Array | None) -> list[Item]:
     t = np.linspace(0, 2 * np.pi, 28, endpoint=False)[:, None]
     spread = CONE_M * np.tan(min(half_angle(light.lobe), 1.2))
     ring = where + CONE_M * axis + spread * (np.cos(t) * side + np.sin(t) * np.cross(axis, side))
-    drawn.append(Item(kind="line", points=ring, closed=True, fill=0.1, tone="light", layer="rig"))
-    drawn += [Item(kind="line", points=np.stack([where, ring[k]]), tone="light", thin=True, layer="rig") for k in (0, 7, 14, 21)]
+    drawn.append(LineItem(kind="line", points=ring, closed=True, fill=0.1, tone="light", layer="rig"))
+    drawn += [LineItem(kind="line", points=np.stack([where, ring[k]]), tone="light", thin=True, layer="rig") for k in (0, 7, 14, 21)]
     far = float(np.linalg.norm(focus - where)) if focus is not None else 4 * CONE_M
-    drawn.append(Item(kind="line", points=np.stack([where, where + far * axis]), tone="light", dash=True, thin=True, layer="axes"))
+    drawn.append(LineItem(kind="line", points=np.stack([where, where + far * axis]), tone="light", dash=True, thin=True, layer="axes"))
     return drawn
 
 
@@ -222,41 +222,42 @@ def half_angle(lobe: Lobe) -> float:
     return float(lobe.angle_rad[below[0]]) if below.size else WIDE_RAD
 
 
-def _designed(report: RigReport) -> list[Item]:
+def _designed(report: RigReport) -> list[LineItem]:
     """Where the drawing put each light, and the arrow from there to where it is."""
     if report.placed is None or report.wings is None:
         return []
     before = {light.name: light for light in designed(report.wings)}
-    drawn: list[Item] = []
+    drawn: list[LineItem] = []
     for light in report.placed.lights:
         start, end = _place(before[light.name]) if light.name in before else None, _place(light)
         if start is None or end is None:
             continue
-        drawn.append(Item(kind="point", points=start[None], tone="designed", r=5, hollow=True, layer="designed"))
-        drawn.append(Item(kind="arrow", points=start[None], by=end - start, tone="designed", layer="designed"))
+        drawn.append(LineItem(kind="point", points=start[None], tone="designed", r=5, hollow=True, layer="designed"))
+        drawn.append(LineItem(kind="arrow", points=start[None], by=end - start, tone="designed", layer="designed"))
     return drawn
 
 
-def _triad(H_AB: Array, length: float, name: str, layer: str) -> list[Item]:
+def _triad(H_AB: Array, length: float, name: str, layer: str) -> list[LineItem]:
     origin = H_AB[:3, 3]
     tips = [origin + length * H_AB[:3, k] for k in range(3)]
     drawn = [
-        Item(kind="line", points=np.stack([origin, tip]), tone=tone, layer=layer, bold=True) for tip, tone in zip(tips, "xyz", strict=True)
+        LineItem(kind="line", points=np.stack([origin, tip]), tone=tone, layer=layer, bold=True)
+        for tip, tone in zip(tips, "xyz", strict=True)
     ]
     label = origin + 1.1 * length * H_AB[:3, 1]
-    return [*drawn, Item(kind="label", points=label[None], text=name, tone="ink", layer=layer)]
+    return [*drawn, LineItem(kind="label", points=label[None], text=name, tone="ink", layer=layer)]
 
 
-def _struts(wings: Wings | None) -> list[Item]:
+def _struts(wings: Wings | None) -> list[LineItem]:
     """Each wing as designed, from the disc's centre over its joint to its blob."""
     if wings is None:
         return []
-    drawn: list[Item] = []
+    drawn: list[LineItem] = []
     for wing, H_CL in zip(wings.wings, wings.H_CL, strict=True):
         joint_D = wing.d1_m * np.array([[np.cos(wing.azimuth_rad), np.sin(wing.azimuth_rad), 0]])
         joint_C = se3.apply(wings.H_CD, joint_D)
-        drawn.append(Item(kind="line", points=np.stack([wings.H_CD[:3, 3], joint_C[0], H_CL[:3, 3]]), tone="board", layer="wings"))
-        drawn.append(Item(kind="point", points=joint_C, tone="board", r=2.2, layer="wings"))
+        drawn.append(LineItem(kind="line", points=np.stack([wings.H_CD[:3, 3], joint_C[0], H_CL[:3, 3]]), tone="board", layer="wings"))
+        drawn.append(LineItem(kind="point", points=joint_C, tone="board", r=2.2, layer="wings"))
     return drawn
 
 
@@ -268,7 +269,7 @@ def _outline(points_B: Array) -> Array:
     return np.array([[low[0], low[1], 0], [high[0], low[1], 0], [high[0], high[1], 0], [low[0], high[1], 0]])
 
 
-def _boards(report: RigReport) -> list[Item]:
+def _boards(report: RigReport) -> list[LineItem]:
     boards = report.boards
     if boards is None or boards.points_B is None or not len(boards.H_CB):
         return []
@@ -276,4 +277,4 @@ def _boards(report: RigReport) -> list[Item]:
     chosen = [pose for image, pose in zip(boards.images, boards.H_CB, strict=True) if not solved or image in solved]
     chosen = chosen[:: max(1, len(chosen) // BOARDS_SHOWN)]
     outline = _outline(boards.points_B)
-    return [Item(kind="line", points=se3.apply(H_CB, outline), closed=True, tone="board", thin=True, layer="boards") for H_CB in chosen]
+    return [LineItem(kind="line", points=se3.apply(H_CB, outline), closed=True, tone="board", thin=True, layer="boards") for H_CB in chosen]

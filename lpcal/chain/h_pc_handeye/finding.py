@@ -10,11 +10,11 @@ from lpcal.chain.h_pc_handeye import congruence, observability, variance
 from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.drift import Drift
 from lpcal.chain.h_pc_handeye.held_out import held_out
-from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
+from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Views, misfit
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.pose_errors import covariance_of_pose_errors
 from lpcal.chain.h_pc_handeye.set_up import SetUp
-from lpcal.chain.h_pc_handeye.state import State
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -47,7 +47,7 @@ class HandEyeFinding:
 
 
 def finding_of(
-    state: State,
+    state: SolveState,
     t_camera_s: Array | None,
     warnings: list[str],
     known_offset_s: float | None,
@@ -99,7 +99,7 @@ def finding_of(
     return HandEyeFinding(handeye, state.panel, state.offset_s, drift, set_up)
 
 
-def _weakest(found: Estimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], str | None]:
+def _weakest(found: HandEyeEstimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], str | None]:
     """Warnings; and, where the body carries the camera, in which direction it is known worst, in words."""
     size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC, carries)
     if carries == "board":
@@ -109,7 +109,7 @@ def _weakest(found: Estimate, views: Views, covariance: Array, factor: float, ca
     return [each for each in (size, roles, advised.warning()) if each is not None], advised.words()
 
 
-def _refuse_a_step(state: State) -> None:
+def _refuse_a_step(state: SolveState) -> None:
     """Stop where board or camera moved between two views; their order is that of the images."""
     rows = np.flatnonzero(state.panel.trusted)
     images = [state.boards.images[row] for row in rows]
@@ -118,7 +118,7 @@ def _refuse_a_step(state: State) -> None:
         raise step.refusal()
 
 
-def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
+def _verdicts(state: SolveState, found: HandEyeEstimate) -> tuple[ViewVerdict, ...]:
     whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     _, held_out_m = held_out(state)
@@ -159,7 +159,7 @@ def _with_pose_errors(covariance: Array, added: Array, factor: float) -> Array:
     return np.asarray(whole * max(1.0, factor / grown))
 
 
-def _evidence(state: State, found: Estimate, spread: observability.Spread, factor: float) -> HandEyeEvidence:
+def _evidence(state: SolveState, found: HandEyeEstimate, spread: observability.Spread, factor: float) -> HandEyeEvidence:
     s = state.sigmas
     group = int(state.views().noise_class.max())
     dwells, camera = bool(group), state.camera

@@ -26,7 +26,7 @@ from lpcal.chain.k_camera.variety import TODO, monotony
 from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
-from lpcal.records.evidence import CameraEvidence, ChosenModel, Term, TriedModel
+from lpcal.records.evidence import CameraEvidence, ChosenModel, ShapeTerm, TriedModel
 from lpcal.records.observations import Board, BoardViews
 
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
@@ -226,6 +226,6 @@ def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, boa
         ),
         corner_sigma_px=fit.sigma_px,
         board_warp_m=tuple(fit.shape[name][0] for name in ("bow_x_m", "bow_y_m")) if fit.shape else None,
-        board_shape={name: Term(value=value, std=std) for name, (value, std) in fit.shape.items()},
+        board_shape={name: ShapeTerm(value=value, std=std) for name, (value, std) in fit.shape.items()},
         board_warp_allowed=board.warp,
     )

@@ -34,7 +34,7 @@ from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, Lobe, SphereFinding, Wings
-from lpcal.records.evidence import LightsEvidence, NextSphere, WingSetting
+from lpcal.records.evidence import LightsEvidence, NextSphere, RefinedSetting
 from lpcal.records.observations import SphereView
 
 WORST_HIGHLIGHT_PX = 1.0
@@ -276,12 +276,12 @@ def _finding(
     return SphereFinding(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
 
 
-def _setting_report(settings: Array, wings: Wings | None) -> dict[str, WingSetting]:
+def _setting_report(settings: Array, wings: Wings | None) -> dict[str, RefinedSetting]:
     if wings is None:
         return {}
     found = {}
     for k, wing in enumerate(wings.wings):
         azimuth_rad, joint_angle_rad, d1_m, d2_m = settings[k].tolist()
         azimuth_deg, joint_angle_deg = math.degrees(azimuth_rad), math.degrees(joint_angle_rad)
-        found[wing.name] = WingSetting(azimuth_deg=azimuth_deg, joint_angle_deg=joint_angle_deg, d1_m=d1_m, d2_m=d2_m)
+        found[wing.name] = RefinedSetting(azimuth_deg=azimuth_deg, joint_angle_deg=joint_angle_deg, d1_m=d1_m, d2_m=d2_m)
     return found
