@@ -26,16 +26,24 @@ DARKEST, BRIGHTEST = 0.3, 0.1
 
 @dataclass(frozen=True)
 class Shading:
-    """What the images show of P pixels under L lights: ``signal = B . b`` for a matte surface, b the normal times the albedo."""
+    """What the images show of P pixels under L lights: ``signal = B . b`` for a matte surface, b the normal times the albedo.
+
+    Parameters
+    ----------
+    signal : ndarray (L, P)
+        Linear, the ambient light taken away.
+    sigma : ndarray (L, P)
+        Standard deviations.
+    usable : ndarray (L, P) of bool
+        Not saturated.
+    B : ndarray (L, P, 3)
+        Unit direction in C to the light times its irradiance there.
+    """
 
     signal: Array
-    """(L, P) linear, the ambient light taken away."""
     sigma: Array
-    """(L, P) standard deviations."""
     usable: Mask
-    """(L, P) not saturated, and of a light that has an image."""
     B: Array
-    """(L, P, 3) unit direction to the light times its irradiance there."""
 
 
 type NormalsMethod = Callable[[Shading], Array]
@@ -45,12 +53,34 @@ type Integrator = Callable[[Array, Mask], Array]
 
 
 def least_squares(shading: Shading) -> Array:
-    """b (P, 3) by least squares on all usable samples. Source: Woodham 1980."""
+    """b (P, 3) by least squares on all usable samples. Source: Woodham 1980.
+
+    Parameters
+    ----------
+    shading : Shading
+        What the images show of P pixels under L lights.
+
+    Returns
+    -------
+    ndarray (P, 3)
+        b, the normal in C times the albedo; NaN where three samples do not tell it.
+    """
     return _weighted(shading, shading.usable.astype(float))
 
 
 def l1(shading: Shading) -> Array:
-    """b (P, 3) by the least sum of absolute residuals: shadows and highlights weigh less. Source: Ikehata et al. 2012, by IRLS."""
+    """b (P, 3) by the least sum of absolute residuals: shadows and highlights weigh less. Source: Ikehata et al. 2012, by IRLS.
+
+    Parameters
+    ----------
+    shading : Shading
+        What the images show of P pixels under L lights.
+
+    Returns
+    -------
+    ndarray (P, 3)
+        b, the normal in C times the albedo; NaN where three samples do not tell it.
+    """
     b = least_squares(shading)
     floor = IRLS_FLOOR * np.max(np.where(shading.usable, shading.signal, 0.0), axis=0)
     for _ in range(IRLS_ROUNDS):
@@ -60,7 +90,18 @@ def l1(shading: Shading) -> Array:
 
 
 def ranks(shading: Shading) -> Array:
-    """b (P, 3) by least squares without each pixel's darkest and brightest samples. Source: Rushmeier and Bernardini 1999."""
+    """b (P, 3) by least squares without each pixel's darkest and brightest samples. Source: Rushmeier and Bernardini 1999.
+
+    Parameters
+    ----------
+    shading : Shading
+        What the images show of P pixels under L lights.
+
+    Returns
+    -------
+    ndarray (P, 3)
+        b, the normal in C times the albedo; NaN where three samples do not tell it.
+    """
     brightness = np.where(shading.usable, shading.signal, -np.inf)
     rank = np.argsort(np.argsort(brightness, axis=0), axis=0)
     count = shading.usable.sum(axis=0)
@@ -84,7 +125,20 @@ def _weighted(shading: Shading, weight: Array) -> Array:
 
 
 def poisson(slopes: Array, mask: Mask) -> Array:
-    """u (H, W) by least squares over the mask's edges, the mean of each piece 0. Source: Horn and Brooks 1986."""
+    """u (H, W) by least squares over the mask's edges, the mean of each piece 0. Source: Horn and Brooks 1986.
+
+    Parameters
+    ----------
+    slopes : ndarray (H, W, 2)
+        ``du/dx`` and ``du/dy`` a pixel.
+    mask : ndarray (H, W) of bool
+        The pixels that count.
+
+    Returns
+    -------
+    ndarray (H, W)
+        u: depth in pixels, or log depth with a camera; NaN outside the mask.
+    """
     from scipy import sparse
     from scipy.sparse.linalg import spsolve
 
@@ -106,6 +160,18 @@ def cosines(slopes: Array, mask: Mask) -> Array:
     """u (H, W) by cosine transforms over the whole image, slopes 0 outside the mask: fast, and bent where the mask ends at a step.
 
     Source: Frankot and Chellappa 1988, with the boundary of Simchony et al. 1990.
+
+    Parameters
+    ----------
+    slopes : ndarray (H, W, 2)
+        ``du/dx`` and ``du/dy`` a pixel.
+    mask : ndarray (H, W) of bool
+        The pixels that count.
+
+    Returns
+    -------
+    ndarray (H, W)
+        u: depth in pixels, or log depth with a camera; NaN outside the mask.
     """
     from scipy.fft import dctn, idctn
 
