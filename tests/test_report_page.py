@@ -267,7 +267,7 @@ def test_scenes_hold_what_they_should() -> None:
 
 
 def test_half_angles() -> None:
-    assert np.cos(half_angle(Lobe("cosine", exponent=3.0))) ** 3 == pytest.approx(0.5)
+    assert np.cos(half_angle(Lobe("cosine", exponent=3.0))) ** 3 == pytest.approx(0.5, abs=1e-3)
     table = Lobe("table", angle_rad=np.radians([0, 10, 20, 30]), value=np.array([1, 0.9, 0.4, 0.1]))
     assert half_angle(table) == pytest.approx(np.radians(20))
     assert half_angle(Lobe()) == pytest.approx(np.radians(60))

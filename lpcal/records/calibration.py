@@ -188,9 +188,10 @@ class LedCluster:
 class Lobe:
     """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
 
-    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. ``table``: cubic through (angle_rad, value), 0 beyond the last.
-    ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the roll. A table may carry a smooth factor over the
-    directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in the light's frame.
+    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. Others of one parameter: `light_field.FORMULAS`. ``table``: cubic
+    through (angle_rad, value), 0 beyond the last. ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the
+    roll. A table may carry a smooth factor over the directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in
+    the light's frame.
     """
 
     kind: str = "isotropic"
@@ -205,11 +206,9 @@ class Lobe:
 
     def __call__(self, angle_rad: Array) -> Array:
         """Relative intensity (...) at angles (...) from the axis."""
-        if self.kind == "cosine":
-            return light_field.cosine_lobe(angle_rad, self.exponent)
-        if self.kind in {"table", "leds"}:
+        if self.kind in light_field.TABLED:
             return light_field.table_lobe(angle_rad, self.angle_rad, self.value)
-        return np.ones_like(angle_rad)
+        return light_field.FORMULAS[self.kind](angle_rad, self.exponent)
 
 
 @dataclass(frozen=True, repr=False)

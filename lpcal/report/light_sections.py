@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import Light, SphereFinding
 from lpcal.report import charts
 from lpcal.report.rig_report import RigReport, designed
@@ -20,8 +21,8 @@ from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of
 type Dot = tuple[float, str, str]
 """A value, its label and its tone."""
 
-COSINE_SHOWN_DEG = 80
-"""Degrees from the axis up to which a cosine lobe is drawn."""
+SHOWN_DEG = 80
+"""Degrees from the axis up to which a lobe by a formula is drawn."""
 SEEN_LOBE = 0.01
 """A tabled lobe is drawn to where it falls under this share of its peak."""
 
@@ -190,8 +191,8 @@ def _lobe(lights: Sequence[Light]) -> str | None:
     curves = []
     for light in lights:
         lobe = light.lobe
-        if lobe.kind == "cosine":
-            angle = np.linspace(0, COSINE_SHOWN_DEG, COSINE_SHOWN_DEG + 1)
+        if lobe.kind not in TABLED and lobe.kind != "isotropic":
+            angle = np.linspace(0, SHOWN_DEG, SHOWN_DEG + 1)
             curves.append((light.name, angle, lobe(np.radians(angle))))
         elif lobe.value.size:
             last = np.max(np.flatnonzero(lobe.value > SEEN_LOBE * lobe.value.max(initial=0)), initial=0) + 1

@@ -14,6 +14,7 @@ import numpy as np
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import Light, Lobe, Wings
 from lpcal.records.camera import Camera
 from lpcal.report.rig_report import RigReport, designed
@@ -83,6 +84,10 @@ DISTANT_M = (0.05, 0.3)
 """Metres from the focus between which the line of a distant light is drawn: it has a direction only, this is about a rig's size."""
 PLAIN_K = np.array([[1.2, 0, 0.5], [0, 1.2, 0.5], [0, 0, 1]])
 """Of a camera that nothing is known of, drawn as one of about 45 degrees; its image is 1 by 1."""
+HALF = 0.5
+"""Share of the peak to which a lobe falls at its half angle."""
+FINELY = 9001
+"""Angles from the axis to 90 degrees at which a formula is looked at: hundredths of a degree."""
 WIDE_RAD = float(np.radians(60))
 """Half angle of the cone of a lobe that never falls to half."""
 BOARDS_SHOWN = 48
@@ -216,10 +221,12 @@ def _light(light: Light, focus: Array | None) -> list[LineItem]:
 
 def half_angle(lobe: Lobe) -> float:
     """Angle from the axis (rad) at which a lobe falls to half; 60 degrees where it never does."""
-    if lobe.kind == "cosine" and lobe.exponent > 0:
-        return float(np.arccos(0.5 ** (1 / lobe.exponent)))
-    below = np.flatnonzero(lobe.value < 0.5)
-    return float(lobe.angle_rad[below[0]]) if below.size else WIDE_RAD
+    if lobe.kind in TABLED:
+        below = np.flatnonzero(lobe.value < HALF)
+        return float(lobe.angle_rad[below[0]]) if below.size else WIDE_RAD
+    angle = np.linspace(0, np.pi / 2, FINELY)
+    below = np.flatnonzero(lobe(angle) < HALF)
+    return float(angle[below[0]]) if below.size else WIDE_RAD
 
 
 def _designed(report: RigReport) -> list[LineItem]:
