@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -47,17 +48,20 @@ def tracked() -> list[Path]:
     return [path for name in found.stdout.split("\0") if name and (path := REPOSITORY / name).is_file()]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name_of)
-def test_rooms_are_small(path: Path) -> None:
-    source = path.read_text(encoding="utf-8")
-    assert len(source.splitlines()) < MODULE_LINES, f"{name_of(path)}: split it"
-    long = [f"{path}:{one.lineno} {one.name}" for one in functions(ast.parse(source)) if length(one) >= FUNCTION_LINES]
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def test_rooms_are_small() -> None:
+    wide = [name_of(path) for path in MODULES if len(path.read_text(encoding="utf-8").splitlines()) >= MODULE_LINES]
+    assert not wide, f"modules of {MODULE_LINES} lines or more: split them"
+    long = [f"{path}:{one.lineno} {one.name}" for path in MODULES for one in functions(tree_of(path)) if length(one) >= FUNCTION_LINES]
     assert not long, f"functions of {FUNCTION_LINES} lines or more"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name_of)
-def test_a_module_says_what_it_is(path: Path) -> None:
-    assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), f"{name_of(path)} has no docstring"
+def test_a_module_says_what_it_is() -> None:
+    assert not [name_of(path) for path in MODULES if not ast.get_docstring(tree_of(path))]
 
 
 def annotations(tree: ast.Module) -> Iterator[ast.expr]:
@@ -81,7 +85,7 @@ PAGE_DATA = {"report/scene.py": 2, "report/relight_pack.py": 1, "records/outcome
 def test_stages_hand_on_records_not_dicts(room: str) -> None:
     """What a stage found is a record with typed fields; a mapping of anything exists only where a file or a page is written."""
     for path in sorted((REPOSITORY / "lpcal" / room).rglob("*.py")):
-        count = sum(len(UNTYPED.findall(ast.unparse(one))) for one in annotations(ast.parse(path.read_text(encoding="utf-8"))))
+        count = sum(len(UNTYPED.findall(ast.unparse(one))) for one in annotations(tree_of(path)))
         assert count <= PAGE_DATA.get(path.relative_to(REPOSITORY / "lpcal").as_posix(), 0), f"{name_of(path)}: a frozen record, not a dict"
 
 
@@ -107,7 +111,7 @@ MRCALS = "rms_reproj_error__pixels"
 @pytest.mark.parametrize("room", ["chain", "report"])
 def test_no_figure_is_looked_up_by_a_string(room: str) -> None:
     for path in sorted((REPOSITORY / "lpcal" / room).rglob("*.py")):
-        keys = looked_up(ast.parse(path.read_text(encoding="utf-8")))
+        keys = looked_up(tree_of(path))
         assert not set(keys) - (UNKNOWNS | {MRCALS} if room == "chain" else set()), name_of(path)
 
 
@@ -182,7 +186,7 @@ def test_no_two_public_classes_share_a_name() -> None:
     """A name that is read in a message, a signature or a search means one thing."""
     homes: dict[str, list[str]] = {}
     for path in MODULES:
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 homes.setdefault(node.name, []).append(name_of(path))
     assert not {name: found for name, found in homes.items() if len(found) > 1}

@@ -33,9 +33,11 @@ def error_deg(surface: lpcal.Surface) -> float:
     return lpcal.evaluate(surface, np.where(BALL[..., None], N, 0)).normal_mean_deg
 
 
-@pytest.mark.parametrize("method", ["least-squares", "l1", "ranks"])
-@pytest.mark.parametrize("integrator", ["lpcal", "poisson", "cosines"])
-def test_every_pair_of_names_gives_a_surface(method: str, integrator: str) -> None:
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [("least-squares", "lpcal"), ("least-squares", "poisson"), ("least-squares", "cosines"), ("l1", "poisson"), ("ranks", "poisson")],
+)
+def test_every_name_gives_a_surface(method: str, integrator: str) -> None:
     found = lpcal.reconstruct(SHADED, CALIBRATION, ambient=np.zeros_like(X), mask=BALL, method=method, integrator=integrator)
     assert error_deg(found) < 12
     assert np.isnan(found.normal_std_deg).all()
