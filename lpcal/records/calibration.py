@@ -14,6 +14,7 @@ from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
+from lpcal.records.observations import SphereKind
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
@@ -283,7 +284,7 @@ class SphereFinding:
     """What one sphere says by itself."""
 
     name: str
-    kind: str
+    kind: SphereKind
     centre_C: Array | None
     radius_m: float | None
     used: bool

@@ -142,7 +142,7 @@ class CameraSolution(Shown):
     """(M, 3) corners of the board with its warp, mean plane z = 0."""
     views: tuple[ViewVerdict, ...]
     solver: str
-    """mrcal | opencv."""
+    """mrcal or opencv, or from where the camera was given."""
     corner_sigma_px: float
     """One standard deviation of a corner coordinate."""
     evidence: CameraEvidence = field(default_factory=CameraEvidence)
