@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from lit_scene import calibration
-from lpcal.surface import background, cut, flats, layers, mask, planes, samples
-from lpcal.surface.background import View
+from lpcal.surface import background, cut, flats, layers, mask, planes, regions, samples
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.flats import Sweep
+from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, light_vectors, ray_map
 
 CARD = (slice(36, 74), slice(50, 105))
@@ -146,98 +146,82 @@ def test_labels_are_smooth_and_end_at_edges() -> None:
     assert np.mean(layers.cheapest(cost, *layers.boundary(bright)) == true) > 0.95
 
 
-def view_of(n_free: np.ndarray, allowed: np.ndarray | None = None, points: tuple[tuple[int, int], ...] = ()) -> View:
-    """A view of which nothing is known but the normals (rows, columns, 3) of matter of any normal."""
-    pixels = n_free[..., 0].size
-    image = Coarse(np.zeros((0, pixels)), np.zeros((0, pixels)), np.zeros((0, pixels), bool), np.ones((pixels, 3)), n_free.shape[:2], 1)
+def view_of(shape: tuple[int, int], allowed: np.ndarray | None = None, points: tuple[tuple[int, int], ...] = ()) -> View:
+    """A view of which nothing is known; matter of any normal slants to the side."""
+    pixels = shape[0] * shape[1]
+    image = Coarse(np.ones((2, pixels)), np.ones((2, pixels)), np.ones((2, pixels), bool), np.tile([0.0, 0.0, 1.0], (pixels, 1)), shape, 1)
     no_light = LightTable(0.0, 1.0, np.zeros((0, 1, 3, pixels)), np.zeros((0, 1, pixels)))
-    return View(image, no_light, Sweep(np.zeros(1), n_free.reshape(1, -1, 3), np.zeros((1, pixels))), allowed, points)
+    slanting = np.tile([0.8, 0.0, -0.6], (1, pixels, 1))
+    return View(image, no_light, Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels))), None, allowed, points)
 
 
-def test_an_object_that_hangs_on_the_border_goes_where_another_does_not() -> None:
-    view = view_of(np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3)))
+def costs(labels: np.ndarray, planes_found: int, apart: float = 20.0) -> np.ndarray:
+    """Costs (layers, rows, columns): nothing for the own layer, `apart` for the others."""
+    return apart * (np.arange(planes_found + 3)[:, None, None] != labels)
+
+
+def object_of(labels: np.ndarray, planes_found: list[np.ndarray], view: View) -> np.ndarray:
+    return background.judged(view, labels, planes_found, costs(labels, len(planes_found))).mask
+
+
+def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_beside_them() -> None:
+    labels = np.full((20, 30), 1)
+    labels[5:10, 5:10], labels[12:16, 0:4], labels[0:3, 20:30] = 0, 0, 2
+    found = regions.Regions.of(labels)
+    assert sorted(found.area) == [16, 25, 30, 529]
+    by = {int(area): k for k, area in enumerate(found.area)}
+    assert found.frame()[by[25]] == 0
+    assert found.frame()[by[16]] == pytest.approx(4 / 100)
+    assert found.frame().sum() == pytest.approx(1)
+    assert found.sides().tolist() == [{25: 0, 16: 1, 30: 2, 529: 4}[int(area)] for area in found.area]
+    beside_free = found.outline(np.ones(len(found.pairs)), found.label == 0)
+    assert beside_free[by[25]] == 0
+    assert beside_free[by[529]] == pytest.approx((20 + 12) / (20 + 12 + 13))
+    assert found.mean(labels)[by[30]] == 2
+
+
+def test_what_holds_the_frame_is_background_and_what_lies_in_the_middle_the_object() -> None:
     labels = np.full((40, 60), 1)
-    labels[10:25, 20:40] = 0
-    labels[30:, 45:] = 0
-    assert iou(background.object_of(labels, [WALL], view), (labels == 0) & (np.indices(labels.shape)[0] < 30)) > 0.95
-    labels[10:25, 20:40] = 1
-    assert iou(background.object_of(labels, [WALL], view), labels == 0) > 0.95
+    labels[10:28, 20:40] = 0
+    assert iou(object_of(labels, [WALL], view_of(labels.shape)), labels == 0) > 0.94
+    labels[14:20, 24:30] = 3
+    assert iou(object_of(labels, [WALL], view_of(labels.shape)), labels != 1) > 0.94, "other matter within it"
+    labels[30:, 50:] = 3
+    assert iou(object_of(labels, [WALL], view_of(labels.shape)), (labels != 1) & (np.indices(labels.shape)[0] < 30)) > 0.94
 
 
-def test_a_flat_part_of_a_round_object_that_the_border_cuts_is_the_object() -> None:
+def test_the_odds_turn_as_a_region_takes_more_of_the_frame() -> None:
+    odds = []
+    for wide in (0, 10, 30, 60):
+        labels = np.full((40, 60), 1)
+        labels[8:32, 15:45] = 2
+        labels[32:, :wide] = 2
+        judged = background.judged(view_of(labels.shape), labels, [WALL, WALL / 0.8], costs(labels, 2))
+        odds.append(float(judged.odds[20, 30]))
+    assert odds == sorted(odds, reverse=True)
+    assert odds[0] > 0.2 > odds[-1]
+
+
+def test_what_lies_beyond_the_box_is_not_the_object_and_its_edge_is_the_frame() -> None:
     labels = np.full((40, 60), 1)
-    labels[:, :20] = 2
-    labels[:, 20:40] = 0
-    flat = np.array([-0.6, 0.0, -0.8])
-    n_free = np.broadcast_to(flat, (40, 60, 3)).copy()
-    n_free[:, 24:] = [0.6, 0.0, -0.8]
-    found = background.background_of(labels, [WALL, -flat / 0.3], view_of(n_free))
-    assert np.array_equal(found, labels == 1)
-    n_free[:, 20:24] = [0.6, 0.0, -0.8]
-    assert np.array_equal(background.background_of(labels, [WALL, -flat / 0.3], view_of(n_free)), labels != 0)
-
-
-@pytest.mark.parametrize(("hole", "seen"), [(1.0, True), (0.88, False)])
-def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(hole: float, seen: bool) -> None:
-    """A slanting card with a hole, and behind it the wall, or a patch of the wall's direction nearer than the wall is."""
-    parts = scene(card=None)
-    on_card, inside = np.zeros((112, 160), bool), np.zeros((112, 160), bool)
-    on_card[20:92, 30:130], inside[40:72, 60:100] = True, True
-    parts.append((np.array([0.9, 0.3, 1 / 0.36]), np.full(on_card.shape, 0.7), on_card & ~inside))
-    parts.append((WALL / hole, np.full(on_card.shape, 0.35), inside))
-    maps, rays = picture(parts)
-    image = coarse_of(maps, rays, 2)
-    table = LightTable.of(image, calibration().lights, WORKING_M)
-    labels = np.where(on_card, 0, 1)
-    labels[inside] = 1
-    found = background.object_of(labels[::2, ::2], [WALL], View(image, table, flats.sweep(image, table, WORKING_M)))
-    assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
-
-
-@pytest.mark.parametrize(("place", "ours"), [((15, 25, 25, 35), True), ((8, 14, 22, 34), True), ((2, 8, 40, 52), False)])
-def test_other_matter_is_the_objects_where_the_object_lies_beside_it(place: tuple[int, int, int, int], ours: bool) -> None:
-    """Dark paint within the object, and at its rim; and a thing of its own before the wall."""
-    labels = np.full((40, 60), 1)
-    labels[8:30, 20:45] = 0
-    top, bottom, left, right = place
-    labels[top:bottom, left:right] = 3
-    true = (labels == 0) | (ours & (labels == 3))
-    found = background.object_of(labels, [WALL], view_of(np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))))
-    assert iou(found, true) > 0.97
-
-
-def test_what_lies_beyond_the_box_is_not_the_object() -> None:
-    labels = np.full((40, 60), 1)
-    labels[10:25, 10:20], labels[10:30, 35:50] = 0, 0
-    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
+    labels[8:28, 6:26], labels[8:28, 34:54] = 0, 0
+    assert iou(object_of(labels, [WALL], view_of(labels.shape)), labels == 0) > 0.94
     allowed = np.zeros(labels.shape, bool)
-    allowed[5:30, 5:25] = True
-    assert iou(background.object_of(labels, [WALL], view_of(slanting)), labels == 0) > 0.95
-    found = background.object_of(labels, [WALL], view_of(slanting, allowed=allowed))
-    assert iou(found, (labels == 0) & allowed) > 0.95
-
-
-def test_a_plane_that_leaves_the_box_is_background_though_it_does_not_reach_the_border() -> None:
-    labels = np.full((40, 60), 1)
+    allowed[4:32, 2:30] = True
+    assert iou(object_of(labels, [WALL], view_of(labels.shape, allowed)), (labels == 0) & allowed) > 0.94
     labels[6:34, 6:54], labels[15:25, 25:35] = 2, 0
-    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
-    planes_found = [WALL, WALL / 0.7]
-    assert iou(background.object_of(labels, planes_found, view_of(slanting)), labels != 1) > 0.95
-    allowed = np.zeros(labels.shape, bool)
-    allowed[10:30, 20:40] = True
-    assert iou(background.object_of(labels, planes_found, view_of(slanting, allowed=allowed)), labels == 0) > 0.9
+    allowed[:], allowed[10:30, 20:40] = False, True
+    assert iou(object_of(labels, [WALL, WALL / 0.7], view_of(labels.shape, allowed)), labels == 0) > 0.94
 
 
-def test_a_point_makes_a_plane_at_the_border_the_object_and_chooses_among_pieces() -> None:
+def test_a_point_makes_what_it_shows_the_object_and_chooses_among_pieces() -> None:
     labels = np.full((40, 60), 1)
     labels[:, 40:] = 2
     labels[10:25, 10:20] = 0
-    slanting = np.broadcast_to([0.8, 0.0, -0.6], (40, 60, 3))
     planes_found = [WALL, WALL / 0.7]
-    assert iou(background.object_of(labels, planes_found, view_of(slanting)), labels == 0) > 0.95
-    assert iou(background.object_of(labels, planes_found, view_of(slanting, points=((30, 50),))), labels == 2) > 0.95
-    both = background.object_of(labels, planes_found, view_of(slanting, points=((30, 50), (12, 12))))
-    assert iou(both, labels != 1) > 0.95
+    assert iou(object_of(labels, planes_found, view_of(labels.shape)), labels == 0) > 0.94
+    assert iou(object_of(labels, planes_found, view_of(labels.shape, points=((30, 50),))), labels == 2) > 0.94
+    assert iou(object_of(labels, planes_found, view_of(labels.shape, points=((30, 50), (12, 12)))), labels != 1) > 0.94
 
 
 def test_hints_in_pixels_bound_a_mask() -> None:
@@ -250,6 +234,9 @@ def test_hints_in_pixels_bound_a_mask() -> None:
     pointed = mask.Hints(points=((22, 21),)).of(given)
     assert np.array_equal(pointed, given & (np.indices(given.shape)[0] >= 20))
     assert not mask.Hints(box=(0, 0, 18, 18), points=((1, 1),)).of(given).any()
+    large = np.kron(given, np.ones((10, 10), bool))
+    assert np.array_equal(mask.Hints(points=((198, 245),)).of(large), large & (np.indices(large.shape)[0] >= 180)), "two pixels beside it"
+    assert not mask.Hints(points=((180, 245),)).of(large).any()
 
 
 def test_a_box_helps_where_two_things_stand_before_the_wall() -> None:
@@ -281,20 +268,22 @@ def test_the_floor_carries_the_object_and_the_wall_does_not() -> None:
 def test_why_a_mask_is_doubted_names_the_rival_and_the_place() -> None:
     labels = np.full((30, 40), 1)
     labels[10:20, 10:30] = 0
-    cost = np.stack([np.where(labels == 0, 0.0, 20.0), np.where(labels == 0, 20.0, 0.0), np.full(labels.shape, 30.0)])
-    sure = background.doubt_of(labels, cost, labels == 0, 1, 30.0)
-    assert sure.share < 0.05
-    cost[1, 10:20, 24:30] = 2.0
-    doubt = background.doubt_of(labels, cost, labels == 0, 1, 30.0)
-    assert doubt.rival == 1
-    assert 0.15 < doubt.share < 0.4
+    odds = np.where(labels == 0, 0.98, 0.01)
+    sure = background.doubt_of(background.Judged(odds, labels == 1, labels == 0), labels)
+    assert sure.share < 0.08
+    assert not sure.place.any()
+    labels[10:20, 24:30], odds[10:20, 24:30] = 2, 0.6
+    doubt = background.doubt_of(background.Judged(odds, odds < 0.5, odds > 0.5), labels)
+    assert doubt.rival == 2
+    assert doubt.share == pytest.approx((60 * 0.4 + 140 * 0.02 + 1000 * 0.01) / 200)
+    assert doubt.open == pytest.approx(60 / 200)
     said = mask._in_words(doubt, "support", 5)
     assert "the support under it" in said
-    assert "y 50 to 100" in said
+    assert "x 120 to 150, y 50 to 100" in said
 
 
-def test_the_doubt_rises_with_what_is_weak() -> None:
-    odds = [mask.Found(np.ones((2, 2), bool), "", weak=weak).doubt for weak in (0.05, 0.2, mask.DOUBTED, 2.0)]
+def test_the_doubt_rises_with_what_is_expected_wrong() -> None:
+    odds = [mask.Found(np.ones((2, 2), bool), "", expected_wrong=share).doubt for share in (0.03, 0.1, mask.DOUBTED, 0.5)]
     assert odds == sorted(odds)
     assert odds[0] < 0.05 < odds[2] == pytest.approx(0.5)
 

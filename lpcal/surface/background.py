@@ -1,45 +1,60 @@
-"""Which labels are the object and which the wall behind it or the support under it, by what planes do at the image's border.
+r"""Which labels are the object and which the wall behind it or the support under it: odds of every region, from clues.
 
-A plane that reaches the border is wall or support, unless the surface goes on from it without a crease: then it is a flat part of an object
-that the border cuts. The user may say where the object is: a box takes the place of the border, and what a given point shows is the object.
+The log odds that a region is the object are linear in its clues (surface.regions), first in those of its own, then in what its neighbours'
+odds say as well; both lines are fitted by tools/fit_mask.py on drawn scenes. What they leave open is the mask's stated doubt. The user may
+say where the object is: a box takes the place of the image, and what a given point shows is the object.
+Source: Wolpert 1992, Neural Networks 5 (a second fit on the predictions of a first).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
-from lpcal.surface import flats
-from lpcal.surface.coarse import Coarse, LightTable
-from lpcal.surface.flats import Sweep
+from lpcal.surface import regions
+from lpcal.surface.regions import Pictures, Regions, View
 
-RIM = 2
-"""Coarse pixels at the image's border: a plane that reaches them is wall or support."""
+OWN = {
+    "": 3.35,
+    "frame": -0.717,
+    "plane": 2.77,
+    "frame, a plane": -6.8,
+    "spared": -0.188,
+    "off centre": -2.86,
+    "facing down": 1.51,
+    "bright": 0.295,
+    "nothing beside": -1.55,
+    "two sides": -1.55,
+    "before": 0.673,
+    "free beside, a plane": 1.77,
+    "edge, a plane": -3.61,
+}
+"""Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
+BESIDE = {
+    "": 0.536,
+    "itself": 0.331,
+    "about": 0.924,
+    "alike in the room's light": 0.433,
+    "alike in the lights', a plane": 0.21,
+    "frame of the whole plane": -2.97,
+    "facing the camera, a plane": 0.381,
+    "widely about, of any normal": -0.193,
+}
+"""Weights of what the regions about it say, likewise."""
 SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
-NO_CREASE, MOSTLY, BESIDE = 0.97, 0.5, 2
-"""Cosine (14 degrees) of normals that go on smoothly, share of an edge along which what lies beside it decides, and its width in coarse
-pixels."""
-FEWEST_BESIDE = 30
-"""Coarse pixels beside a plane from which it is asked whether the surface goes on."""
-LEAST_SEEN_THROUGH = 6
-"""Coarse pixels of a piece of a wall from which it is asked whether it is seen through the object."""
-SEEN_THROUGH = 2.5
-"""Cost a light of such a piece at most."""
-NEARER = (0.85, 0.7)
-"""Distances, by that of the wall, from which a plane of the piece's own is looked for."""
-INNER = 0.15
-"""Share of the largest piece from which one that does not touch the border goes before all that do."""
+LIKELY = (0.01, 0.99)
+"""Odds beyond which a region says no more to its neighbours."""
 CARRIED = 5
 """Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
-WEAK = 5.0
-"""Difference of costs, averaged over 3x3 pixels, under which a pixel's side is in doubt."""
+OPEN = 0.1
+"""Odds that a region is on the other side from which it is named as doubtful."""
 
 NOTHING, OBJECT, SUPPORT, WALL = 0, 1, 2, 3
 """Values of a map of layers: no light comes back; the object; what carries it; what stands behind it."""
@@ -48,115 +63,69 @@ Kind = Literal["support", "wall", "dark", "other"]
 
 
 @dataclass(frozen=True)
-class View:
-    """What labels are judged by; the user's hints are none by default."""
+class Judged:
+    """Odds of the regions, and what follows."""
 
-    image: Coarse
-    table: LightTable
-    swept: Sweep
-    allowed: Mask | None = None
-    """(rows, columns) where the object may be."""
-    points: tuple[tuple[int, int], ...] = ()
-    """Rows and columns of places that show it."""
-
-    @property
-    def normals(self) -> Array:
-        """Normals (rows, columns, 3) of matter of any normal."""
-        return self.image.image(self.swept.normals)
+    odds: Array
+    """(rows, columns) that a pixel is the object, 0..1."""
+    behind: Mask
+    """(rows, columns) what is not."""
+    mask: Mask
+    """(rows, columns) the object, without crumbs and small holes."""
 
 
 def rim_of(shape: tuple[int, ...]) -> Mask:
     """The coarse pixels (rows, columns) at the border."""
     rim = np.ones(shape, bool)
-    rim[RIM:-RIM, RIM:-RIM] = False
+    rim[regions.RIM : -regions.RIM, regions.RIM : -regions.RIM] = False
     return rim
 
 
-def background_of(labels: Labels, planes: list[Array], view: View) -> Mask:
-    """Pixels (rows, columns) of planes that reach the border, of nothing, and of other matter that lies among these.
+def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judged:
+    """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
 
-    A piece within the object is seen through it where it lies in the hindmost of the planes that reach the border. Other matter that has
-    the object beside it is a part of the object of another albedo.
+    Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
     """
-    from scipy import ndimage
-
-    found = labels == len(planes) + 1
-    rim = rim_of(labels.shape)
-    if view.allowed is not None:
-        found, rim = found | ~view.allowed, rim | ~view.allowed
-    pieces = [ndimage.label(labels == k)[0] for k in range(1, len(planes) + 1)]
-    shown = [{int(piece[at]) for at in view.points} - {0} for piece in pieces]
-    walls = []
-    for piece, q, ours in zip(pieces, planes, shown, strict=True):
-        for one in np.setdiff1d(piece[rim], [0, *ours]):
-            if not _goes_on(piece == one, q, labels, view.normals):
-                found |= piece == one
-        if np.any(found & (piece > 0)):
-            walls.append(q)
-    for piece, q, ours in zip(pieces, planes, shown, strict=True):
-        size = np.bincount(piece.ravel())
-        for one in np.setdiff1d(np.flatnonzero(size >= LEAST_SEEN_THROUGH), [0, *ours, *np.unique(piece[rim])]):
-            if any(q is wall for wall in walls) and _seen_through(view, q, (piece == one).ravel(), walls):
-                found |= piece == one
-    found |= _among(labels == len(planes) + 2, found)
+    pictures = Pictures.of(view, labels, planes, cost)
+    found = Regions.of(pictures.labels)
+    probable = odds_of(pictures, found)
+    odds = np.zeros(labels.shape)
+    odds[view.window] = probable[found.number]
+    whole = Regions.of(labels)
     for at in view.points:
-        same, _ = ndimage.label(labels == labels[at])
-        found &= same != same[at]
-    return np.asarray(found)
+        odds[whole.number == whole.number[at]] = 1.0
+    likeliest = float(odds.max())
+    behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
+    return Judged(odds, behind, object_in(~behind, view.points))
 
 
-def _among(matter: Mask, found: Mask) -> Mask:
-    """The connected components of `matter` (rows, columns) that lie mostly among what was `found` to be background."""
+def odds_of(pictures: Pictures, found: Regions) -> Array:
+    """The odds (N,), 0..1, that regions are the object."""
+    first = _odds(regions.own(pictures, found), OWN)
+    return _odds(regions.beside(pictures, found, logit(first)), BESIDE)
+
+
+def logit(odds: Array) -> Array:
+    """Log odds (N,), within bounds."""
+    sure = np.clip(odds, *LIKELY)
+    return np.asarray(np.log(sure / (1 - sure)))
+
+
+def _odds(clues: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
+    total = weights[""] + sum(weights[name] * value for name, value in clues.items())
+    return np.asarray(1 / (1 + np.exp(-np.clip(total, -30, 30))))
+
+
+def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
+    """A mask (rows, columns) without crumbs and small holes; where points are given it is the pieces that they lie on."""
     from scipy import ndimage
 
-    piece, count = ndimage.label(matter)
-    kept = np.zeros(count + 1, bool)
-    for one in range(1, count + 1):
-        beside = ndimage.binary_dilation(piece == one, iterations=BESIDE) & ~matter
-        kept[one] = not beside.any() or found[beside].mean() > MOSTLY
-    return np.asarray(kept[piece])
-
-
-def _goes_on(own: Mask, q: Array, labels: Labels, n_free: Array) -> bool:
-    """Whether matter of any normal goes on without a crease from a piece `own` (rows, columns) of a plane (3,)."""
-    from scipy import ndimage
-
-    smooth = n_free @ (-q / np.linalg.norm(q)) > NO_CREASE
-    beside = ndimage.binary_dilation(own, iterations=BESIDE) & (labels == 0)
-    return bool(beside.sum() > FEWEST_BESIDE and smooth[beside].mean() > MOSTLY)
-
-
-def _seen_through(view: View, q: Array, inside: Mask, walls: list[Array]) -> bool:
-    """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
-    image, table = view.image, view.table
-    own = np.flatnonzero(inside)
-    cost = float(flats.explained(image, table, q, own)[0].mean())
-    if cost > SEEN_THROUGH * len(image.signal) or any(
-        np.median(image.rays_C[own] @ (wall - q)) < 0 < np.median(image.rays_C[own] @ wall) for wall in walls
-    ):
-        return False
-    trials = [flats.fitted(image, table, q / share, inside, rounds=3) for share in (1.0, *NEARER)]
-    return bool(cost - min(float(flats.explained(image, table, one, own)[0].mean()) for one in trials) < flats.CLEARLY_EACH)
-
-
-def object_of(labels: Labels, planes: list[Array], view: View) -> Mask:
-    """The object (rows, columns): what is no background, without crumbs; pieces that hang on the border only where there is no other.
-
-    Where points are given it is the pieces that they lie on.
-    """
-    from scipy import ndimage
-
-    piece, count = ndimage.label(_opened_but(~background_of(labels, planes, view), view.points))
+    piece, count = ndimage.label(_opened_but(mask, points))
     if not count:
-        return np.zeros(labels.shape, bool)
-    if view.points:
-        kept = np.isin(np.arange(count + 1), [piece[at] for at in view.points])
-    else:
-        size = np.bincount(piece.ravel()).astype(float)
-        size[0] = 0
-        touches = np.isin(np.arange(count + 1), np.concatenate([piece[:1].ravel(), piece[-1:].ravel(), piece[:, 0], piece[:, -1]]))
-        inner = float((size * ~touches).max())
-        kept = ~touches & (size >= SMALLEST_PIECE * inner) if inner > INNER * size.max() else size == size.max()
+        return np.zeros(mask.shape, bool)
+    size = np.bincount(piece.ravel()).astype(float)
+    size[0] = 0
+    kept = np.isin(np.arange(count + 1), [piece[at] for at in points]) if points else size >= SMALLEST_PIECE * size.max()
     kept[0] = False
     found = kept[piece]
     hole, _ = ndimage.label(~found)
@@ -187,28 +156,22 @@ def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, d
 
 @dataclass(frozen=True)
 class Doubt:
-    """What of an object's outline hangs on weak evidence."""
+    """What of an object's outline is open."""
 
     share: float
-    """Area that might as well be of the object, or not of it, as a share of the object's."""
+    """Area that is expected to be on the wrong side, as a share of the object's."""
+    open: float
+    """Area of `place`, likewise."""
     place: Mask
-    """(rows, columns) that area."""
+    """(rows, columns) where the odds leave open what it is."""
     rival: int
-    """The layer that most of it may belong to."""
+    """The label that most of it has, or whose place it takes."""
 
 
-def doubt_of(labels: Labels, cost: Array, mask: Mask, planes: int, ceiling: float) -> Doubt:
-    """The doubt of an object (rows, columns) by the costs (layers, rows, columns) of its layers: they differ by less than WEAK."""
-    from scipy import ndimage
-
-    here, everywhere = (np.bincount(one.ravel(), minlength=len(cost))[: len(cost)] for one in (labels[mask], labels))
-    ours = (2 * here > everywhere) & (np.arange(len(cost)) <= planes)
-    ours[0] = True
-    others = np.where(ours[:, None, None], np.inf, cost)
-    theirs, rival = others.min(axis=0), np.argmin(others, axis=0)
-    mine = np.where(ours[:, None, None], cost, np.inf).min(axis=0)
-    difference = ndimage.uniform_filter(np.clip(theirs - mine, -ceiling, ceiling), 3)
-    about = ndimage.binary_dilation(mask, iterations=max(1, int(np.sqrt(mask.sum()) / 4)))
-    wrong: Mask = about & np.where(mask, difference < WEAK, difference > -WEAK)
-    most = int(np.argmax(np.bincount(rival[wrong], minlength=len(cost)))) if wrong.any() else len(cost) - 1
-    return Doubt(float(np.sum(wrong)) / max(int(np.sum(mask)), 1), wrong, most)
+def doubt_of(judgement: Judged, labels: Labels) -> Doubt:
+    """The doubt of a judgement on labels (rows, columns)."""
+    wrong = np.where(judgement.mask, 1 - judgement.odds, judgement.odds)
+    place: Mask = wrong > OPEN
+    rival = int(np.argmax(np.bincount(labels[place]))) if place.any() else 0
+    area = max(int(judgement.mask.sum()), 1)
+    return Doubt(float(wrong.sum()) / area, float(place.sum()) / area, place, rival)

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.surface.sight import Grey, Indices, light_vectors
@@ -58,6 +58,13 @@ class Coarse:
 def factor_of(maps: Grey, most: int) -> int:
     """Pixels to be joined along a side, so that no more than `most` are left."""
     return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
+
+
+def joined(picture: Image, factor: int) -> Image:
+    """A picture (H, W) with blocks of factor x factor pixels joined."""
+    rows, columns = (side // factor for side in picture.shape)
+    blocks = picture[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor)
+    return np.asarray(blocks.mean(axis=(1, 3), dtype=float))
 
 
 def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:

@@ -17,8 +17,8 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import background, flats, samples
-from lpcal.surface.background import View
 from lpcal.surface.coarse import LightTable
+from lpcal.surface.regions import View
 from lpcal.surface.sight import Indices, strength
 
 FREE_PRICE = 10.0
@@ -158,11 +158,11 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
         cost = with_planes(layers, at, table, view.swept.least, E).reshape(-1, *image.shape)
         labels = cheapest(cost, *weights)
         if k + 1 < ROUNDS:
-            labels, layers = _learnt(view, layers, labels, lit, bright)
+            labels, layers = _learnt(view, layers, labels, cost, lit, bright)
     return labels, layers, cost
 
 
-def _learnt(view: View, layers: Layers, labels: Labels, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
+def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
@@ -179,7 +179,8 @@ def _learnt(view: View, layers: Layers, labels: Labels, lit: Mask, bright: Array
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
     labels = new[labels]
     of_object, of_rest = None, None
-    mine = background.object_of(labels, planes, view).ravel()
+    of_kept = cost[[0, *(k + 1 for k in kept), -2, -1]]
+    mine = background.judged(view, labels, planes, of_kept).mask.ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
         both = bright[free | rest]

@@ -1,8 +1,8 @@
 """Which pixels are the object: not the wall behind it, not the support under it, not the dark.
 
-Where lights are near, all that is lit is taken apart at a coarse scale into planes and matter of any shape (surface.layers); planes that
-reach the border of the image are wall and support. The outline is then carried to full resolution, from scale to scale, in a band about
-it. Without near light the strength of the signal decides.
+Where lights are near, all that is lit is taken apart at a coarse scale into planes and matter of any shape (surface.layers), whose regions
+are judged by clues (surface.background). The outline is then carried to full resolution, from scale to scale, in a band about it. Without
+near light the strength of the signal decides.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import background, cut, flats, layers, planes
-from lpcal.surface.background import View
-from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of, joined
+from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, Sight, strength
 
 COARSE_PIXELS = 5200
@@ -44,8 +44,10 @@ HOLE_SHARE = 0.004
 """Share of the object under which a hole in it is filled."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
-DOUBTED, DOUBT_POWER = 0.5, 2.0
-"""Weak share at which a mask is as likely wrong as right, and how fast the odds rise; by tools/mask_doubt.py on drawn scenes."""
+BESIDE_POINT = 0.02
+"""Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
+DOUBTED, DOUBT_POWER = 0.17, 2.6
+"""Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_mask.py."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,7 @@ class Hints:
         return inside
 
     def of(self, mask: Mask) -> Mask:
-        """The part of a mask (H, W) in the box, and of that the connected components that the points lie on."""
+        """The part of a mask (H, W) in the box, and of that the connected components that the points lie on or close to."""
         from scipy import ndimage
 
         allowed = self.allowed(mask.shape)
@@ -75,7 +77,9 @@ class Hints:
         if not self.points:
             return mask
         piece, _ = ndimage.label(mask)
-        return np.asarray(mask & np.isin(piece, [piece[y, x] for x, y in self.points]))
+        far, nearest = ndimage.distance_transform_edt(~mask, return_indices=True)
+        close = [(y, x) for x, y in self.points if far[y, x] <= BESIDE_POINT * min(mask.shape)]
+        return np.asarray(mask & np.isin(piece, [piece[tuple(nearest[:, y, x])] for y, x in close]))
 
 
 NO_HINTS = Hints()
@@ -91,10 +95,10 @@ class Found:
     how: str
     planes: tuple[planes.Plane, ...] = ()
     """Wall and supports; the first is the largest."""
-    weak: float | None = None
-    """Area that hangs on weak evidence, as a share of the object's; None where no layers were labelled."""
+    expected_wrong: float | None = None
+    """Area that is expected to be on the wrong side, as a share of the object's; None where no layers were labelled."""
     why: str = ""
-    """What that area may be instead, and where it is."""
+    """What the area in doubt may be instead, and where it is."""
     layer: Labels | None = None
     """(H, W) of surface.background's values: nothing, object, support, wall; None where no layers were labelled."""
 
@@ -107,17 +111,22 @@ class Found:
     @property
     def doubt(self) -> float | None:
         """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where nothing tells them."""
-        if self.weak is None:
+        if self.expected_wrong is None:
             return None
-        return float(1 / (1 + (DOUBTED / max(self.weak, 1e-3)) ** DOUBT_POWER))
+        return float(1 / (1 + (DOUBTED / max(self.expected_wrong, 1e-3)) ** DOUBT_POWER))
 
 
-def automatic(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None, hints: Hints = NO_HINTS) -> Found:
-    """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes."""
+def automatic(
+    maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None, hints: Hints = NO_HINTS, room: Image | None = None
+) -> Found:
+    """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes.
+
+    `room` (H, W) is the image without lights, where there is one.
+    """
     if distance_m is not None:
         some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
         fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
-        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints)
+        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room)
         if found is not None:
             return found
     return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
@@ -133,16 +142,17 @@ def _by_strength(maps: Grey) -> Mask:
     return _tidy(cut.along_the_seam(_tidy(mask), _picture(maps)))
 
 
-def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints) -> Found | None:
+def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None) -> Found | None:
     image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
     lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
     if lit.mean() < LEAST_OF_IMAGE:
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
-    view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
+    view = _view(image, table, flats.sweep(image, table, distance_m), hints, room, shape)
     labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
     count = len(found.planes)
-    mask, behind = (judge(labels, found.planes, view) for judge in (background.object_of, background.background_of))
+    judged = background.judged(view, labels, found.planes, cost)
+    mask, behind = judged.mask, judged.behind
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
@@ -151,14 +161,14 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
         return Found(every, "all that is lit lies in one plane: that is the object", walls, layer=every.astype(np.uint8))
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
-    doubt = background.doubt_of(labels, cost, mask, count, layers.CEILING)
+    doubt = background.doubt_of(judged, labels)
     fine = hints.of(_to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C))
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
 
 
-def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
+def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, room: Image | None, shape: tuple[int, ...]) -> View:
     """What labels are judged by, the hints in coarse pixels."""
     rows, columns = image.shape
     allowed = hints.allowed(shape)
@@ -166,7 +176,7 @@ def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, sh
         blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
         allowed = blocks.any(axis=(1, 3))
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
-    return View(image, table, swept, allowed, points)
+    return View(image, table, swept, None if room is None else joined(room, image.factor), allowed, points)
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
@@ -197,7 +207,7 @@ def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> s
         "dark": "background that no light reaches",
         "other": "other matter of the background",
     }[rival]
-    return f"{100 * doubt.share:.0f} % of its area may be {what}, most of it in x {column[0]} to {column[1]}, y {row[0]} to {row[1]}"
+    return f"{100 * doubt.open:.0f} % of its area may be {what}, most of it in x {column[0]} to {column[1]}, y {row[0]} to {row[1]}"
 
 
 def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:

@@ -70,6 +70,8 @@ class Options:
     """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
+    ambient_pictured: bool = True
+    """Whether the radiance's ambient light is an image, not an estimate."""
     linear: bool = True
     """Whether nothing speaks against the signals being linear; else powers of lights that nobody measured are held, not estimated."""
 
@@ -95,7 +97,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not gains.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
-        known = replace(options, ambient_known=True)
+        known = replace(options, ambient_known=True, ambient_pictured=False)
 
         def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
             return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress)
@@ -103,7 +105,8 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
-    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints) if wanted or near else None
+    room = sight.room(radiance) if options.ambient_pictured else None
+    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints, room) if wanted or near else None
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None

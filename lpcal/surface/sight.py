@@ -164,6 +164,12 @@ def grey(radiance: Radiance, lights: Sequence[Light]) -> Grey:
     return Grey(np.asarray(signal, np.float32), np.asarray(sigma, np.float32), ~radiance.saturated)
 
 
+def room(radiance: Radiance) -> Image | None:
+    """The image without lights (H, W), of colours the mean; None where there is none."""
+    picture = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
+    return np.asarray(picture) if picture.any() else None
+
+
 def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
     """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
     rays = np.zeros((*shape[:2], 3))

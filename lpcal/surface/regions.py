@@ -1,0 +1,238 @@
+r"""Connected regions of a map of labels, and the clues by which a region is the object or not.
+
+A clue is one number a region: how much of the image's frame it holds, what its plane spares over matter of any normal, where it lies, what
+lies beside it. None needs a scale: shares of the frame or the outline, natural logarithms of brightness and depth, costs of the labels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.surface.coarse import Coarse, LightTable
+from lpcal.surface.flats import Sweep
+from lpcal.surface.sight import Indices, strength
+
+SPARED = (-10.0, 30.0)
+"""Bounds of the cost that a plane spares a pixel, so that a few pixels do not speak for a region."""
+BEFORE = 0.02
+"""Natural logarithm of a ratio of depths from which a region stands before the plane that holds most of the frame."""
+FEWEST = 6
+"""Coarse pixels from which matter of any normal has a depth of its own: that at which its pixels together cost least."""
+RIM = 2
+"""Coarse pixels at the image's border whose median brightness the regions are compared with."""
+ALIKE_ROOM, ALIKE_BRIGHT = 0.1, 0.15
+"""Natural logarithms of a step of the room's light and of the lights' that halve, or nearly so, how alike two regions are."""
+ABOUT = (0.05, 0.125)
+"""Standard deviations, in picture widths, of the neighbourhoods that a region is compared with."""
+
+
+@dataclass(frozen=True)
+class View:
+    """What labels are judged by; the user's hints are none by default."""
+
+    image: Coarse
+    table: LightTable
+    swept: Sweep
+    room: Image | None = None
+    """(rows, columns) the image without lights; None where there is none."""
+    allowed: Mask | None = None
+    """(rows, columns) where the object may be: a box."""
+    points: tuple[tuple[int, int], ...] = ()
+    """Rows and columns of places that show it."""
+
+    @property
+    def normals(self) -> Array:
+        """Normals (rows, columns, 3) of matter of any normal."""
+        return self.image.image(self.swept.normals)
+
+    @property
+    def window(self) -> tuple[slice, slice]:
+        """The rows and columns of the box; all without one."""
+        if self.allowed is None or not self.allowed.any():
+            return slice(None), slice(None)
+        rows, columns = (np.flatnonzero(self.allowed.any(axis=axis)) for axis in (1, 0))
+        return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+
+
+@dataclass(frozen=True)
+class Regions:
+    """N connected regions, each of one label."""
+
+    number: Labels
+    """(rows, columns) 0..N-1."""
+    label: Labels
+    """(N,)."""
+    pairs: Indices
+    """(K, 2) regions of two pixels that lie beside each other, of different regions."""
+    pixels: Indices
+    """(K, 2) these pixels."""
+
+    @staticmethod
+    def of(labels: Labels) -> Regions:
+        """The regions of labels (rows, columns)."""
+        from scipy import ndimage
+
+        number = np.zeros(labels.shape, int)
+        label: list[int] = []
+        for one in np.unique(labels):
+            piece, count = ndimage.label(labels == one)
+            number[piece > 0] = piece[piece > 0] - 1 + len(label)
+            label += [int(one)] * count
+        flat = np.arange(labels.size).reshape(labels.shape)
+        beside = [(flat[:, :-1], flat[:, 1:]), (flat[:-1], flat[1:])]
+        pixels = np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in beside])
+        pairs = number.ravel()[pixels]
+        apart = pairs[:, 0] != pairs[:, 1]
+        return Regions(number, np.array(label), pairs[apart], pixels[apart])
+
+    @property
+    def area(self) -> Array:
+        """(N,) pixels."""
+        return np.bincount(self.number.ravel(), minlength=len(self.label)).astype(float)
+
+    def mean(self, values: Array) -> Array:
+        """Means (N,) of values (rows, columns)."""
+        return np.asarray(
+            np.bincount(self.number.ravel(), weights=np.asarray(values, float).ravel(), minlength=len(self.label)) / self.area
+        )
+
+    def outline(self, weight: Array, beside: Array) -> Array:
+        """Means (N,) over a region's outline of weight (K,) times what `beside` (N,) says of the region across."""
+        count = len(self.label)
+        a, b = self.pairs.T
+        total = np.bincount(a, weights=weight * beside[b], minlength=count) + np.bincount(b, weights=weight * beside[a], minlength=count)
+        return np.asarray(total / np.maximum(np.bincount(self.pairs.ravel(), minlength=count), 1))
+
+    def frame(self) -> Array:
+        """(N,) shares of the image's frame."""
+        edge = np.concatenate([self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1]])
+        return np.asarray(np.bincount(edge, minlength=len(self.label)) / len(edge))
+
+    def sides(self) -> Array:
+        """(N,) sides of the image that a region touches, 0..4."""
+        edges = (self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1])
+        return np.sum([np.isin(np.arange(len(self.label)), edge) for edge in edges], axis=0)
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """What clues are taken from, (rows, columns) each."""
+
+    labels: Labels
+    planes: list[Array]
+    """q (3,) each, of labels 1..; label 0 is matter of any normal, then come nothing and other matter."""
+    spared: Array
+    """Cost that the label spares a pixel, beside matter of any normal."""
+    bright: Array
+    """Log of the brightest signal but one."""
+    room: Array | None
+    """Log of the image without lights."""
+    normals: Array
+    """(rows, columns, 3) the plane's, or those of matter of any normal."""
+    rays_C: Array
+    """(rows, columns, 3)."""
+    swept: tuple[Array, Array]
+    """u (D,) and the cost (D, rows, columns) of matter of any normal."""
+
+    @staticmethod
+    def of(view: View, labels: Labels, planes: list[Array], cost: Array) -> Pictures:
+        """In the view's window, from labels (rows, columns) and the costs (layers, rows, columns)."""
+        here = view.window
+        image, count = view.image, len(planes)
+        signal = strength(image.maps)
+        facing = np.stack([np.zeros(3), *(-q / np.linalg.norm(q) for q in planes), np.zeros(3), np.zeros(3)])[labels]
+        in_plane = (labels > 0) & (labels <= count)
+        room = None if view.room is None else np.log(np.maximum(view.room, 0.02 * np.median(view.room)) + 1e-12)[here]
+        return Pictures(
+            labels[here],
+            planes,
+            np.clip(cost[0] - np.take_along_axis(cost, labels[None], axis=0)[0], *SPARED)[here],
+            np.log(np.maximum(signal, 1e-3 * np.percentile(signal, 99)))[here],
+            room,
+            np.where(in_plane[..., None], facing, view.normals)[here],
+            image.image(image.rays_C)[here],
+            (view.swept.u, view.swept.cost.reshape(-1, *image.shape)[:, *here]),
+        )
+
+
+def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
+    """The clues (N,) of a region by itself."""
+    rows, columns = regions.number.shape
+    count = len(pictures.planes)
+    plane = ((regions.label > 0) & (regions.label <= count)).astype(float)
+    frame = regions.frame()
+    rim = np.ones(regions.number.shape, bool)
+    rim[RIM:-RIM, RIM:-RIM] = False
+    row, column = np.indices(regions.number.shape, float)
+    along = np.ones(len(regions.pairs))
+    return {
+        "frame": np.sqrt(frame),
+        "plane": plane,
+        "frame, a plane": np.sqrt(frame) * plane,
+        "spared": regions.mean(pictures.spared),
+        "off centre": np.hypot(2 * regions.mean(row) / rows - 1, 2 * regions.mean(column) / columns - 1),
+        "facing down": regions.mean(pictures.normals[..., 1]),
+        "bright": regions.mean(pictures.bright) - np.median(pictures.bright[rim]),
+        "nothing beside": regions.outline(along, regions.label == count + 1),
+        "two sides": (regions.sides() >= 2).astype(float),
+        "before": _before(pictures, regions, frame, plane > 0),
+        "free beside, a plane": plane * regions.outline(along, regions.label == 0),
+        "edge, a plane": plane * regions.outline(_step(pictures.room, regions), np.ones(len(plane))),
+    }
+
+
+def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Array]:
+    """The clues (N,) of a region by the log odds (N,) of those about it."""
+    from scipy import ndimage
+
+    count = len(pictures.planes)
+    plane, free = (regions.label > 0) & (regions.label <= count), regions.label == 0
+    near, far = (
+        regions.mean(ndimage.gaussian_filter(logit[regions.number], share * regions.number.shape[1], mode="nearest")) for share in ABOUT
+    )
+    frame = np.bincount(regions.label, weights=regions.frame(), minlength=count + 3)[regions.label]
+    alike = np.exp(-((_step(pictures.bright, regions) / ALIKE_BRIGHT) ** 2))
+    return {
+        "itself": logit,
+        "about": near,
+        "alike in the room's light": regions.outline(np.exp(-((_step(pictures.room, regions) / ALIKE_ROOM) ** 2)), logit),
+        "alike in the lights', a plane": plane * regions.outline(alike, logit),
+        "frame of the whole plane": plane * frame,
+        "facing the camera, a plane": plane * regions.mean(-pictures.normals[..., 2]),
+        "widely about, of any normal": free * far,
+    }
+
+
+def _step(picture: Array | None, regions: Regions) -> Array:
+    """Steps (K,) of a picture (rows, columns) across outlines; none without a picture."""
+    if picture is None:
+        return np.zeros(len(regions.pairs))
+    a, b = picture.ravel()[regions.pixels].T
+    return np.asarray(np.abs(a - b))
+
+
+def _before(pictures: Pictures, regions: Regions, frame: Array, plane: Mask) -> Array:
+    """1 where a region (N,) stands before the plane that holds most of the frame, else 0."""
+    if not pictures.planes:
+        return np.zeros(len(regions.label))
+    held = np.bincount(regions.label[plane], weights=frame[plane], minlength=len(pictures.planes) + 1)[1:]
+    wall = _depth(pictures.planes[int(np.argmax(held))], pictures.rays_C)
+    log_z = np.full(regions.number.shape, np.nan)
+    u, cost = pictures.swept
+    for k in range(len(regions.label)):
+        inside = regions.number == k
+        if plane[k]:
+            log_z[inside] = np.log(_depth(pictures.planes[regions.label[k] - 1], pictures.rays_C[inside]))
+        elif regions.label[k] != len(pictures.planes) + 1 and inside.sum() >= FEWEST:
+            log_z[inside] = u[np.argmin(np.minimum(cost[:, inside], SPARED[1]).mean(axis=1))]
+    ahead = np.nan_to_num(np.clip(np.log(wall) - log_z, -1, 1))
+    return np.asarray(regions.mean(ahead) > BEFORE, float)
+
+
+def _depth(q: Array, rays_C: Array) -> Array:
+    """Depths (...) at which rays (..., 3) meet a plane; NaN where they miss it."""
+    slope = rays_C @ q
+    return np.asarray(np.where(slope > 1e-6, 1 / np.maximum(slope, 1e-6), np.nan))
