@@ -55,6 +55,13 @@ def test_a_stage_alone_or_absent_makes_a_page(kind: str) -> None:
     assert f"{kind}.yaml" in text_of(render(report_of(rest)))
 
 
+@pytest.mark.parametrize("points_m", [[], None])
+def test_a_rig_in_which_no_board_was_seen_has_a_page(points_m: Any) -> None:
+    whole = documents()
+    whole["H_CB"] |= {"board": {"corners": [5, 4], "points_m": points_m}, "views": []}
+    assert "5 of 6 views" in text_of(render(report_of(whole)))
+
+
 def test_what_a_rig_does_not_know_is_not_needed() -> None:
     whole = documents()
     light = {"name": "L0", "direction": [0.0, 0.0, -1.0], "intensity": [1.0, 0.9, 1.1], "source_m": None, "lobe": None}

@@ -57,12 +57,12 @@ def h_cb_from_document(document: dict[str, Any]) -> BoardPoses:
         A key is lacking or holds something else; the message is the key's name.
     """
     views = [view for view in document["views"] if view["H_CB"] is not None]
-    points_B = numbers(document["board"], "points_m", -1, 3)
+    points_B = numbers(document["board"], "points_m", -1, 3) if document["board"]["points_m"] else None
     return BoardPoses(
         images=tuple(view["image"] for view in views),
         t_camera_s=None,
         H_CB=_stack([rigid(view, "H_CB") for view in views], (4, 4)),
-        corners_px=_stack([view["corners_px"] for view in views], (len(points_B), 2)),
+        corners_px=_stack([view["corners_px"] for view in views], (0 if points_B is None else len(points_B), 2)),
         points_B=points_B,
         covariance=_stack([covariance(view, "covariance", 6) for view in views], (6, 6)),
         rms_px=np.array([numbers(view, "rms_px") for view in views]),
