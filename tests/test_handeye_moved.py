@@ -123,3 +123,7 @@ def test_origin_sigmas_are_those_of_the_origin() -> None:
     A = rng.normal(size=(6, 6)) * 1e-3
     drawn = se3.exp(rng.multivariate_normal(np.zeros(6), A @ A.T, 20000)) @ H
     np.testing.assert_allclose(se3.origin_sigmas(H, A @ A.T), drawn[:, :3, 3].std(axis=0), rtol=0.03)
+    found = HandEye(H, A @ A.T, np.eye(4), np.eye(6), None, None, ())
+    np.testing.assert_allclose(found.position_std_m, drawn[:, :3, 3].std(axis=0), rtol=0.03)
+    turns = np.array([se3.rotation_vector(one[:3, :3] @ H[:3, :3].T) for one in drawn[:4000]])
+    np.testing.assert_allclose(found.rotation_std_rad, turns.std(axis=0), rtol=0.06)
