@@ -11,6 +11,7 @@ from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import HandEye
 from lpcal.records.observations import BoardPoses
 
 H_PC = se3.transform(se3.rotation(np.array([0.3, -0.2, 0.9])), np.array([0.03, -0.05, 0.08]))
