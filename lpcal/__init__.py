@@ -14,6 +14,7 @@ TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import h
 
 if TYPE_CHECKING:
     from lpcal import errors as errors
+    from lpcal.api import methods as methods
     from lpcal.api.boards import calibrate_camera as calibrate_camera
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from lpcal.api.files import write_camera as write_camera
     from lpcal.api.files import write_surface as write_surface
     from lpcal.api.handeye import solve_handeye as solve_handeye
+    from lpcal.api.handeye_check import check_handeye as check_handeye
     from lpcal.api.lights import assemble_calibration as assemble_calibration
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
@@ -37,9 +39,11 @@ if TYPE_CHECKING:
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
     from lpcal.api.spheres import refine_lights as refine_lights
+    from lpcal.api.studies import study as study
     from lpcal.api.surfaces import integrate as integrate
     from lpcal.api.surfaces import mesh as mesh
     from lpcal.api.surfaces import reconstruct as reconstruct
+    from lpcal.api.wing_settings import wing_settings as wing_settings
     from lpcal.records.calibration import Calibration as Calibration
     from lpcal.records.calibration import Camera as Camera
     from lpcal.records.calibration import HandEye as HandEye
@@ -66,12 +70,15 @@ _HOME = {
         "write_surface",
     ),
     "api.handeye": ("solve_handeye",),
+    "api.handeye_check": ("check_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.many": ("reconstruct_many",),
     "api.mocap_formats": ("register_mocap",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
+    "api.studies": ("study",),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
+    "api.wing_settings": ("wing_settings",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),
     "records.sensor": ("StatedSensor",),
@@ -79,7 +86,10 @@ _HOME = {
 }
 """The module that each public name is loaded from when it is first used."""
 
-__all__ = [*sorted(name for names in _HOME.values() for name in names), "errors"]  # noqa: PLE0604
+MODULES = {"errors": "errors", "methods": "api.methods"}
+"""Modules that are public as a whole."""
+
+__all__ = [*sorted(name for names in _HOME.values() for name in names), *MODULES]  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> object:
@@ -89,8 +99,8 @@ def __getattr__(name: str) -> object:
     home = next((module for module, names in _HOME.items() if name in names), None)
     if home is not None:
         found = getattr(import_module(f"lpcal.{home}"), name)
-    elif name == "errors":
-        found = import_module("lpcal.errors")
+    elif name in MODULES:
+        found = import_module(f"lpcal.{MODULES[name]}")
     else:
         raise AttributeError(f"module 'lpcal' has no attribute {name!r}")
     globals()[name] = found

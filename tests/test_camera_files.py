@@ -16,8 +16,8 @@ from lpcal.errors import InputError
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, write_camera
 from lpcal.formats.cameramodel import cameramodel_text
-from lpcal.formats.documents import Provenance
 from lpcal.records.calibration import Camera, CameraSolution
+from lpcal.records.provenance import Provenance
 
 K = np.array([[712.4, 0, 385.1], [0, 713.1, 230.6], [0, 0, 1.0]])
 LENSES = {"opencv4": [-0.3, 0.12, 0.0007, -0.0005], "opencv5": [-0.3, 0.12, 0.0007, -0.0005, 0.01]}

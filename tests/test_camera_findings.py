@@ -86,19 +86,18 @@ def test_an_unevenly_printed_board_is_told_by_freeing_its_corners() -> None:
     uneven_m = Pattern().points() + 2e-4 * np.random.default_rng(5).standard_normal((54, 3))
     for one, off_m in ((even, 0.0), (problem(uneven_m, 3, count=24), 2e-4)):
         solution = solve_camera(views_of(one), BOARD, model="opencv4")
-        found = solution.evidence["free_board_check"]
-        assert isinstance(found, dict)
-        assert abs(found["board_off_rms_m"] - off_m) < 5e-5
+        found = solution.evidence.free_board_check
+        assert abs(found.board_off_rms_m - off_m) < 5e-5
         assert any("mm rms from where its shape says" in word for word in solution.warnings) == (off_m > 0)
-        assert found["difference_rms_px"] < 0.05 if off_m == 0 else found["difference_rms_px"] > 0.05
+        assert found.difference_rms_px < 0.05 if off_m == 0 else found.difference_rms_px > 0.05
 
 
 def test_the_shape_is_chosen_where_there_is_one_and_said() -> None:
     solution = solve_camera(views_of(problem(bent(1e-3), 3)), BOARD, model="opencv5")
-    assert solution.evidence["chosen"]["board"] in BOARDS[2:]  # type: ignore[index]
+    assert solution.evidence.chosen.board in BOARDS[2:]
     np.testing.assert_allclose(solution.points_B[:, 2], raised(bent(1e-3)), atol=4e-5)
     plain = solve_camera(views_of(problem(Pattern().points(), 3)), BOARD, model="opencv5")
-    assert plain.evidence["chosen"]["board"] in BOARDS[:2]  # type: ignore[index]
+    assert plain.evidence.chosen.board in BOARDS[:2]
     assert np.abs(plain.points_B[:, 2]).max() < 3e-5
 
 
@@ -106,8 +105,8 @@ def test_unequal_sides_are_found() -> None:
     points = Pattern().points() * [1.002, 0.998, 1.0]
     views = views_of(problem(points, 5, count=24, sigma_px=0.02))
     solution = solve_camera(views, BOARD, model="opencv4")
-    assert solution.evidence["chosen"]["board"] == "stretched"  # type: ignore[index]
-    assert abs(solution.evidence["board_shape"]["stretch"]["value"] - 0.004) < 4e-4  # type: ignore[index]
+    assert solution.evidence.chosen.board == "stretched"
+    assert abs(solution.evidence.board_shape["stretch"].value - 0.004) < 4e-4
     assert abs(solution.camera.K[0, 0] / solution.camera.K[1, 1] - K[0, 0] / K[1, 1]) < 5e-4
 
 

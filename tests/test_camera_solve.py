@@ -76,10 +76,10 @@ def test_errors_are_as_large_as_said(sessions: list[BoardViews], solver: str) ->
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_bowed_board_is_seen_and_a_flat_one_left_flat(solver: str) -> None:
     bowed = k_camera.solve_camera(corner_views(), BOARD, solver=solver)
-    np.testing.assert_allclose(bowed.evidence["board_warp_m"], BOWED.bow_m, atol=3e-5)
+    np.testing.assert_allclose(bowed.evidence.board_warp_m, BOWED.bow_m, atol=3e-5)
     assert abs(bowed.points_B[:, 2].mean()) < 1e-12
     flat = k_camera.solve_camera(corner_views(pattern=Pattern()), Board((9, 6), (0.025, 0.025), warp=False), solver=solver)
-    assert flat.evidence["board_warp_m"] is None
+    assert flat.evidence.board_warp_m is None
     assert np.all(flat.points_B[:, 2] == 0)
 
 
@@ -145,7 +145,7 @@ def test_squares_that_are_not_square() -> None:
     pattern = Pattern(square_m=(0.0249, 0.0252))
     solution = k_camera.solve_camera(corner_views(pattern=pattern), Board((9, 6), (0.0249, 0.0252)), model="opencv4")
     assert solution.solver == "opencv"
-    assert "unequal" in str(solution.evidence["solver_note"])
+    assert "unequal" in str(solution.evidence.solver_note)
     np.testing.assert_allclose([solution.camera.K[0, 0], solution.camera.K[1, 1]], [K[0, 0], K[1, 1]], atol=0.6)
 
 
@@ -153,7 +153,7 @@ def test_without_mrcal_it_is_said_what_is_missing(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(k_camera, "find_spec", lambda name: None)
     solution = k_camera.solve_camera(corner_views(), BOARD, model="opencv5")
     assert solution.solver == "opencv"
-    assert "mrcal is not installed" in str(solution.evidence["solver_note"])
+    assert "mrcal is not installed" in str(solution.evidence.solver_note)
     assert not any("mrcal" in line for line in solution.warnings)  # as good a fit as mrcal's: no doubt of the camera
     with pytest.raises(InputError, match="needs mrcal"):
         k_camera.solve_camera(corner_views(), BOARD, model="splined")
@@ -238,9 +238,8 @@ def test_a_lens_that_no_polynomial_follows_is_splined_and_says_how_sure() -> Non
     waves = replace(views, views=tuple(replace(view, corners_px=rippled(np.asarray(view.corners_px))) for view in views.views))
     solution = k_camera.solve_camera(waves, BOARD)
     assert solution.camera.model == "splined"
-    said = solution.evidence["projection_uncertainty"]
-    assert isinstance(said, dict)
-    assert np.all(np.isfinite(said["worst_direction_std_px"]))
+    said = solution.evidence.projection_uncertainty
+    assert np.all(np.isfinite(said.worst_direction_std_px))
     pixels = pixel_grid(STUDIO.size, 12, 9)
     pixels = pixels[np.all(np.abs(pixels - np.array(STUDIO.size) / 2) < 0.3 * np.array(STUDIO.size), axis=1)]
     rays_C = central.unproject(pixels, K, LENS)

@@ -113,13 +113,11 @@ def test_what_is_said_of_a_wide_lens_means_something(lens: tuple[float, ...], fo
         if np.all(px > 5) and np.all(px < np.array(studio.size) - 6):
             places.append(H_CB)
     solution = solve_camera(views(places, studio), BOARD)
-    sure, check = solution.evidence["projection_uncertainty"], solution.evidence["independent_check"]
-    assert isinstance(sure, dict)
-    assert isinstance(check, dict)
-    assert sure["rms_px"] <= sure["most_px"] < 5
-    assert check["difference_worst_px"] < 5
-    assert sure["trusted_share"] <= sure["covered_share"] < 1
-    assert not np.any(np.array(sure["trusted"]) & ~np.array(sure["covered"]))
+    sure, check = solution.evidence.projection_uncertainty, solution.evidence.independent_check
+    assert sure.rms_px <= sure.most_px < 5
+    assert check.difference_worst_px < 5
+    assert sure.trusted_share <= sure.covered_share < 1
+    assert not np.any(np.array(sure.trusted) & ~np.array(sure.covered))
 
 
 @pytest.mark.parametrize(("size", "words"), [(0.0004, "0.00040"), (0.031, "0.031"), (1.5, "1.50"), (2e-9, "2.0e-09"), (0.0, "0.00")])
@@ -154,7 +152,6 @@ def test_five_cameras_agree_on_one_board(bow_m: float, seeds: Sequence[int]) -> 
         assert solution.camera.covariance is not None
         sigma = np.sqrt(np.diag(solution.camera.covariance))
         assert abs(solution.camera.K[0, 0] - K[0, 0]) < 3 * sigma[0]
-        shape = solution.evidence["board_shape"]
-        assert isinstance(shape, dict)
+        shape = solution.evidence.board_shape
         for term, truth in zip(("bow_x_m", "bow_y_m"), pattern.bow_m, strict=True):
-            assert abs(shape[term]["value"] - truth) < 3 * shape[term]["std"] < 1e-4
+            assert abs(shape[term].value - truth) < 3 * shape[term].std < 1e-4

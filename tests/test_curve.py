@@ -18,7 +18,7 @@ from lpcal.formats.capture import read_capture
 from lpcal.geometry.tone_curve import decode, encode
 from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
 from lpcal.records.sensor import StatedSensor, ToneClaim
-from lpcal.surface.response import Shown, stored_curve
+from lpcal.surface.response import ShownResponse, stored_curve
 
 SEEDS = [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow)]
 
@@ -39,12 +39,12 @@ def test_the_exponent_is_found(gamma, seed):
     n = np.array([0, 0, -1.0]) + 0.4 * rng.normal(size=(400, 3))
     linear = np.maximum(S @ n.T, 0) / 4
     stored = encode(linear, gamma) + 0.001 * rng.standard_normal(linear.shape)
-    shown = Shown(lambda curve: decode(stored, curve), linear > 0, np.repeat(S[:, None], 400, axis=1))
+    shown = ShownResponse(lambda curve: decode(stored, curve), linear > 0, np.repeat(S[:, None], 400, axis=1))
     found = stored_curve(shown, 1.0, "srgb")
     assert found.gamma == pytest.approx(gamma, rel=0.06)
     assert found.believed == (gamma != 1.0)
     assert found.claim_explains == (gamma == 2.2)
-    few = Shown(lambda curve: decode(stored[:5], curve), shown.usable[:5], shown.B[:5])
+    few = ShownResponse(lambda curve: decode(stored[:5], curve), shown.usable[:5], shown.B[:5])
     assert stored_curve(few, 1.0, "srgb") is None
 
 

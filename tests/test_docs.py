@@ -19,10 +19,12 @@ PAGES = sorted(DOCS.rglob("*.md"))
 
 def test_every_public_name_is_in_the_reference() -> None:
     shown = {name for page in PAGES for name in re.findall(r"^::: (\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE)}
-    public = {getattr(lpcal, name) for name in lpcal.__all__ if name != "errors"}
+    public = {getattr(lpcal, name) for name in lpcal.__all__ if name not in lpcal.MODULES}
     assert {f"{one.__module__}.{one.__qualname__}" for one in public} <= shown
     index = (DOCS / "reference/index.md").read_text(encoding="utf-8")
-    assert [name for name in lpcal.__all__ if not name.startswith("write_") and f"`{name}`" not in index and name != "errors"] == []
+    assert [
+        name for name in lpcal.__all__ if not name.startswith("write_") and name not in lpcal.MODULES and f"`{name}`" not in index
+    ] == []
 
 
 def test_every_example_is_on_a_page() -> None:
@@ -39,6 +41,21 @@ def test_errors_and_their_codes_are_those_of_the_code() -> None:
     page = (DOCS / "errors.md").read_text(encoding="utf-8")
     rows = {name: int(code) for name, code in re.findall(r"^\| `(\w+)` \| (\d) \|", page, re.MULTILINE)}
     assert rows == {kind.__name__: kind.exit_code for kind in lpcal.errors.LpcalError.__subclasses__()}
+
+
+def test_messages_on_the_page_are_those_of_the_code() -> None:
+    page = (DOCS / "errors.md").read_text(encoding="utf-8")
+    fragments = re.findall(r"^\| `([^`]+)` \| [^|\d]", page, re.MULTILINE)
+    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "lpcal").rglob("*.py"))
+    assert len(fragments) > 20
+    assert [one for one in fragments if one not in source] == []
+
+
+def test_tests_on_the_page_are_there() -> None:
+    named = re.findall(r"`(test_\w+)`", (DOCS / "uncertainty.md").read_text(encoding="utf-8"))
+    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "tests").glob("test_*.py"))
+    assert len(named) > 10
+    assert [one for one in named if f"def {one}(" not in source] == []
 
 
 @pytest.mark.slow

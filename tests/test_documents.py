@@ -14,7 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance, plain, read_document, sha256, write_document
+from lpcal.formats.documents import plain, read_document, sha256, write_document
+from lpcal.records.provenance import Provenance
 
 PROVENANCE = Provenance(inputs={"stations.csv": "0" * 64}, options={"model": "auto"}, time="2026-01-01T00:00:00+00:00")
 

@@ -13,8 +13,8 @@ from lit_heights import Drawn, Recipe, draw
 from lpcal.api.curve import settle_sensor
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.formats.calibration_yaml import write_calibration
-from lpcal.formats.documents import Provenance
 from lpcal.geometry import lambert
+from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 from lpcal.surface import gains, sight
 from lpcal.surface.reconstruct import Options, reconstruct
@@ -74,7 +74,7 @@ def test_equal_lights_come_out_better_than_plain_least_squares(kind):
     S = np.stack([light.direction_C for light in lights])
     plain = lambert.unit(np.linalg.lstsq(S, seen.signal, rcond=None)[0].T)[0]
     found = reconstruct(to_radiance(drawn.raw, Sensor()), drawn.calibration, Options(mask=drawn.mask))
-    assert "intensities_found" not in found.figures
+    assert found.figures.intensities_found is None
     assert error_deg(found.normals[drawn.mask], drawn.normals[drawn.mask]) < 0.5 * error_deg(plain, drawn.normals[drawn.mask])
 
 
@@ -85,8 +85,8 @@ def test_a_curve_is_not_taken_up_by_powers(seed):
     assert not settled.linear
     radiance = to_radiance(drawn.raw, settled.used.sensor)
     by_hand, heeded = (reconstruct(radiance, drawn.calibration, Options(mask=drawn.mask, linear=each)) for each in (True, settled.linear))
-    assert "intensities_found" in by_hand.figures  # powers would take it up
-    assert "intensities_found" not in heeded.figures
+    assert by_hand.figures.intensities_found  # powers would take it up
+    assert heeded.figures.intensities_found is None
 
 
 def test_powers_that_somebody_measured_are_no_matter():

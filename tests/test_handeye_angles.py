@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handeye_scene import static_session
-from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.errors import DisagreementError
 from lpcal.formats.robot_poses import ROTATIONS, Stated, read_robot_poses
 from lpcal.geometry import se3
@@ -49,7 +49,7 @@ def test_another_order_is_named(tmp_path: Path, seed: int, written: str, read: s
     path.write_text("\n".join(" ".join(f"{value:.9f}" for value in row) for row in rows))
     wrong = read_robot_poses(path, Stated(rotation=read)).H
     with pytest.raises(DisagreementError, match="three numbers are of another order or kind") as error:
-        solve_paired(session.boards, wrong, session.camera, Options())
+        solve_paired(session.boards, wrong, session.camera, HandEyeOptions())
     assert f"mocap.rotation: {written}" in error.value.todo or f"or {written}, if it says {read[:3]}" in error.value.todo
     right = read_robot_poses(path, Stated(rotation=written)).H
-    assert solve_paired(session.boards, right, session.camera, Options()).handeye.carries == "camera"
+    assert solve_paired(session.boards, right, session.camera, HandEyeOptions()).handeye.carries == "camera"

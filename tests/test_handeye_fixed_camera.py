@@ -12,13 +12,13 @@ import yaml
 from handeye_scene import Session, moving_session, static_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.set_up import SetUp, of_pairs
-from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DisagreementError
-from lpcal.formats.documents import Provenance
 from lpcal.formats.handeye_yaml import read_handeye, write_handeye
 from lpcal.formats.pasted_transforms import write_easy_handeye
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import poses_at
+from lpcal.records.provenance import Provenance
 
 SEEDS = [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))]
 
@@ -31,8 +31,8 @@ def nees(session: Session, found: HandEyeFinding) -> np.ndarray:
     return np.array([e @ np.linalg.solve(C, e) for e, (_, _, C) in zip(errors, pairs, strict=True)])
 
 
-def paired(session: Session, options: Options | None = None) -> HandEyeFinding:
-    return solve_paired(session.boards, session.H_OP, session.camera, options or Options())
+def paired(session: Session, options: HandEyeOptions | None = None) -> HandEyeFinding:
+    return solve_paired(session.boards, session.H_OP, session.camera, options or HandEyeOptions())
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -40,7 +40,7 @@ def paired(session: Session, options: Options | None = None) -> HandEyeFinding:
 def test_a_fixed_camera_is_told_and_solved(seed: int, inverted: bool) -> None:
     session = static_session(np.random.default_rng(seed), 24, fixed=True)
     read = replace(session, H_OP=se3.inv(session.H_OP)) if inverted else session
-    found = paired(read, Options(inverted=inverted))
+    found = paired(read, HandEyeOptions(inverted=inverted))
     assert found.handeye.carries == "board"
     assert found.handeye.names == ("H_OC", "H_PB")
     assert (nees(session, found) < 22.5).all(), "the 99.9 % point of chi^2 of six"
@@ -62,7 +62,7 @@ def test_the_sigmas_of_a_fixed_camera_are_its_errors(seeds: range) -> None:
 def test_a_board_waved_before_a_fixed_camera(seed: int) -> None:
     session = moving_session(np.random.default_rng(seed), 60, fixed=True)
     assert session.stream is not None
-    found = solve_moving(session.boards, track_of(session.stream), session.camera, Options())
+    found = solve_moving(session.boards, track_of(session.stream), session.camera, HandEyeOptions())
     assert found.handeye.carries == "board"
     assert (nees(session, found) < 22.5).all()
     assert found.handeye.clock_offset_s is not None
@@ -72,7 +72,7 @@ def test_a_board_waved_before_a_fixed_camera(seed: int) -> None:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_camera_on_the_body_stays_one(seed: int) -> None:
     session = static_session(np.random.default_rng(seed), 24)
-    assert of_pairs(session.H_OP, session.boards.H_CB, Options()) == SetUp()
+    assert of_pairs(session.H_OP, session.boards.H_CB, HandEyeOptions()) == SetUp()
     assert paired(session).handeye.carries == "camera"
     with pytest.raises(DisagreementError, match="inverted") as error:
         paired(replace(session, H_OP=se3.inv(session.H_OP)))
@@ -83,11 +83,11 @@ def test_a_camera_on_the_body_stays_one(seed: int) -> None:
 def test_what_is_stated_counts(seed: int) -> None:
     session = static_session(np.random.default_rng(seed), 24, fixed=True)
     near = replace(session, H_OP=se3.inv(session.H_PC) @ session.H_OP, H_PC=np.eye(4))  # the room's origin in the camera
-    found = paired(near, Options(carries="board"))
+    found = paired(near, HandEyeOptions(carries="board"))
     assert found.handeye.carries == "board"
     assert np.linalg.norm(found.handeye.H_PC[:3, 3]) < 2e-3
     with pytest.raises(DisagreementError):
-        paired(session, Options(carries="camera"))
+        paired(session, HandEyeOptions(carries="camera"))
 
 
 def test_a_track_turned_round_moves_as_its_poses_do() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3
-from lpcal.geometry.least_squares import POSE, Block, Options, Term, compile_residual, matrix, prior, small_rotation, solve
+from lpcal.geometry.least_squares import POSE, Block, SolverOptions, Term, compile_residual, matrix, prior, small_rotation, solve
 
 SIGMA = 0.01
 
@@ -127,7 +127,7 @@ def test_a_valley_that_no_datum_notices_is_an_end_and_a_slope_is_not(height: flo
         return data * 2.718281828 ** (-x)
 
     term = Term(compile_residual(slope, (1,), 1), ("x",), (np.zeros(1, int),), np.full((1, 1), height))
-    options = Options(iterations=6, tolerance=0.0)
+    options = SolverOptions(iterations=6, tolerance=0.0)
     if settles:
         assert solve({"x": Block(np.zeros((1, 1)))}, [term], options=options).cost < 1e-4
     else:

@@ -10,7 +10,7 @@ import pytest
 from handeye_scene import Noise, moving_session
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import poses_at
 from lpcal.records.observations import MarkerStream
@@ -37,7 +37,7 @@ def test_poses_count_by_their_own_covariance():
     for seed in range(6):
         session, stream = _session(seed)
         for one, errors in ((stream, weighted), (replace(stream, covariance=None), alike)):
-            found = solve_moving(session.boards, track_of(one), session.camera, Options()).handeye
+            found = solve_moving(session.boards, track_of(one), session.camera, HandEyeOptions()).handeye
             xi = se3.log(session.H_PC @ se3.inv(found.H_PC))
             errors.append(np.sum(xi[:3] ** 2))
             if one is stream:

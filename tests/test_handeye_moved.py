@@ -7,10 +7,11 @@ import pytest
 
 from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
-from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import HandEye
 from lpcal.records.observations import BoardPoses
 
 H_PC = se3.transform(se3.rotation(np.array([0.3, -0.2, 0.9])), np.array([0.03, -0.05, 0.08]))
@@ -66,7 +67,7 @@ def test_a_session_in_one_piece_is_left_alone(shared: float) -> None:
 def test_handeye_refuses_a_step() -> None:
     H_OP, H_CB = session(7)
     with pytest.raises(DisagreementError, match=r"the board moved between v14\.png and v15\.png"):
-        solve_paired(BoardPoses(tuple(NAMES[:30]), None, step_of(TURN, H_CB)), H_OP, None, Options())
+        solve_paired(BoardPoses(tuple(NAMES[:30]), None, step_of(TURN, H_CB)), H_OP, None, HandEyeOptions())
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -98,7 +99,7 @@ def test_a_few_lost_poses_lend_no_axis(lost: int) -> None:
     H_OP = H_OP.copy()
     H_OP[4 : 4 + lost] = np.eye(4)
     with pytest.raises(DegenerateError, match="about one axis only, about its z"):
-        solve_paired(BoardPoses(tuple(NAMES[:24]), None, H_CB), H_OP, None, Options())
+        solve_paired(BoardPoses(tuple(NAMES[:24]), None, H_CB), H_OP, None, HandEyeOptions())
 
 
 @pytest.mark.parametrize("scale", [1.015, 0.98, 1.03])
@@ -107,13 +108,13 @@ def test_a_board_of_another_size_than_stated_is_solved_for_and_said(scale: float
     small = H_CB.copy()
     small[:, :3, 3] /= scale
     boards = BoardPoses(tuple(NAMES[:30]), None, small)
-    found = solve_paired(boards, H_OP, None, Options()).handeye
+    found = solve_paired(boards, H_OP, None, HandEyeOptions()).handeye
     error = se3.log(found.H_PC @ se3.inv(H_PC))
     nees = error @ np.linalg.solve(found.H_PC_covariance, error)
     assert nees < 16.8
-    assert abs(found.evidence["board_size_by_mocap"] - scale) < 4 * found.evidence["board_size_by_mocap_std"]
+    assert abs(found.evidence.board_size_by_mocap - scale) < 4 * found.evidence.board_size_by_mocap_std
     assert any("mocap measures the board" in warning and "H_PC is in the mocap's metres" in warning for warning in found.warnings)
-    sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, Options()).handeye
+    sound = solve_paired(BoardPoses(tuple(NAMES[:30]), None, H_CB), H_OP, None, HandEyeOptions()).handeye
     assert not any("mocap measures the board" in warning for warning in sound.warnings)
 
 
@@ -123,3 +124,7 @@ def test_origin_sigmas_are_those_of_the_origin() -> None:
     A = rng.normal(size=(6, 6)) * 1e-3
     drawn = se3.exp(rng.multivariate_normal(np.zeros(6), A @ A.T, 20000)) @ H
     np.testing.assert_allclose(se3.origin_sigmas(H, A @ A.T), drawn[:, :3, 3].std(axis=0), rtol=0.03)
+    found = HandEye(H, A @ A.T, np.eye(4), np.eye(6), None, None, ())
+    np.testing.assert_allclose(found.position_std_m, drawn[:, :3, 3].std(axis=0), rtol=0.03)
+    turns = np.array([se3.rotation_vector(one[:3, :3] @ H[:3, :3].T) for one in drawn[:4000]])
+    np.testing.assert_allclose(found.rotation_std_rad, turns.std(axis=0), rtol=0.06)

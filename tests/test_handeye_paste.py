@@ -11,7 +11,7 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from handeye_scene import static_session
-from lpcal.chain.h_pc_handeye.solve import Options, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.formats.pasted_transforms import both_ways, matrix_lines, write_easy_handeye
 from lpcal.geometry import se3
 
@@ -62,11 +62,11 @@ def test_easy_handeye(tmp_path, H):
 
 def test_left_out_error_is_that_of_a_solve_without_the_view():
     session = static_session(np.random.default_rng(0), 14)
-    found = solve_paired(session.boards, session.H_OP, session.camera, Options()).handeye
+    found = solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions()).handeye
     apart = [view.held_out_m for view in found.views]
     for k in (0, 5, 9):
         rest = np.delete(np.arange(14), k)
-        without = solve_paired(session.boards.of(rest), session.H_OP[rest], session.camera, Options()).handeye
+        without = solve_paired(session.boards.of(rest), session.H_OP[rest], session.camera, HandEyeOptions()).handeye
         H_OB = session.H_OP[k] @ without.H_PC @ session.boards.H_CB[k]
         assert apart[k] == pytest.approx(np.linalg.norm(H_OB[:3, 3] - without.H_OB[:3, 3]), abs=1.5e-4)
     inside = np.sqrt(np.mean([view.residual_m**2 for view in found.views]))

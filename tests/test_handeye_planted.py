@@ -17,11 +17,11 @@ from handeye_scene import TYPICAL, Session, moving_session, static_session, stop
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.chain.h_pc_handeye.ends import with_turned
 from lpcal.formats.camera_yaml import write_camera
-from lpcal.formats.documents import Provenance
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
 from lpcal.records.calibration import CameraSolution
+from lpcal.records.provenance import Provenance
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))

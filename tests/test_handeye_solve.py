@@ -11,7 +11,7 @@ from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, rob
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.advice import _turned, advise
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.records.calibration import Camera
@@ -23,11 +23,11 @@ def _nees(H_true, H, covariance):
 
 
 def _static(session, **options):
-    return solve_paired(session.boards, session.H_OP, session.camera, Options(**options)).handeye
+    return solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions(**options)).handeye
 
 
 def _moving(session, **options):
-    return solve_moving(session.boards, track_of(session.stream), session.camera, Options(**options)).handeye
+    return solve_moving(session.boards, track_of(session.stream), session.camera, HandEyeOptions(**options)).handeye
 
 
 @pytest.mark.slow
@@ -60,7 +60,7 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
         session = static_session(np.random.default_rng(seed), 30)
         found = _static(with_square_stated(session, 1 / (1 + off)))
         nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
-        size, std = (found.evidence[key] for key in ("board_size_by_mocap", "board_size_by_mocap_std"))
+        size, std = found.evidence.board_size_by_mocap, found.evidence.board_size_by_mocap_std
         assert abs(size - 1 - off) < 5 * std
         assert 2e-4 < std < 3e-3
         said = any("mocap measures the board" in line for line in found.warnings)
@@ -81,7 +81,7 @@ def test_the_covariance_holds_whatever_the_square_is_stated(off):
 def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
     session = static_session(np.random.default_rng(4), 12, 12.0, Noise(mocap_rad=np.radians(0.5), mocap_m=3e-3))
     found = _static(session)
-    assert 1.8e-3 < found.evidence["board_size_by_mocap_std"] < 8e-3  # no surer than before the data, or little
+    assert 1.8e-3 < found.evidence.board_size_by_mocap_std < 8e-3  # no surer than before the data, or little
     depth_P = found.H_PC[:3, 2]
     sigma = np.sqrt(depth_P @ se3.origin_covariance(found.H_PC, found.H_PC_covariance) @ depth_P)
     assert sigma > 0.5e-3
@@ -130,7 +130,7 @@ def test_drifting_noise_does_not_make_it_sure_of_itself():
 def test_camera_error_is_refined_away():
     session = static_session(np.random.default_rng(7), 40, 30.0)
     found = _static(session)
-    off = np.abs(found.evidence["camera_as_refined_here"][:2] - [712.4, 713.1]).max()
+    off = np.abs(found.evidence.camera_as_refined_here[:2] - [712.4, 713.1]).max()
     wrong = replace(
         session.camera, K=session.camera.K * [[1.002, 1, 1], [1, 1.002, 1], [1, 1, 1]], covariance=session.camera.covariance * 25
     )
@@ -147,7 +147,7 @@ def test_boards_found_by_their_other_end_are_turned_back():
         H_CB=np.where(wrong[:, None, None], turned.H_CB, session.boards.H_CB),
         corners_px=np.where(wrong[:, None, None], turned.corners_px, session.boards.corners_px),
     )
-    found = solve_paired(boards, session.H_OP, session.camera, Options()).handeye
+    found = solve_paired(boards, session.H_OP, session.camera, HandEyeOptions()).handeye
     assert all(view.used for view in found.views)
     assert np.allclose(found.H_PC, _static(session).H_PC, atol=1e-6)
 
@@ -162,15 +162,15 @@ def test_a_splined_camera():
     rng = np.random.default_rng(11)
     corners = np.array([camera.project(se3.apply(H, points_B)) for H in H_CB]) + rng.normal(0, 0.15, (24, len(points_B), 2))
     boards = replace(session.boards, H_CB=H_CB, corners_px=corners)
-    found = solve_paired(boards, session.H_OP, camera, Options()).handeye
-    assert found.evidence["corner_sigma_px"] == pytest.approx(0.15, rel=0.1)
+    found = solve_paired(boards, session.H_OP, camera, HandEyeOptions()).handeye
+    assert found.evidence.corner_sigma_px == pytest.approx(0.15, rel=0.1)
     assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 22
 
 
 def test_board_poses_alone():
     session = moving_session(np.random.default_rng(3), 100)
     boards = replace(session.boards, corners_px=None, points_B=None)
-    found = solve_moving(boards, track_of(session.stream), None, Options()).handeye
+    found = solve_moving(boards, track_of(session.stream), None, HandEyeOptions()).handeye
     assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 3e-3
     assert abs(found.clock_offset_s - session.offset_s) < 2e-3
 
@@ -191,7 +191,7 @@ def test_a_body_at_rest_shows_no_offset():
     moving = moving_session(rng, 30)
     stream = replace(moving.stream, t_s=t, H_OP=H_OP, error_m=np.full(len(t), np.nan))
     boards = replace(session.boards, t_camera_s=(np.arange(20) + 0.5) * dwell + 0.07)
-    found = solve_moving(boards, track_of(stream), session.camera, Options()).handeye
+    found = solve_moving(boards, track_of(stream), session.camera, HandEyeOptions()).handeye
     assert found.clock_offset_s is None
     assert any("do not show the clock offset" in warning for warning in found.warnings)
     assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 2e-3
@@ -200,7 +200,7 @@ def test_a_body_at_rest_shows_no_offset():
 def test_refusals():
     session = static_session(np.random.default_rng(6), 20)
     with pytest.raises(DegenerateError, match="3 views"):
-        solve_paired(session.boards.of(np.arange(3)), session.H_OP[:3], session.camera, Options())
+        solve_paired(session.boards.of(np.arange(3)), session.H_OP[:3], session.camera, HandEyeOptions())
     about_z = static_session(np.random.default_rng(6), 20, 0.05)
     with pytest.raises(DegenerateError, match="hardly turned"):
         _static(about_z)
@@ -209,14 +209,14 @@ def test_refusals():
     H_OP = session.H_OP[:1] @ turned
     H_CB = se3.inv(H_OP @ session.H_PC) @ session.H_OB
     with pytest.raises(DegenerateError, match="about one axis only, about its z"):
-        solve_paired(replace(one.boards, H_CB=H_CB), H_OP, one.camera, Options())
+        solve_paired(replace(one.boards, H_CB=H_CB), H_OP, one.camera, HandEyeOptions())
     rng = np.random.default_rng(8)
     with pytest.raises(DisagreementError, match="do not move as one rigid thing"):
-        solve_paired(session.boards, session.H_OP[rng.permutation(20)], session.camera, Options())
+        solve_paired(session.boards, session.H_OP[rng.permutation(20)], session.camera, HandEyeOptions())
     moving = moving_session(rng, 30)
     late = replace(moving.boards, t_camera_s=moving.boards.t_camera_s + 3.15e7)
-    found = solve_moving(late, track_of(moving.stream), moving.camera, Options()).handeye
-    as_it_was = solve_moving(moving.boards, track_of(moving.stream), moving.camera, Options()).handeye
+    found = solve_moving(late, track_of(moving.stream), moving.camera, HandEyeOptions()).handeye
+    as_it_was = solve_moving(moving.boards, track_of(moving.stream), moving.camera, HandEyeOptions()).handeye
     assert found.clock_offset_s == pytest.approx(as_it_was.clock_offset_s + 3.15e7, abs=1e-3), "epochs may be a year apart"
     assert np.abs(found.H_PC - as_it_was.H_PC).max() < 1e-4
 
@@ -277,7 +277,7 @@ def test_a_clock_that_runs_fast_is_found(ppm, every_s):
     session = moving_session(np.random.default_rng(1), 80, every_s=every_s)
     t = session.boards.t_camera_s
     drifting = replace(session, boards=replace(session.boards, t_camera_s=t + 1e-6 * ppm * (t - t.mean())))
-    found = solve_moving(drifting.boards, track_of(drifting.stream), session.camera, Options())
+    found = solve_moving(drifting.boards, track_of(drifting.stream), session.camera, HandEyeOptions())
     assert 1e6 * found.handeye.clock_drift == pytest.approx(ppm, abs=15 / every_s)
     assert any("ppm fast" in warning for warning in found.handeye.warnings)
     assert np.abs(found.mocap_times(drifting.boards.t_camera_s) - (t - session.offset_s)).max() < 1.5e-3

@@ -9,11 +9,11 @@ import pytest
 
 from handeye_scene import moving_session
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving
 
 
 def warnings(session, t_camera_s: np.ndarray) -> str:
-    found = solve_moving(replace(session.boards, t_camera_s=t_camera_s), track_of(session.stream), session.camera, Options())
+    found = solve_moving(replace(session.boards, t_camera_s=t_camera_s), track_of(session.stream), session.camera, HandEyeOptions())
     return "\n".join(found.handeye.warnings)
 
 

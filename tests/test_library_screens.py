@@ -59,11 +59,15 @@ def records() -> dict[str, Shown]:
         "Simulation": session,
         "BoardTruth": truth,
         "RawCapture": capture,
+        "HandEyeCheck": lpcal.check_handeye(truth.H_OP, truth.H_CB),
+        "Study": lpcal.study("ambient", at=[20]),
         "SphereView": SphereView("ball", "chrome", 0.02, np.array([[1.0, 2], [3, 2], [2, 1], [2, 3]]), 0.1, {"L0": np.ones(2)}),
     }
 
 
 assert lpcal.simulate_rig
+assert lpcal.check_handeye
+assert lpcal.study
 assert lpcal.mesh  # loaded, so that their records are registered
 KINDS = [kind.__name__ for kind in screens.screen_of.registry if kind is not object]
 

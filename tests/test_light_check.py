@@ -11,6 +11,7 @@ import lpcal as library
 from lit_scene import K, Scene, calibration, draw, truth
 from lpcal.api.light_check import contradicting, deviations
 from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import RawCapture
 from lpcal.records.surface import Component, Surface
 
@@ -49,7 +50,11 @@ def test_a_lamp_of_another_power_shows_on_the_true_surface(k: int, factor: float
 
 def test_what_is_spoken_for_already_is_not_said_again() -> None:
     radiance = to_radiance(with_light(draw(Scene(), calibration()), 1, 1.3), Sensor())
-    for figures in ({"gloss": {"clear": True}}, {"images_exchanged": {"L1": "L2"}}, {"intensities_found": {"L1": 1.2}}):
+    for figures in (
+        SurfaceFigures(gloss=GlossFound(0.1, 0.2, 0.9)),
+        SurfaceFigures(images_exchanged={"L1": "L2"}),
+        SurfaceFigures(intensities_found={"L1": 1.2}),
+    ):
         assert contradicting(replace(true_surface(Scene()), figures=figures), radiance, calibration()) == ()
 
 

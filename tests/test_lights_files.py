@@ -11,10 +11,10 @@ import pytest
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
-from lpcal.formats.documents import Provenance
 from lpcal.formats.lights_yaml import read_lights, write_lights
 from lpcal.formats.wings_yaml import read_wings, write_wings
 from lpcal.records.calibration import SphereFinding, Wing, Wings
+from lpcal.records.provenance import Provenance
 
 
 @pytest.fixture

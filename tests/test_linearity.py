@@ -87,8 +87,8 @@ def test_refine_holds_the_sweep_against_what_is_stated(tmp_path, lpcal):
     (tmp_path / "sweep" / "capture.yaml").write_text(f"exposures: {{{', '.join(stated)}}}\n")
     code, _, err = lpcal("refine", cwd=tmp_path)
     assert code == 0, err
-    said = read_lights(tmp_path / "calib" / "lights.yaml").evidence["exposure_sweep"]
-    assert said["gamma"] == pytest.approx(1.0, abs=0.03)
+    said = read_lights(tmp_path / "calib" / "lights.yaml").evidence.exposure_sweep
+    assert said.gamma == pytest.approx(1.0, abs=0.03)
     panel.write_text(panel.read_text().replace("black_level: 0.8 %", "black_level: 0.8 %, gamma: 2.2"))
     code, _, err = lpcal("refine", cwd=tmp_path)
     assert code == 6

@@ -16,7 +16,6 @@ from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration, write_calibration
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, write_camera
-from lpcal.formats.documents import Provenance
 from lpcal.formats.h_cb_yaml import read_h_cb, write_h_cb
 from lpcal.formats.h_op_yaml import ImagePanelPoses, read_h_op, write_h_op
 from lpcal.formats.handeye_yaml import read_handeye, write_handeye
@@ -25,6 +24,7 @@ from lpcal.formats.wings_yaml import read_wings, write_wings
 from lpcal.geometry import se3
 from lpcal.records.calibration import Calibration, Camera, CameraSolution, HandEye, ViewVerdict, Wing
 from lpcal.records.observations import BoardPoses
+from lpcal.records.provenance import Provenance
 
 K = np.array([[712.4, 0, 385.1], [0, 713.1, 230.6], [0, 0, 1.0]])
 NAMES = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2")

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from lpcal.formats.calibration_yaml import write_calibration
-from lpcal.formats.documents import Provenance
 from lpcal.records.calibration import Calibration, Light
+from lpcal.records.provenance import Provenance
 
 type Run = Callable[..., tuple[int, str, str]]
 

@@ -17,10 +17,10 @@ import trimesh
 
 from lit_scene import SIZE, Scene, calibration, draw, truth
 from lpcal.formats.calibration_yaml import write_calibration
-from lpcal.formats.documents import Provenance
 from lpcal.formats.surface_files import read_surface
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
+from lpcal.records.provenance import Provenance
 
 FILES = {"surface.npz", "normals_gl.png", "depth.tif", "albedo.png", "mask.png", "mesh.ply", "mesh.glb", "relight.html", "summary.json"}
 PANEL = "lpcal: 1\nlights: {L0: {}, L1: {}, L2: {}, L3: {}, L4: {}, L5: {}}\nobjects: {ball: objects/first}\n"

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lpcal.formats.documents import Provenance, write_document
-from test_report_page import documents, plain
+from lpcal.formats.documents import write_document
+from lpcal.records.provenance import Provenance
+from report_rig import documents, plain
 
 
 @pytest.fixture

@@ -2,199 +2,29 @@
 
 from __future__ import annotations
 
-from html.parser import HTMLParser
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lpcal.geometry import camera as central
 from lpcal.geometry import se3
-from lpcal.report import chain_sections, charts
-from lpcal.report.chain_sections import camera_section, handeye_section
+from lpcal.records.calibration import Lobe
+from lpcal.records.evidence import CameraEvidence, ChosenModel, TriedModel
+from lpcal.report import charts
+from lpcal.report.chain_sections import camera_section, handeye_section, lens_choice
 from lpcal.report.light_sections import lights_section, sphere_disagreement, spheres_section
 from lpcal.report.page import render
 from lpcal.report.pictures import png, shrink
-from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas
+from lpcal.report.rig_report import origin_sigmas
 from lpcal.report.scene import half_angle, rig_scene, room_scene
 from lpcal.report.verdict import GATE_WORDS, GATES, headline, verdicts
 from lpcal.report.wording import fixed, listed, number, sigma_of, with_sigma
-
-K = np.array([[700.0, 0, 320], [0, 701.0, 240], [0, 0, 1]])
-DISTORTION = np.array([-0.2, 0.05, 1e-3, -1e-3])
-VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"}
-
-
-class Reader(HTMLParser):
-    """Whether the tags nest, what is referred to, and the words that a reader sees."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.references: list[str] = []
-        self.words: list[str] = []
-        self.ids: set[str] = set()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        for key, value in attrs:
-            if key in {"src", "href", "srcset", "data", "action", "poster"} and value is not None:
-                self.references.append(value)
-            if key == "id" and value is not None:
-                self.ids.add(value)
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        if not self.open or self.open[-1] not in {"script", "style"}:
-            self.words.append(data)
-
-
-def read(page: str) -> Reader:
-    reader = Reader()
-    reader.feed(page)
-    reader.close()
-    assert reader.open == []
-    return reader
-
-
-def text_of(page: str) -> str:
-    return " ".join(" ".join(read(page).words).split())
-
-
-def provenance() -> dict[str, Any]:
-    return {
-        "inputs": {"stations/a.png": "ab" * 32},
-        "options": {"model": "auto"},
-        "lpcal_version": "0.1.0",
-        "time": "2026-01-02T03:04:05+00:00",
-    }
-
-
-def documents(seed: int = 0) -> dict[str, Any]:
-    """What the stages write for a small rig, after the contract."""
-    rng = np.random.default_rng(seed)
-    x, y = np.meshgrid(np.arange(5) * 0.03, np.arange(4) * 0.03)
-    points_B = np.column_stack([x.ravel(), y.ravel(), 1e-3 * (x.ravel() - 0.06) ** 2 / 0.06**2])
-    H_PC, H_OB = se3.exp(np.array([0.1, 0.2, -0.1, 0.01, 0.02, 0.03])), se3.exp(np.array([0, 0.3, 0, 0.4, 1.0, -0.5]))
-    H_CB = [se3.exp(np.concatenate([rng.normal(0, 0.3, 3), rng.normal([-0.06, -0.05, 0.5], 0.02)])) for _ in range(6)]
-    views, boards, stations = [], [], []
-    for k, pose in enumerate(H_CB):
-        pixels = central.project(se3.apply(pose, points_B), K, DISTORTION) + rng.normal(0, 0.1, (20, 2))
-        lost = k == 5
-        why = "no board found" if lost else None
-        views.append(
-            {"image": f"stations/{k}.png", "used": not lost, "why": why, "corners": 0 if lost else 20, "rms_px": None if lost else 0.1}
-        )
-        boards.append({"image": f"stations/{k}.png", "H_CB": None if lost else pose, "corners_px": None if lost else pixels})
-        stations.append({"image": f"stations/{k}.png", "H_OP": H_OB @ se3.inv(pose) @ se3.inv(H_PC)})
-    lights = [light(k) for k in range(3)]
-    wing = {"position_std_m": 2e-3, "axis_std_deg": 0.4}
-    drawn = [wing | {"name": entry["name"], "H_CL": moved(entry["H_CL"], 0.002), "setting": setting(k)} for k, entry in enumerate(lights)]
-    covariance = np.diag([1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4]) ** 2
-    body = {
-        "camera": {
-            "image_size": [640, 480],
-            "model": "opencv4",
-            "K": K,
-            "distortion": DISTORTION,
-            "rms_px": 0.1,
-            "parameters": ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2"],
-            "covariance": np.diag([0.3, 0.3, 0.2, 0.2, 1e-3, 1e-3, 1e-4, 1e-4]) ** 2,
-            "views": views,
-        },
-        "H_CB": {"board": {"corners": [5, 4], "points_m": points_B}, "views": boards},
-        "H_OP": {"views": stations},
-        "handeye": {
-            "H_PC": H_PC,
-            "H_PC_covariance": covariance,
-            "H_OB": H_OB,
-            "H_OB_covariance": covariance,
-            "clock_offset_s": 0.0321,
-            "clock_offset_std_s": 2e-4,
-            "views": [view | {"residual_px": view["rms_px"], "residual_m": 2e-4, "residual_deg": 0.05} for view in views],
-        },
-        "wings": {"lights": drawn, "H_CD": np.eye(4), "d_object_m": 0.35},
-        "lights": {"focus_m": [0, 0, 0.35], "d_object_m": 0.35, "H_CD": np.eye(4), "lights": lights, "spheres": [chrome(lights)]},
-        "calibration": {"name": "small", "camera": None, "lights": lights, "focus_m": [0, 0, 0.35], "d_object_m": 0.35},
-    }
-    return {kind: plain({"lpcal": 1, "kind": kind, **entry, "provenance": provenance()}) for kind, entry in body.items()}
-
-
-def plain(value: Any) -> Any:
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, dict):
-        return {key: plain(entry) for key, entry in value.items()}
-    return [plain(entry) for entry in value] if isinstance(value, list) else value
-
-
-def setting(k: int) -> dict[str, float]:
-    return {"azimuth_deg": 120.0 * k, "joint_angle_deg": 30.0, "d1_m": 0.1, "d2_m": 0.09}
-
-
-def light(k: int) -> dict[str, Any]:
-    azimuth = 2 * np.pi * k / 3
-    place = np.array([0.18 * np.cos(azimuth), 0.18 * np.sin(azimuth), 0.04])
-    axis = np.array([0, 0, 0.35]) - place
-    axis /= np.linalg.norm(axis)
-    side = np.cross([0, 1, 0], axis) / np.linalg.norm(np.cross([0, 1, 0], axis))
-    H_CL = np.eye(4)
-    H_CL[:3] = np.column_stack([side, np.cross(axis, side), axis, place])
-    return {
-        "name": f"L{k}",
-        "H_CL": H_CL,
-        "source_m": place - 0.02 * axis,
-        "axis": axis,
-        "direction": -axis,
-        "intensity": 1.0 + 0.1 * k,
-        "lobe": {"kind": "cosine", "exponent": 4.0},
-        "position_std_m": 8e-4,
-        "direction_std_deg": 0.08,
-        "intensity_std": 0.01,
-    }
-
-
-def moved(H: Any, by: float) -> Any:
-    found = np.array(H, dtype=float)
-    found[0, 3] += by
-    return found
-
-
-def chrome(lights: list[dict[str, Any]]) -> dict[str, Any]:
-    """A chrome sphere and the exact directions of the mirrored rays: from a point of the sphere to where the ray goes."""
-    centre, radius = np.array([0.01, -0.02, 0.34]), 0.025
-    found = {"name": "chrome_0", "kind": "chrome", "centre_m": centre, "radius_m": radius, "used": True, "why": None, "residual": 0.02}
-    directions = {}
-    for entry in lights:
-        source = np.array(entry["source_m"])
-        axis = (source - centre) / np.linalg.norm(source - centre) - centre / np.linalg.norm(centre)
-        normal = axis / np.linalg.norm(axis)
-        for _ in range(60):  # the normal at which view and light make the same angle
-            point = centre + radius * normal
-            to_light, to_eye = source - point, -point
-            half = to_light / np.linalg.norm(to_light) + to_eye / np.linalg.norm(to_eye)
-            normal = half / np.linalg.norm(half)
-        directions[entry["name"]] = to_light / np.linalg.norm(to_light)
-    return found | {"directions": directions}
-
-
-def surface(scale_std: float = 0.005) -> SurfaceReport:
-    pixels = np.full((4, 5, 4), 200, np.uint8)
-    summary = {
-        "units": "metres",
-        "components": [{"label": 1, "pixels": 1234, "mean_depth_m": 0.35, "scale_std": scale_std}],
-        "counts_and_residuals": {"pixels": 1234, "residual": 0.0123},
-        "times_s": {"solving": 4.5},
-        "notes": ["left out: ref.jpg"],
-    }
-    return SurfaceReport("bust", summary, {"shape": png(pixels)}, "../surfaces/bust/relight.html")
+from report_rig import documents, read, report_of, surface, text_of
 
 
 def test_whole_page_stands_alone_and_says_what_was_found() -> None:
-    page = render(RigReport("lightpanel-6", documents(), (surface(),)))
+    page = render(report_of(documents(), surface(), name="lightpanel-6"))
     found = read(page)
     outside = [ref for ref in found.references if not ref.startswith(("data:", "#", "../surfaces/"))]
     assert outside == []
@@ -220,19 +50,27 @@ def test_whole_page_stands_alone_and_says_what_was_found() -> None:
 @pytest.mark.parametrize("kind", ["camera", "handeye", "wings", "lights", "calibration", "H_CB", "H_OP"])
 def test_a_stage_alone_or_absent_makes_a_page(kind: str) -> None:
     whole = documents()
-    assert "Not there" in text_of(render(RigReport("r", {kind: whole[kind]})))
+    assert "Not there" in text_of(render(report_of({kind: whole[kind]})))
     rest = {other: document for other, document in whole.items() if other != kind}
-    assert f"{kind}.yaml" in text_of(render(RigReport("r", rest)))
+    assert f"{kind}.yaml" in text_of(render(report_of(rest)))
 
 
-def test_keys_beyond_the_contract_are_not_needed() -> None:
+@pytest.mark.parametrize("points_m", [[], None])
+def test_a_rig_in_which_no_board_was_seen_has_a_page(points_m: Any) -> None:
     whole = documents()
+    whole["H_CB"] |= {"board": {"corners": [5, 4], "points_m": points_m}, "views": []}
+    assert "5 of 6 views" in text_of(render(report_of(whole)))
+
+
+def test_what_a_rig_does_not_know_is_not_needed() -> None:
+    whole = documents()
+    light = {"name": "L0", "direction": [0.0, 0.0, -1.0], "intensity": [1.0, 0.9, 1.1], "source_m": None, "lobe": None}
     bare = {
         "camera": {key: whole["camera"][key] for key in ("image_size", "model", "K", "distortion", "rms_px", "views")},
-        "handeye": {"H_PC": whole["handeye"]["H_PC"], "clock_offset_s": None, "views": []},
-        "lights": {"lights": [{"name": "L0", "direction": [0.0, 0.0, -1.0], "intensity": [1.0, 0.9, 1.1], "source_m": None, "lobe": None}]},
+        "handeye": whole["handeye"] | {"clock_offset_s": None, "clock_offset_std_s": None, "views": []},
+        "lights": {"focus_m": [0.0, 0.0, 0.35], "lights": [light], "spheres": []},
     }
-    said = text_of(render(RigReport("dome", bare)))
+    said = text_of(render(report_of(bare, name="dome")))
     assert "distant" in said
     assert "1.000 / 0.900 / 1.100" in said
     assert "no clock offset" in said
@@ -242,7 +80,7 @@ def test_names_cannot_break_the_page() -> None:
     whole = documents()
     whole["lights"]["lights"][0]["name"] = "</script><b>L0"
     whole["camera"]["views"][5]["why"] = "<img src=x>"
-    page = render(RigReport("<script>alert(1)</script>", whole))
+    page = render(report_of(whole, name="<script>alert(1)</script>"))
     assert "<script>alert" not in page
     assert "<img src=x>" not in page
     assert "</script><b>" not in page
@@ -253,7 +91,7 @@ def test_names_cannot_break_the_page() -> None:
 def test_the_gate_follows_the_sigma(sigma_deg: float, word: str) -> None:
     whole = documents()
     whole["handeye"]["H_PC_covariance"] = (np.diag([np.radians(sigma_deg)] * 3 + [1e-5] * 3) ** 2).tolist()
-    report = RigReport("r", whole)
+    report = report_of(whole)
     line = next(line for line in verdicts(report) if line.stage == "handeye")
     assert line.tone == word
     assert headline(verdicts(report))[0] == word
@@ -262,13 +100,12 @@ def test_the_gate_follows_the_sigma(sigma_deg: float, word: str) -> None:
 def test_a_warning_lowers_good_to_fair_and_is_shown() -> None:
     whole = documents()
     whole["handeye"]["warnings"] = ["turn the panel about its axis"]
-    line = verdicts(RigReport("r", whole))[1]
+    line = verdicts(report_of(whole))[1]
     assert (line.tone, line.notes) == ("fair", ("turn the panel about its axis",))
 
 
 def test_a_surface_without_a_camera_is_not_judged_by_its_distance() -> None:
-    orthographic = SurfaceReport("flat", surface().summary | {"units": "pixels"})
-    lines = verdicts(RigReport("r", {}, (orthographic, surface(0.05))))
+    lines = verdicts(report_of({}, surface(units="pixels"), surface(0.05)))
     assert [line.tone for line in lines[-2:]] == ["none", "poor"]
 
 
@@ -280,12 +117,12 @@ def distant_lights(**stated: Any) -> dict[str, Any]:
 
 
 def test_a_rig_without_a_camera_shows_no_camera_and_no_frame_at_nought() -> None:
-    report = RigReport("dome", {"calibration": distant_lights()}, (SurfaceReport("flat", surface().summary | {"units": "pixels"}),))
+    report = report_of({"calibration": distant_lights()}, surface(units="pixels"), name="dome")
     scene = rig_scene(report)
     assert scene is not None
-    assert {item["tone"] for item in scene["items"]} == {"light"}
-    reach = np.max([np.linalg.norm(np.array(item["p"]), axis=1).max() for item in scene["items"]])
-    assert scene["radius"] > 0.4 * reach  # all of it is in sight
+    assert {item.tone for item in scene.items} == {"light"}
+    reach = np.max([np.linalg.norm(item.points, axis=1).max() for item in scene.items])
+    assert scene.radius > 0.4 * reach  # all of it is in sight
     said = text_of(render(report))
     assert "intensity not measured" in said
     assert "1.000" not in said
@@ -302,24 +139,24 @@ def test_an_intensity_is_shown_where_spheres_or_an_import_say_it(kind: str) -> N
     whole["lights"]["spheres"][0]["kind"] = kind
     for entry in whole["lights"]["lights"]:
         entry["intensity"] = 1.0
-    assert ("not measured" in text_of(render(RigReport("r", whole)))) == (kind == "chrome")
+    assert ("not measured" in text_of(render(report_of(whole)))) == (kind == "chrome")
     stated = {"calibration": distant_lights(intensity=[0.9, 0.8, 1.2])}
-    assert "0.900 / 0.800 / 1.200" in text_of(render(RigReport("dome", stated)))
+    assert "0.900 / 0.800 / 1.200" in text_of(render(report_of(stated, name="dome")))
 
 
 def test_a_camera_that_only_the_calibration_has_is_shown() -> None:
     camera = {key: documents()["camera"][key] for key in ("image_size", "model", "K", "distortion")}
-    report = RigReport("near", {"calibration": distant_lights() | {"camera": camera}})
+    report = report_of({"calibration": distant_lights() | {"camera": camera}})
     assert verdicts(report)[0].tone == "none"
-    assert "camera" in {item["tone"] for item in rig_scene(report)["items"]}
+    assert "camera" in {item.tone for item in rig_scene(report).items}
 
 
 def test_gates_are_said_as_they_are_applied(monkeypatch: pytest.MonkeyPatch) -> None:
     assert set(GATES) == set(GATE_WORDS)
-    before = verdicts(RigReport("r", documents()))
+    before = verdicts(report_of(documents()))
     assert before[0].gate == "rms \u2264 0.3 px, focal length \u2264 0.2 %"
     monkeypatch.setitem(GATES, "handeye_mm", (0.05, 2.5))
-    line = next(line for line in verdicts(RigReport("r", documents())) if line.stage == "handeye")
+    line = next(line for line in verdicts(report_of(documents())) if line.stage == "handeye")
     assert "hand-eye \u2264 0.05 mm" in line.gate
     assert line.tone == "fair"
 
@@ -327,7 +164,7 @@ def test_gates_are_said_as_they_are_applied(monkeypatch: pytest.MonkeyPatch) -> 
 def test_a_solver_other_than_mrcal_is_no_doubt_of_the_camera() -> None:
     whole = documents()
     whole["camera"] |= {"solver": "opencv", "evidence": {"solver_note": "mrcal is not installed: solved without it"}, "warnings": []}
-    report = RigReport("r", whole)
+    report = report_of(whole)
     assert verdicts(report)[0].tone == "good"
     assert "mrcal is not installed" in text_of(render(report))
 
@@ -339,10 +176,10 @@ def test_no_sigma_reads_as_nought(sigma: float) -> None:
         entry |= {"direction_std_deg": sigma, "position_std_m": 1e-3 * sigma, "intensity_std": 0.01 * sigma}
     whole["handeye"]["H_PC_covariance"] = (np.diag([np.radians(sigma)] * 3 + [1e-3 * sigma] * 3) ** 2).tolist()
     whole["handeye"]["H_PC"] = np.eye(4).tolist()
-    report = RigReport("r", whole)
+    report = report_of(whole)
     section = lights_section(report)
     assert section is not None
-    shown = [row[key] for row in section["rows"] for key in ("position_std", "direction_std", "intensity_std")]
+    shown = [getattr(row, key) for row in section.rows for key in ("position_std", "direction_std", "intensity_std")]
     for text in shown:
         assert float(text.replace("\u2212", "-")) == pytest.approx(sigma, rel=0.06)
     assert f"H_PC within {sigma_of(sigma, 3, '°')} and {sigma_of(sigma, 2, 'mm')}" in verdicts(report)[1].found
@@ -360,25 +197,27 @@ def test_origin_sigmas_are_those_of_the_origin() -> None:
 
 
 def test_a_sphere_that_agrees_and_one_that_does_not() -> None:
-    entry = light(0)
-    sphere = chrome([entry])
-    assert sphere_disagreement(sphere, entry) == pytest.approx(0, abs=1e-6)
+    found = report_of(documents()).lights
+    sphere, lamp = found.spheres[0], found.lights[0]
+    assert sphere_disagreement(sphere, lamp) == pytest.approx(0, abs=1e-6)
     turn = se3.rotation(np.radians(0.3) * np.array([0.0, 1.0, 0.0]))
-    turned = sphere | {"directions": {"L0": turn @ sphere["directions"]["L0"]}}
-    assert sphere_disagreement(turned, entry) == pytest.approx(0.3, abs=0.03)
-    section = spheres_section(RigReport("r", documents()))
+    turned = replace(sphere, directions_C={"L0": turn @ sphere.directions_C["L0"]})
+    assert sphere_disagreement(turned, lamp) == pytest.approx(0.3, abs=0.03)
+    section = spheres_section(report_of(documents()))
     assert section is not None
-    assert section["largest"] == "0.00°"
+    assert section.largest == "0.00°"
 
 
 @pytest.mark.parametrize(("kind", "spots", "used"), [("chrome", {"L0": [300.0, 200.0]}, True), ("matte", {}, True), ("chrome", {}, False)])
 def test_a_sphere_is_drawn_where_it_was_found(kind: str, spots: dict[str, list[float]], used: bool) -> None:
     around = np.radians(np.arange(0, 360, 8))
     outline = np.stack([320 + 60 * np.cos(around), 240 + 60 * np.sin(around)], axis=1).tolist()
-    entry = {"name": "ball", "kind": kind, "used": used, "image_size": [640, 480], "outline_px": outline, "highlights_px": spots}
-    section = spheres_section(RigReport("r", {"lights": {"lights": [light(0)], "spheres": [entry]}}))
+    whole = documents()
+    drawn = {"name": "ball", "kind": kind, "used": used, "image_size": [640, 480], "outline_px": outline, "highlights_px": spots}
+    whole["lights"]["spheres"] = [whole["lights"]["spheres"][0] | drawn]
+    section = spheres_section(report_of(whole))
     assert section is not None
-    (svg,) = section["outlines"]
+    (svg,) = section.outlines
     drawn = np.array([pair.split() for pair in svg.split(' d="M')[-1].split("Z")[0].split("L")], float)
     np.testing.assert_allclose((drawn - 2) * 640 / (charts.WIDTH - 4), outline, atol=0.1)
     assert svg.count("<circle") == len(spots)
@@ -387,9 +226,9 @@ def test_a_sphere_is_drawn_where_it_was_found(kind: str, spots: dict[str, list[f
 
 
 def test_spheres_of_which_nothing_is_kept_are_not_drawn() -> None:
-    section = spheres_section(RigReport("r", documents()))
+    section = spheres_section(report_of(documents()))
     assert section is not None
-    assert section["outlines"] == []
+    assert section.outlines == []
 
 
 def test_what_is_left_over_by_place_finds_a_planted_shift() -> None:
@@ -397,47 +236,48 @@ def test_what_is_left_over_by_place_finds_a_planted_shift() -> None:
     for view in whole["H_CB"]["views"]:
         if view["corners_px"]:
             view["corners_px"] = np.add(view["corners_px"], [0.7, 0.0]).tolist()
-    section = camera_section(RigReport("r", whole))
+    section = camera_section(report_of(whole))
     assert section is not None
-    assert "the longest is 0.7" in section["coverage"]["note"]
-    whole["camera"]["model"] = "splined"
-    splined = camera_section(RigReport("r", whole))
+    assert "the longest is 0.7" in section.coverage.note
+    whole["camera"] |= {"model": "splined", "lensmodel": "LENSMODEL_SPLINED", "spline": [700.0, 701.0, 320.0, 240.0]}
+    splined = camera_section(report_of(whole))
     assert splined is not None
-    assert "arrows" not in splined["coverage"]["note"]
+    assert "arrows" not in splined.coverage.note
 
 
 def test_the_way_from_the_drawing() -> None:
-    section = lights_section(RigReport("r", documents()))
+    section = lights_section(report_of(documents()))
     assert section is not None
-    assert [row["moved"] for row in section["rows"]] == ["2.0"] * 3
-    assert [row["turned"] for row in section["rows"]] == ["0.00"] * 3
+    assert [row.moved for row in section.rows] == ["2.0"] * 3
+    assert [row.turned for row in section.rows] == ["0.00"] * 3
 
 
 def test_views_left_out_stand_with_their_reason() -> None:
-    section = handeye_section(RigReport("r", documents()))
+    section = handeye_section(report_of(documents()))
     assert section is not None
-    assert section["left_out"] == [("stations/5.png", "no board found")]
+    assert section.left_out == [("stations/5.png", "no board found")]
 
 
 def test_scenes_hold_what_they_should() -> None:
-    report = RigReport("r", documents())
+    report = report_of(documents())
     rig, room = rig_scene(report), room_scene(report)
     assert rig is not None
     assert room is not None
-    labels = [item["text"] for item in rig["items"] if item["kind"] == "label"]
+    labels = [item.text for item in rig.items if item.kind == "label"]
     assert {"L0", "L1", "L2", "C", "D", "P"} <= set(labels)
-    arrows = [item for item in rig["items"] if item["kind"] == "arrow"]
-    np.testing.assert_allclose([arrow["by"] for arrow in arrows], [[-0.002, 0, 0]] * 3, atol=1e-5)
-    assert np.isfinite([value for item in rig["items"] + room["items"] for point in item.get("p", []) for value in point]).all()
-    joints = [item["p"][0] for item in rig["items"] if item["kind"] == "point" and item["layer"] == "wings"]
+    arrows = [item for item in rig.items if item.kind == "arrow"]
+    np.testing.assert_allclose([arrow.by for arrow in arrows], [[-0.002, 0, 0]] * 3, atol=1e-5)
+    assert np.isfinite([value for item in rig.items + room.items for point in item.points for value in point]).all()
+    joints = [item.points[0] for item in rig.items if item.kind == "point" and item.layer == "wings"]
     np.testing.assert_allclose(np.linalg.norm(joints, axis=1), 0.1, atol=1e-4)
-    assert rig_scene(RigReport("r", {})) is None
+    assert rig_scene(report_of({})) is None
 
 
 def test_half_angles() -> None:
-    assert np.cos(half_angle({"kind": "cosine", "exponent": 3.0})) ** 3 == pytest.approx(0.5)
-    assert half_angle({"kind": "table", "angle_deg": [0, 10, 20, 30], "value": [1, 0.9, 0.4, 0.1]}) == pytest.approx(np.radians(20))
-    assert half_angle({"kind": "isotropic"}) == pytest.approx(np.radians(60))
+    assert np.cos(half_angle(Lobe("cosine", exponent=3.0))) ** 3 == pytest.approx(0.5, abs=1e-3)
+    table = Lobe("table", angle_rad=np.radians([0, 10, 20, 30]), value=np.array([1, 0.9, 0.4, 0.1]))
+    assert half_angle(table) == pytest.approx(np.radians(20))
+    assert half_angle(Lobe()) == pytest.approx(np.radians(60))
 
 
 @pytest.mark.parametrize(
@@ -483,13 +323,13 @@ def test_shrinking_averages_inside_the_mask_only() -> None:
 
 
 def test_the_lens_table_shows_what_was_chosen_among_what_was_tried() -> None:
-    tried = [("opencv4", "curved", 0.21), ("opencv4", "flat", 0.34), ("opencv8", "curved", 0.29), ("splined", "curved", None)]
-    scores = [{"model": model, "board": board, "cross_validation_px": px} for model, board, px in tried]
-    evidence = {"cross_validation": scores, "chosen": {"model": "opencv4", "board": "curved", "why": "nearest"}}
-    found = chain_sections._choice({"evidence": evidence})
+    tried = [("opencv4", "curved", 0.21), ("opencv4", "flat", 0.34), ("opencv8", "curved", 0.29), ("splined", "curved", np.nan)]
+    scores = [TriedModel(model=model, board=board, cross_validation_px=px, expected_error_px=px) for model, board, px in tried]
+    taken = ChosenModel(model="opencv4", board="curved", why="nearest")
+    found = lens_choice(CameraEvidence(cross_validation=tuple(scores), chosen=taken))
     assert found is not None
-    assert found["boards"] == ["curved", "flat"]
-    rows = dict(found["rows"])
+    assert found.boards == ["curved", "flat"]
+    rows = dict(found.rows)
     assert [chosen for _, chosen in rows["opencv4"]] == [True, False]
     assert rows["opencv4"][0][0] == "0.210"
     assert not any(chosen for model in ("opencv8", "splined") for _, chosen in rows[model])

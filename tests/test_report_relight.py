@@ -19,8 +19,7 @@ from lpcal.records.surface import Surface
 from lpcal.report import relight_pack
 from lpcal.report.page import render as render_report
 from lpcal.report.relight_page import render
-from lpcal.report.rig_report import RigReport
-from test_report_page import documents, read, surface
+from report_rig import documents, read, report_of, surface
 
 SIZE = (150, 200)
 K = np.array([[260.0, 0, 101], [0, 261.0, 73], [0, 0, 1]])
@@ -284,7 +283,7 @@ def test_the_browser_turns_an_orthographic_surface(browse: Any) -> None:
 
 
 def test_the_browser_draws_the_report(browse: Any) -> None:
-    found = browse(render_report(RigReport("r", documents(), (surface(),))))
+    found = browse(render_report(report_of(documents(), surface())))
     assert found["said"] == []
     assert len(found["canvases"]) == 2
     for canvas in found["canvases"]:

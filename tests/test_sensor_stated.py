@@ -15,9 +15,9 @@ from lpcal.api.sensor import sensor_in_use
 from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration, write_calibration
-from lpcal.formats.documents import Provenance
 from lpcal.formats.light_tables import C_FROM_UP
 from lpcal.formats.surface_files import read_surface
+from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import FlatField, StatedSensor
 
 RECIPE = Recipe(lights=5, gamma="srgb", size=56)  # five lights cannot tell a curve: what is stated is all there is

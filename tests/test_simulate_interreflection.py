@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from lpcal.simulate import interreflection
-from lpcal.simulate.interreflection import Thrown, gather, thrown
+from lpcal.simulate.interreflection import ThrownLight, gather, thrown
 from lpcal.simulate.leds import LedLight
 from lpcal.simulate.lens import Lens
 from lpcal.simulate.picture import render
-from lpcal.simulate.scene import Points, Scene, direct
+from lpcal.simulate.scene import DrawnScene, Points, direct
 from lpcal.simulate.shapes import SHAPES, Shape, grain, sphere
 
 RADIUS_M = 0.05
@@ -27,10 +27,10 @@ def lamp(position_C: tuple[float, float, float]) -> LedLight:
     return LedLight("L0", np.eye(4), at, np.array([[0.0, 0, 1]]), np.ones(1), 0.0, 1.0, at[0])
 
 
-def before_wall(shape: Shape, light: LedLight, wall: float = 0.0, z_m: float = 0.3) -> Scene:
+def before_wall(shape: Shape, light: LedLight, wall: float = 0.0, z_m: float = 0.3) -> DrawnScene:
     H_CS = np.eye(4)
     H_CS[2, 3] = z_m
-    return Scene(shape, H_CS, np.array([0, 0, z_m + 1.3 * shape.bound_m]), np.array([0, 0, -1.0]), wall, (light,), 0.0)
+    return DrawnScene(shape, H_CS, np.array([0, 0, z_m + 1.3 * shape.bound_m]), np.array([0, 0, -1.0]), wall, (light,), 0.0)
 
 
 def box(low: tuple[float, ...], high: tuple[float, ...]) -> Callable[[np.ndarray], np.ndarray]:
@@ -51,7 +51,7 @@ def corner(albedo: float) -> Shape:
     return Shape("corner", 0.085, (back, below), albedo=albedo, texture=0.0)
 
 
-def on_back(scene: Scene, y_m: np.ndarray, x_m: np.ndarray | float = 0.0) -> Points:
+def on_back(scene: DrawnScene, y_m: np.ndarray, x_m: np.ndarray | float = 0.0) -> Points:
     """Points of the plate that faces the camera, y_m above the edge."""
     x_C = np.stack([np.broadcast_to(x_m, y_m.shape), -y_m, np.full(len(y_m), scene.H_CS[2, 3])], axis=1)
     return Points(x_C, np.tile([0.0, 0, -1], (len(y_m), 1)), np.full(len(y_m), scene.shape.albedo), np.ones(len(y_m), bool))
@@ -154,13 +154,13 @@ def test_means_over_nodes_keep_to_their_side():
     on = np.arange(400) < 200
     nodes = Points(x, np.tile([0.0, 0, -1], (400, 1)), np.full(400, 0.7), on)
     J = np.where(on, 2.0, 5.0)[:, None]
-    found = Thrown(nodes, J, 0.002).at(nodes)
+    found = ThrownLight(nodes, J, 0.002).at(nodes)
     np.testing.assert_allclose(found, J.T, rtol=1e-12)
-    linear = Thrown(nodes, x[:, :1] * np.where(on, 1, -1)[:, None], 0.002).at(nodes)
+    linear = ThrownLight(nodes, x[:, :1] * np.where(on, 1, -1)[:, None], 0.002).at(nodes)
     assert np.abs(linear[0] - x[:, 0] * np.where(on, 1, -1)).max() < 0.006
 
 
-def render_direct(scene: Scene) -> np.ndarray:
+def render_direct(scene: DrawnScene) -> np.ndarray:
     """The images without what the scene throws on itself."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("lpcal.simulate.picture.thrown", lambda scene, nodes: None)

@@ -21,7 +21,7 @@ from lpcal.simulate.leds import ring_directions
 from lpcal.simulate.lens import Lens
 from lpcal.simulate.mirror import mirror_point
 from lpcal.simulate.rays import blocked, cast
-from lpcal.simulate.recipe import Recipe, Sensor
+from lpcal.simulate.recipe import Recipe, SensorRecipe
 from lpcal.simulate.sensor import Response, splat
 from lpcal.simulate.shapes import SHAPES
 from lpcal.simulate.tracking import swapped_fit
@@ -240,7 +240,7 @@ def test_a_spot_keeps_its_place_and_its_flux():
 
 @pytest.mark.parametrize("gamma", [1.0, 2.2])
 def test_the_sensor_stores_linear_light_by_black_white_and_gamma(gamma):
-    response = Response(Sensor(read_noise_e=5), np.ones((200, 200)), black=0.02, white=0.9, gamma=gamma)
+    response = Response(SensorRecipe(read_noise_e=5), np.ones((200, 200)), black=0.02, white=0.9, gamma=gamma)
     rng = np.random.default_rng(0)
     for light in (0.0, 0.1, 0.6):
         stored = response(np.full((200, 200), light), rng) / 255

@@ -14,9 +14,9 @@ import tifffile
 from bilateral_twin import depth_of
 from lit_scene import SIZE, K, Scene, calibration, truth
 from lpcal.formats.calibration_yaml import write_calibration
-from lpcal.formats.documents import Provenance
 from lpcal.formats.surface_files import read_surface
 from lpcal.records.calibration import Camera
+from lpcal.records.provenance import Provenance
 from lpcal.surface.of_normals import surface_of_normals
 
 

@@ -114,7 +114,7 @@ def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones():
 def test_a_card_that_fills_the_image_is_the_object():
     found = reconstruct(to_radiance(draw(card(), calibration()), Sensor()), calibration(), Options())
     assert found.mask.mean() > 0.8
-    assert "one plane" in str(found.figures["mask"])
+    assert "one plane" in str(found.figures.mask)
 
 
 def test_without_a_camera_there_are_normals_and_a_depth_in_pixels():

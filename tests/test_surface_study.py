@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from lpcal.pipeline.study import AMBIENT, PAPER, trial
+from lpcal.api.studies import AMBIENT, PAPER, trial
 
 
 def test_wide_enough_and_not_too_wide():

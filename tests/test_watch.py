@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from board_pictures import Pattern, Studio, exposed, poses
-from lpcal.api.watching import Session, exposure_words
+from lpcal.api.watching import Watched, exposure_words
 from lpcal.errors import InputError, UsageError
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.pipeline.watch import watch
@@ -39,7 +39,7 @@ def float_of(picture: np.ndarray) -> np.ndarray:
 
 
 def test_boards_are_counted_by_where_their_corners_fell(pictures):
-    session = Session(BOARD, ())
+    session = Watched(BOARD, ())
     assert session.following().startswith("the board to the")
     for k, picture in enumerate(pictures):
         seen = session.judge_board(f"{k}.png", float_of(picture))
@@ -49,7 +49,7 @@ def test_boards_are_counted_by_where_their_corners_fell(pictures):
 
 
 def test_what_is_wrong_with_a_board_image_is_said(pictures):
-    session = Session(BOARD, ())
+    session = Watched(BOARD, ())
     for picture in pictures[:4]:
         session.judge_board("good.png", float_of(picture))
     blurred = session.judge_board("blurred.png", cv2.GaussianBlur(float_of(pictures[1]), (0, 0), 4))
@@ -75,7 +75,7 @@ def test_exposures(pixels, words, tone):
 
 
 def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark():
-    session = Session(None, ("L0", "L1", "L2"))
+    session = Watched(None, ("L0", "L1", "L2"))
     lit, dark = np.full((20, 20), 0.6, np.float32), np.full((20, 20), 0.02, np.float32)
     session.judge_light("objects/vase", "L0", lit)
     session.judge_light("objects/vase", "L2", lit)

@@ -71,7 +71,7 @@ def rigs() -> None:
         pulls = error / np.sqrt(np.diag(camera.covariance))
         views = sum(view.corners_px is not None for view in seen.views)
         print(
-            f"{folder.name}: {views} boards, {camera.model}, {solution.evidence['chosen']['board']}; "
+            f"{folder.name}: {views} boards, {camera.model}, {solution.evidence.chosen.board}; "
             f"truth {np.sqrt(np.mean(apart**2)):.4f} px rms, "
             f"{apart.max():.4f} worst; residual {camera.rms_px:.4f} px; largest pull {np.abs(pulls).max():.1f}, "
             f"NEES {error @ np.linalg.solve(camera.covariance, error):.1f} of {len(error)}"
@@ -132,7 +132,7 @@ def bouguet() -> None:
         core = solution.camera.K[CORE]
         apart = np.round((core - PUBLISHED) / SIGMA, 1)
         print(f"bouguet, {model}, corners by {board.corner_fit}: {np.round(core, 2)}, {apart} published sigmas")
-        print(f"  {solution.evidence['chosen']}; {solution.evidence['free_board_check']}")
+        print(f"  {solution.evidence.chosen}; {solution.evidence.free_board_check}")
 
 
 def boards() -> None:

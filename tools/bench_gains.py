@@ -67,7 +67,7 @@ def errors(drawn: Drawn, settled: Settled) -> tuple[float, float, float, float, 
     S = np.stack([light.direction_C for light in drawn.calibration.lights])
     plain = np.full(drawn.normals.shape, np.nan)
     plain[drawn.mask] = lambert.unit(np.linalg.lstsq(S, signal, rcond=None)[0].T)[0]
-    found = "intensities_found" in own.figures
+    found = own.figures.intensities_found is not None
     return error_deg(plain, drawn), *(error_deg(one.normals, drawn) for one in (own, held, true)), found
 
 

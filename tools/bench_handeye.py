@@ -40,7 +40,7 @@ from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import clock
 from lpcal.chain.h_pc_handeye.camera_part import camera_prior
 from lpcal.chain.h_pc_handeye.likelihood import Sigmas, Views, estimate
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.pose_track import poses_at
@@ -59,8 +59,8 @@ SCENARIOS = {
 def solve(session: Session):
     """Lpcal's own."""
     if session.stream is None:
-        return solve_paired(session.boards, session.H_OP, session.camera, Options()).handeye
-    return solve_moving(session.boards, track_of(session.stream), session.camera, Options()).handeye
+        return solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions()).handeye
+    return solve_moving(session.boards, track_of(session.stream), session.camera, HandEyeOptions()).handeye
 
 
 def closed_forms(session: Session) -> list[np.ndarray]:

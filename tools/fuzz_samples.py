@@ -520,9 +520,9 @@ def robot_matrices() -> bytes:
 
 def h_cb_yaml() -> bytes:
     """lpcal's H_CB.yaml of four views."""
-    from lpcal.formats.documents import Provenance
     from lpcal.formats.h_cb_yaml import write_h_cb
     from lpcal.records.observations import BoardPoses
+    from lpcal.records.provenance import Provenance
 
     with tempfile.TemporaryDirectory() as folder:
         corners_px, points_B = np.tile(np.arange(24.0).reshape(12, 2), (4, 1, 1)), np.zeros((12, 3))

@@ -25,7 +25,7 @@ from light_rigs import CACHE, Drawn, capture_rig, in_frame, rig_of, sources
 from lpcal.chain.refine_lights import refine_judged
 from lpcal.errors import LpcalError
 from lpcal.records.calibration import LightsSolution
-from lpcal.simulate.recipe import Recipe, Sensor
+from lpcal.simulate.recipe import Recipe, SensorRecipe
 
 RIGS = 100
 LIGHTS, CHROME, MATTE = (4, 6, 8, 12), (1, 2, 3, 4), (0, 1, 2, 4)
@@ -51,7 +51,7 @@ def plan(seed: int) -> Plan:
     order = np.random.default_rng([seed // 64, 90]).permutation(64)[seed % 64]
     rng = np.random.default_rng([seed, 91])
     width = int(rng.choice([400, 480, 560]))
-    sensor = Sensor(read_noise_e=float(rng.uniform(5, 14)), psf_sigma_px=float(rng.uniform(0.5, 0.8)))
+    sensor = SensorRecipe(read_noise_e=float(rng.uniform(5, 14)), psf_sigma_px=float(rng.uniform(0.5, 0.8)))
     recipe = Recipe(
         seed=10_000 + seed,
         image_size=(width, 5 * width // 8),

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3
@@ -27,8 +27,8 @@ def solved(given: HandEyeInputs, rows: np.ndarray):
     """The hand-eye of some of the views."""
     boards = given.boards.of(rows)
     if given.stream is not None:
-        return solve_moving(boards, track_of(given.stream), given.camera, Options(camera_share=given.camera_share)).handeye
-    return solve_paired(boards, given.H_OP[rows], given.camera, Options(camera_share=given.camera_share)).handeye
+        return solve_moving(boards, track_of(given.stream), given.camera, HandEyeOptions(camera_share=given.camera_share)).handeye
+    return solve_paired(boards, given.H_OP[rows], given.camera, HandEyeOptions(camera_share=given.camera_share)).handeye
 
 
 def main() -> None:

@@ -16,7 +16,7 @@ from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor, ToneClaim
 from lpcal.surface.gains import unmeasured
-from lpcal.surface.response import Curve, Shown, stored_curve
+from lpcal.surface.response import Curve, ShownResponse, stored_curve
 from lpcal.surface.sight import light_vectors, ray_map
 
 PIXELS = 1500
@@ -148,4 +148,4 @@ def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed:
     strength = irradiance * np.array([[one.intensity.mean()] for one in lights])
     B = direction * strength[..., None]
     B = B if room is not None else np.concatenate([B, np.ones((*B.shape[:2], 1))], axis=2)
-    return stored_curve(Shown(light, usable, B, unmeasured(lights)), sensor.gamma, claimed)
+    return stored_curve(ShownResponse(light, usable, B, unmeasured(lights)), sensor.gamma, claimed)

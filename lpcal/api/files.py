@@ -19,20 +19,22 @@ from lpcal.formats import calibration_yaml, camera_yaml, capture, mocap, surface
 from lpcal.formats.bundled import folder, rig_file
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
-from lpcal.formats.documents import Provenance, document_kind
-from lpcal.formats.import_lights import import_lights
+from lpcal.formats.documents import document_kind
+from lpcal.formats.import_lights import import_lights, named_after
 from lpcal.formats.outputs import refuse_place, write_text
 from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.formats.panel_yaml import read_rig as read_panel
 from lpcal.formats.zarr_files import write_surface_zarr
 from lpcal.records.calibration import Calibration, Camera, CameraSolution
 from lpcal.records.observations import MarkerStream, PoseStream, RawCapture
+from lpcal.records.provenance import Provenance
 from lpcal.records.rig import RigFile
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface.mesh import build
 
 type PathLike = str | os.PathLike[str]
+type Vectors = Literal["directions", "positions"]
 
 DEMO = "demo"
 """The name of the bundled rig that comes with images."""
@@ -163,23 +165,29 @@ def read_capture(
     return capture.read_capture(Path(folder), names, name=name, use=use)
 
 
-def read_calibration(path: PathLike) -> Calibration:
+def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: PathLike | None = None) -> Calibration:
     r"""Read a calibration: calibration.yaml, or another system's lights.
 
     Parameters
     ----------
     path : str or path
         calibration.yaml; an .lp file; a folder of DiLiGenT; led_params of LUCES; light.mat of near_ps; a table of directions.
+    vectors : str, optional
+        What the vectors of an .lp file or a table are, "directions" or "positions", where their lengths do not tell.
+    images : str or path, optional
+        A folder of images, one a light, after which another system's lights are named, in natural order.
 
     Returns
     -------
     Calibration
-        The camera, where there is one, and the lights, in C, metres.
+        The camera, where there is one, and the lights, in C, metres; `origin` is the format, and what is to be known stands in `warnings`.
 
     Raises
     ------
     InputError
         Not there, of no known format, cut off, or a value that is lacking or no number; the light is named.
+    DisagreementError
+        Another number of images than of lights, or parts of the file that contradict each other.
 
     Examples
     --------
@@ -192,8 +200,22 @@ def read_calibration(path: PathLike) -> Calibration:
     place = Path(path)
     if place.suffix.lower() in {".yaml", ".yml"}:
         return calibration_yaml.read_calibration(place)
-    found = import_lights(place, None)
-    return replace(found.calibration, warnings=found.notes)
+    found = import_lights(place, vectors)
+    calibration = named_after(found.calibration, Path(images)) if images is not None else found.calibration
+    return replace(calibration, origin=found.format, warnings=(*found.notes, *_lacking(calibration)))
+
+
+def _lacking(calibration: Calibration) -> list[str]:
+    """What another system's calibration leaves open."""
+    said = []
+    if calibration.d_object_m is None and any(light.source_C is not None for light in calibration.lights):
+        said.append("the lights' axes meet nowhere: no working distance; reconstruct finds it from the light, or takes --distance")
+    if calibration.camera is not None and calibration.camera.size_guessed:
+        width, height = calibration.camera.image_size
+        said.append(
+            f"no image beside it: its size is guessed as {width}x{height} from the principal point; reconstruct takes the capture's"
+        )
+    return said
 
 
 def read_camera(path: PathLike) -> Camera:

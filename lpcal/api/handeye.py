@@ -10,7 +10,7 @@ import numpy.typing as npt
 from lpcal.api.staged import staged
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import Options, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DisagreementError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records import given
@@ -85,11 +85,11 @@ def solve_handeye(
     >>> bool(np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 1e-4)
     True
     """
-    boards = _boards(H_CB, t_camera_s)
-    options = Options(clock_offset_s, camera_share, inverted=inverted, carries=carries)
+    boards = boards_of(H_CB, t_camera_s)
+    options = HandEyeOptions(clock_offset_s, camera_share, inverted=inverted, carries=carries)
     lens = camera if boards.corners_px is not None else None
     progress("hand-eye", 0, 1)
-    stream = _stream(H_OP, t_mocap_s)
+    stream = stream_of(H_OP, t_mocap_s)
     if stream is not None:
         if boards.t_camera_s is None:
             raise InputError("none are given", where=NO_CLOCK, needed="the views' times: the body's poses have times")
@@ -97,13 +97,13 @@ def solve_handeye(
     else:
         assert not isinstance(H_OP, PoseStream | MarkerStream)
         poses = given.transforms(H_OP, "H_OP")
-        _refuse_unpaired(poses, boards)
+        refuse_unpaired(poses, boards)
         found = solve_paired(boards, poses, lens, options)
     progress("hand-eye", 1, 1)
     return found.handeye
 
 
-def _stream(H_OP: PoseStream | MarkerStream | npt.ArrayLike, t_mocap_s: npt.ArrayLike | None) -> PoseStream | None:
+def stream_of(H_OP: PoseStream | MarkerStream | npt.ArrayLike, t_mocap_s: npt.ArrayLike | None) -> PoseStream | None:
     """The body's poses as a recording; None where they have no times."""
     if isinstance(H_OP, MarkerStream):
         return body_of(H_OP, None)
@@ -116,7 +116,7 @@ def _stream(H_OP: PoseStream | MarkerStream | npt.ArrayLike, t_mocap_s: npt.Arra
     return given.stream(PoseStream("", t_s, poses, np.full(len(poses), np.nan)), "H_OP")
 
 
-def _boards(H_CB: BoardPoses | npt.ArrayLike, t_camera_s: npt.ArrayLike | None) -> BoardPoses:
+def boards_of(H_CB: BoardPoses | npt.ArrayLike, t_camera_s: npt.ArrayLike | None) -> BoardPoses:
     """The board's poses as a record, with the times that are given."""
     if isinstance(H_CB, BoardPoses):
         boards = H_CB
@@ -128,7 +128,7 @@ def _boards(H_CB: BoardPoses | npt.ArrayLike, t_camera_s: npt.ArrayLike | None) 
     return replace(boards, t_camera_s=given.times(t_camera_s, len(boards.images), "t_camera_s", "H_CB"))
 
 
-def _refuse_unpaired(H_OP: Array, boards: BoardPoses) -> None:
+def refuse_unpaired(H_OP: Array, boards: BoardPoses) -> None:
     """Poses without times must be one a view."""
     if len(H_OP) != len(boards.images):
         raise DisagreementError(

@@ -53,8 +53,9 @@ def _grey(values: Array | Image) -> Array:
 
 def contradicting(surface: Surface, radiance: Radiance, calibration: Calibration) -> tuple[str, ...]:
     """What is to be said of a light whose image contradicts its calibration."""
-    spoken_for = surface.figures.get("gloss") is not None or {"intensities_found", "images_exchanged", "ambient"} & set(surface.figures)
-    if not surface.metric or spoken_for:
+    figures = surface.figures
+    spoken_for = (figures.gloss, figures.intensities_found, figures.images_exchanged, figures.ambient)
+    if not surface.metric or any(one is not None for one in spoken_for):
         return ()
     found = deviations(surface, radiance, calibration)
     stated = {light.name: light.intensity_std for light in calibration.lights}

@@ -297,7 +297,7 @@ def simulation_of(rig: Rig, recipe: Recipe) -> Simulation:
 
 
 @screens.screen_of.register
-def _simulation_screen(found: Simulation) -> screens.Screen:
+def _simulation_screen(found: Simulation) -> screens.RecordScreen:
     rig, (width, height) = found.rig, found.built.lens.image_size
     x_mm = 1e3 * found.H_PC[:3, 3]
     rows = [
@@ -307,10 +307,10 @@ def _simulation_screen(found: Simulation) -> screens.Screen:
         ("lights", f"{len(rig.lights)}, {1e3 * float(found.built.focus_C[2]):.0f} mm to the object"),
         ("captures", f"{len(rig.spheres)} spheres, {len(rig.objects)} objects, rendered when they are asked for"),
     ]
-    return screens.Screen(f"Simulation of {rig.name}, seed {found.recipe.seed}", rows)
+    return screens.RecordScreen(f"Simulation of {rig.name}, seed {found.recipe.seed}", rows)
 
 
 @screens.screen_of.register
-def _truth_screen(found: BoardTruth) -> screens.Screen:
+def _truth_screen(found: BoardTruth) -> screens.RecordScreen:
     t_s = found.t_camera_s
-    return screens.Screen("BoardTruth", [("images", str(len(t_s))), ("time", f"{t_s.min():.3f} to {t_s.max():.3f} s")])
+    return screens.RecordScreen("BoardTruth", [("images", str(len(t_s))), ("time", f"{t_s.min():.3f} to {t_s.max():.3f} s")])

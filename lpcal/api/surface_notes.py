@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.records.surface import Surface
 from lpcal.surface.convention import mirrored
 
@@ -35,10 +36,10 @@ def distance_said(piece: dict[str, Any]) -> str:
 
 def _mask_said(surface: Surface) -> tuple[str, ...]:
     """What is to be said of an automatic mask that may be wrong."""
-    odds: Any = surface.figures.get("mask_doubt", 0.0)
+    odds = surface.figures.mask_doubt or 0.0
     if odds < IN_DOUBT:
         return ()
-    why: Any = surface.figures.get("mask_doubt_why", "")
+    why = surface.figures.mask_doubt_why or ""
     return (
         f"the automatic mask may be wrong (odds {100 * odds:.0f} %{': ' if why else ''}{why}): look at mask.png; where it is, help with "
         "--box X,Y,W,H round the object, --point X,Y on it, or --mask FILE",
@@ -47,20 +48,20 @@ def _mask_said(surface: Surface) -> tuple[str, ...]:
 
 def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
     """The notes with what became of the room's light where there is no image of it."""
-    found: Any = surface.figures.get("ambient")
-    if not found:
+    found = surface.figures.ambient
+    if found is None:
         return notes
-    others = tuple(note for note in notes if not note.startswith("no ambient image"))
-    if not found["estimated"]:
-        return (*others, found["note"])
-    percent, doubt = 100 * found["share_of_signal"], 100 * found["relative_std"]
+    others = tuple(note for note in notes if note != NO_AMBIENT)
+    if not found.estimated:
+        return (*others, found.note or "")
+    percent, doubt = 100 * (found.share_of_signal or 0.0), 100 * (found.relative_std or 0.0)
     said = f"no ambient image: the room's light was estimated, {percent:.0f} % of the images within {doubt:.0f} % of that, and taken away"
     return (*others, said)
 
 
 def _intensities_said(surface: Surface) -> tuple[str, ...]:
     """What is to be said of intensities that nobody has measured and that were taken from the object."""
-    found: Any = surface.figures.get("intensities_found")
+    found = surface.figures.intensities_found
     if not found:
         return ()
     least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
@@ -69,7 +70,7 @@ def _intensities_said(surface: Surface) -> tuple[str, ...]:
 
 def _exchange_said(surface: Surface) -> tuple[str, ...]:
     """What is to be said of images that fit another light than their own."""
-    found: Any = surface.figures.get("images_exchanged")
+    found = surface.figures.images_exchanged
     if not found:
         return ()
     places = ", ".join(f"{image} fits the light {light}" for image, light in found.items())

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api import stacks
-from lpcal.api.curve import settle_sensor
+from lpcal.api import compared, stacks
+from lpcal.api.curve import Settled, settle_sensor
 from lpcal.api.light_check import contradicting
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import notes_of
+from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
-from lpcal.records.observations import RawCapture
+from lpcal.records.figures import ConventionFound
+from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
@@ -31,7 +33,7 @@ from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.mask import Hints, Keep
 from lpcal.surface.mesh import Mesh
-from lpcal.surface.of_normals import check, surface_of_normals
+from lpcal.surface.of_normals import check
 
 OUTSIDE = (0.5, 2.0)
 """Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
@@ -53,7 +55,8 @@ def reconstruct(
     box: tuple[int, int, int, int] | None = None,
     points: Sequence[tuple[int, int]] = (),
     keep: Keep = "object",
-    method: Literal["near", "distant"] = "near",
+    method: str = "near",
+    integrator: str = "lpcal",
     distance_m: float | None = None,
     exposure_s: npt.ArrayLike | None = None,
     ambient_exposure_s: npt.ArrayLike | None = None,
@@ -82,8 +85,11 @@ def reconstruct(
         Pixels (x, y) that show the object.
     keep : {"object", "support", "all"}
         What of the layers found is reconstructed: the object; with it what carries it; all that is lit.
-    method : {"near", "distant"}
-        Whether lights act from where they are, where that is known, or all as if they were far away.
+    method : str
+        "near" or "distant": lpcal's own, with lights that act from where they are, where that is known, or all as if they were far away.
+        Or one of `lpcal.methods.NORMALS` to compare with ("least-squares", "l1", "ranks"): it gives normals, and no standard deviations.
+    integrator : str
+        How a depth is made of such a method's normals: "lpcal", or one of `lpcal.methods.INTEGRATORS` ("poisson", "cosines").
     distance_m : float, optional
         The median distance of the object along z of C, metres, where it is known.
     exposure_s : ndarray (L,), optional
@@ -130,26 +136,27 @@ def reconstruct(
         lights = [light.name for light in calibration.lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
-    _refuse_unknown_words(mask, method, keep)
+    refuse_unknown_words(mask, method, integrator, keep)
     if distance_m is not None and not 0 < distance_m < np.inf:
         raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
-    _refuse_unknown_lights(raw, calibration)
+    refuse_unknown_lights(raw, calibration)
     hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
-    _refuse_hints(hints, raw.images.shape[1:3], raw.name)
+    refuse_hints(hints, raw.images.shape[1:3], raw.name)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
-    saying = _saying(sensor, raw, calibration)
-    settled = settle_sensor(raw, calibration, saying)
-    used = settled.used.sensor
-    refuse_bright_ambient(raw, used)
-    plain = to_radiance(raw, used)
-    radiance = with_short_exposures(plain, raw, used)
-    notes = (*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, used))
+    radiance, settled = _linear(raw, calibration, sensor)
     own_mask = radiance.mask if mask_given is None and mask == "auto" else None
-    radiance = replace(radiance, notes=notes, mask=own_mask)
+    radiance = replace(radiance, mask=own_mask)
+    size = radiance.signal.shape[1:3]
+    given_mask = np.ones(size, bool) if isinstance(mask, str) and mask == "none" else own_mask
+    given_mask = given_mask if mask_given is None else stacks.of_image_size(mask_given, size, "mask")
+    if method not in WAYS:
+        begin_m = distance_m or raw.distance_m or calibration.d_object_m or DISTANCE_M
+        surface = compared.reconstruct(radiance, calibration, given_mask, hints, begin_m, method, integrator)
+        return replace(surface, warnings=(*radiance.notes, *surface.warnings), sensor=settled.used)
     options = solver.Options(
         near=method == "near",
         distance_m=distance_m or raw.distance_m,
-        mask=None if mask_given is None else stacks.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
+        mask=None if mask_given is None else given_mask,
         automatic_mask=mask_given is None and mask == "auto",
         hints=hints,
         keep=keep,
@@ -163,54 +170,24 @@ def reconstruct(
     return replace(surface, warnings=said, sensor=settled.used)
 
 
+def _linear(raw: RawCapture, calibration: Calibration, sensor: StatedSensor | Statements) -> tuple[Radiance, Settled]:
+    """The capture in linear numbers, with what is to be said of it, and the sensor that it was made linear by."""
+    saying = _saying(sensor, raw, calibration)
+    settled = settle_sensor(raw, calibration, saying)
+    used = settled.used.sensor
+    refuse_bright_ambient(raw, used)
+    plain = to_radiance(raw, used)
+    radiance = with_short_exposures(plain, raw, used)
+    notes = (*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, used))
+    return replace(radiance, notes=notes), settled
+
+
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:
     """All that is said of the sensor, what counts more first."""
     if not isinstance(sensor, StatedSensor) and sensor:
         return sensor
     first = [(BY_CALLER, sensor)] if isinstance(sensor, StatedSensor) else []
     return [*first, (BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration))]
-
-
-def _refuse_unknown_words(mask: npt.ArrayLike | str, method: str, keep: str) -> None:
-    """Refuse words that mean nothing."""
-    if isinstance(mask, str) and mask not in {"auto", "none"}:
-        raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
-    if method not in {"near", "distant"}:
-        raise InputError(repr(method), where="method", needed='"near" or "distant"')
-    if keep not in {"object", "support", "all"}:
-        raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
-
-
-def _refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
-    """Refuse images of lights that the calibration does not hold, or two of one light."""
-    known = {light.name for light in calibration.lights}
-    strange = [name for k, name in enumerate(raw.lights) if name not in known or name in raw.lights[:k]]
-    if strange:
-        raise DisagreementError(
-            f"no light of the calibration is called {', '.join(strange[:8])}, or two images are its",
-            where=f"{raw.name}, lights",
-            needed=f"some of {', '.join(sorted(known))}, each once",
-        )
-
-
-def _refuse_hints(hints: Hints, shape: tuple[int, ...], name: str) -> None:
-    """Refuse places of the object that do not lie in the images, or in the box.
-
-    Raises
-    ------
-    DisagreementError
-        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
-    """
-    height, width = shape
-    x, y, across, down = hints.box or (0, 0, width, height)
-    if min(x, y) < 0 or min(across, down) < 1 or x + across > width or y + down > height:
-        raise DisagreementError(
-            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
-        )
-    for at in hints.points:
-        if not (x <= at[0] < x + across and y <= at[1] < y + down):
-            inside = "the box" if hints.box else f"the images of {width}x{height}"
-            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")
 
 
 def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
@@ -242,6 +219,7 @@ def integrate(
     *,
     distance_m: float = DISTANCE_M,
     green: Green = "auto",
+    integrator: str = "lpcal",
     name: str = "normals",
 ) -> Surface:
     """Integrate normals from elsewhere to a depth.
@@ -258,13 +236,15 @@ def integrate(
         Metres at which the median depth is put, with a camera: normals do not tell it.
     green : {"auto", "as-is", "flipped"}
         Whether the y of the normals is turned over; "auto" asks the curl of their slopes.
+    integrator : str
+        "lpcal", which keeps steps; or one of `lpcal.methods.INTEGRATORS` to compare with ("poisson", "cosines").
     name : str
         What the map is called in messages.
 
     Returns
     -------
     Surface
-        Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures["convention"]`` holds what the
+        Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures.convention`` holds what the
         curl says of y. Standard deviations are NaN: nothing tells them.
 
     Raises
@@ -291,17 +271,19 @@ def integrate(
     inside = np.asarray(np.isfinite(length) & (length > 0))
     if mask is not None:
         inside &= stacks.of_image_size(mask, inside.shape, "mask")
-    return _integrated(map_C, inside, camera, distance_m, green, name)
+    return _integrated(map_C, inside, camera, distance_m, green, integrator, name)
 
 
-def _integrated(normals_C: Image, inside: Mask, camera: Camera | None, distance_m: float, green: Green, name: str) -> Surface:
+def _integrated(
+    normals_C: Image, inside: Mask, camera: Camera | None, distance_m: float, green: Green, integrator: str, name: str
+) -> Surface:
     camera = None if camera is None else camera.of_images((inside.shape[1], inside.shape[0]))
     check(name, inside, camera)
     found = convention.settled(name, normals_C, inside, camera, green)
-    surface = surface_of_normals(name, found.normals_C, inside, camera, distance_m)
-    said = {"green_turned_over": found.flipped, "curl_as_is": asdict(found.as_is), "curl_turned_over": asdict(found.turned)}
+    surface = compared.integrated(name, found.normals_C, inside, camera, distance_m, integrator)
+    said = ConventionFound(green_turned_over=found.flipped, curl_as_is=found.as_is, curl_turned_over=found.turned)
     warnings = (UNMEASURED,) if found.note is None else (found.note, UNMEASURED)
-    return replace(surface, figures=surface.figures | {"convention": said}, warnings=warnings)
+    return replace(surface, figures=replace(surface.figures, convention=said), warnings=warnings)
 
 
 def mesh(surface: Surface) -> Mesh:
@@ -329,8 +311,8 @@ def mesh(surface: Surface) -> Mesh:
 
 
 @screens.screen_of.register
-def _mesh_screen(found: Mesh) -> screens.Screen:
+def _mesh_screen(found: Mesh) -> screens.RecordScreen:
     low, high = found.vertices_C.min(axis=0, initial=np.inf), found.vertices_C.max(axis=0, initial=-np.inf)
     rows = [("vertices", str(len(found.vertices_C))), ("faces", str(len(found.faces)))]
     rows += [("size", " x ".join(f"{side:.4g}" for side in high - low) + " along x, y, z of C")] if len(found.vertices_C) else []
-    return screens.Screen("Mesh", rows)
+    return screens.RecordScreen("Mesh", rows)

@@ -50,7 +50,7 @@ class Seen:
 
 
 @dataclass
-class Session:
+class Watched:
     """What was seen so far."""
 
     board: Board | None
@@ -169,6 +169,6 @@ def _emptiest(counted: Array) -> str:
     return PLACES[round(2 * rows[k] / (CELLS[1] - 1))][round(2 * columns[k] / (CELLS[0] - 1))]
 
 
-def lacking(session: Session) -> dict[str, Sequence[str]]:
+def lacking(session: Watched) -> dict[str, Sequence[str]]:
     """Lights that each capture lacks."""
     return {folder: [light for light in session.lights if light not in found] for folder, found in session.folders.items()}

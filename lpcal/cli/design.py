@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from lpcal.errors import DegenerateError, UsageError
+from lpcal.errors import UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
@@ -30,11 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """List the settings, one a click."""
-    import numpy as np
-
-    from lpcal.geometry.wing_design import settings_for
+    from lpcal.api.wing_settings import wing_settings
     from lpcal.records.quantities import parse
-    from lpcal.records.rig import Tolerance
 
     def length(text: str, name: str) -> float:
         try:
@@ -45,22 +42,16 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     distance_m = length(options.distance, "distance")
     if distance_m <= 0:
         raise UsageError(f"--distance {options.distance}", needed="a length over zero")
-    sigma = Tolerance()
-    found = settings_for(
+    found = wing_settings(
         distance_m,
-        (length(options.disc_radius, "disc-radius"), length(options.joint, "joint"), length(options.blob, "blob")),
-        sorted({length(text, "spacers") for text in options.spacers.split(",")}),
-        np.array([sigma.azimuth, sigma.joint_angle, sigma.length, sigma.length]),
+        disc_radius_m=length(options.disc_radius, "disc-radius"),
+        joint_m=length(options.joint, "joint"),
+        blob_m=length(options.blob, "blob"),
+        spacers_m=[length(text, "spacers") for text in options.spacers.split(",")],
         leds=options.leds,
         object_m=length(options.object, "object"),
         slack_m=length(options.slack, "slack"),
     )
-    if not found:
-        raise DegenerateError(
-            f"no click of the joints meets the axis within {options.slack} of {options.distance}",
-            needed="spacers that reach it",
-            todo="allow more with --slack, or longer --spacers",
-        )
     columns = (("g", 5), ("spacers disc, blob", 20), ("meets at", 10), ("light angle", 12), ("away", 8), ("lux", 7), ("evenness", 9))
     head = " ".join(f"{name:>{width}}" for name, width in (*columns, ("turns by", 9), ("sigma", 8)))
     return Outcome(

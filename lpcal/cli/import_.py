@@ -22,40 +22,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
+    from lpcal.api.files import read_calibration
     from lpcal.formats.calibration_yaml import KIND, write_calibration
-    from lpcal.formats.documents import Provenance, document_kind, sha256
-    from lpcal.formats.import_lights import import_lights, named_after
+    from lpcal.formats.documents import document_kind, sha256
     from lpcal.formats.outputs import refuse_place
+    from lpcal.records.provenance import Provenance
 
     refuse_place(options.output, document_kind(KIND), [options.source])
     progress("reading", 0, 1)
-    found = import_lights(options.source, options.vectors)
-    name, calibration = found.format, found.calibration
-    calibration = named_after(calibration, options.images) if options.images else calibration
+    found = read_calibration(options.source, vectors=options.vectors, images=options.images)
     files = sorted(options.source.glob("*.txt")) + sorted(options.source.glob("*.mat")) if options.source.is_dir() else [options.source]
-    write_calibration(options.output, calibration, Provenance({path.name: sha256(path) for path in files}, {"format": name}))
+    write_calibration(options.output, found, Provenance({path.name: sha256(path) for path in files}, {"format": found.origin}))
     progress("reading", 1, 1)
-    near = sum(light.source_C is not None for light in calibration.lights)
-    camera = "a camera" if calibration.camera else "no camera: parallel rays"
-    kind = "near" if near else "distant"
-    notes = list(found.notes)
-    if near and calibration.d_object_m is None:
-        notes.append("the lights' axes meet nowhere: no working distance; reconstruct finds it from the light, or takes --distance")
-    if calibration.camera is not None and calibration.camera.size_guessed:
-        width, height = calibration.camera.image_size
-        notes.append(
-            f"no image beside it: its size is guessed as {width}x{height} from the principal point; reconstruct takes the capture's"
-        )
+    near = sum(light.source_C is not None for light in found.lights)
+    camera = "a camera" if found.camera else "no camera: parallel rays"
     return Outcome(
-        [f"{name}: {len(calibration.lights)} {kind} lights, {camera} -> {options.output}"],
+        [f"{found.origin or KIND}: {len(found.lights)} {'near' if near else 'distant'} lights, {camera} -> {options.output}"],
         {
-            "format": name,
-            "lights": len(calibration.lights),
+            "format": found.origin,
+            "lights": len(found.lights),
             "near": near,
-            "camera": calibration.camera is not None,
+            "camera": found.camera is not None,
             "file": options.output,
-            "notes": notes,
+            "notes": list(found.warnings),
         },
-        list(notes),
+        list(found.warnings),
         next_command=f"lpcal reconstruct CAPTURE -c {options.output}",
     )

@@ -18,6 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="whether green is turned over: DirectX maps have it down (default: found by the curl)",
     )
+    parser.add_argument("--integrator", default="lpcal", metavar="NAME", help="lpcal, poisson or cosines, to compare (default: lpcal)")
     parser.add_argument("--mask", type=Path, metavar="FILE", help="which pixels count (default: those that hold a normal)")
     parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object, such as 352mm (default: the calibration's)")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to (default: surfaces/<name of the file>)")
@@ -29,4 +30,5 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     from lpcal.pipeline.integrate import integrate_file
 
     target = options.output or Path("surfaces") / options.normals.stem
-    return integrate_file(options.normals, options.calibration, options.mask, target, length(options.distance), options.green)
+    distance_m = length(options.distance)
+    return integrate_file(options.normals, options.calibration, options.mask, target, distance_m, options.green, options.integrator)

@@ -8,6 +8,7 @@ import os
 import shlex
 import sys
 import traceback
+from collections.abc import Container
 from contextlib import ExitStack
 from typing import Protocol, cast
 
@@ -40,6 +41,7 @@ COMMANDS = {
     "simulate": "a synthetic rig folder with its truth",
     "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",
+    "completion": "completion of commands, options and file names for bash, zsh or fish",
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
 # many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's word wins
@@ -118,7 +120,8 @@ def _refused(error: OSError | MemoryError) -> int:
     return said.exit_code
 
 
-def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
+def parser_of(commands: Container[str]) -> tuple[argparse.ArgumentParser, dict[str, Command]]:
+    """The parser, with the words of some of the commands, and those commands' modules: only they are imported."""
     parser = argparse.ArgumentParser(
         prog="lpcal",
         description="Calibrates a camera-and-light panel and rebuilds surfaces with it.",
@@ -127,23 +130,28 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
     )
     parser.add_argument("--version", action=_Versions, nargs=0, help="the versions of lpcal and of the libraries that it calls, then leave")
     subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    chosen = next((word for word in words if not word.startswith("-")), None)
-    module: Command | None = None
+    modules: dict[str, Command] = {}
     for name, line in COMMANDS.items():
         subparser = subparsers.add_parser(name, help=line, description=line[0].upper() + line[1:] + ".")
-        if name == chosen:
-            module = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
-            module.add_arguments(subparser)
+        if name in commands:
+            modules[name] = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
+            modules[name].add_arguments(subparser)
             add_log_options(subparser)
-    if chosen is not None and module is None:
+    return parser, modules
+
+
+def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
+    chosen = next((word for word in words if not word.startswith("-")), None)
+    parser, modules = parser_of({chosen} if chosen else ())
+    if chosen is not None and not modules:
         _refuse_unknown(chosen)
     if not words:
         parser.print_help(sys.stderr)
         parser.exit(USAGE)
     options = parser.parse_args(words)
-    if module is None:  # argparse has already ended the run for an unknown or missing command
+    if not modules:  # argparse has already ended the run for an unknown or missing command
         parser.error("no command")
-    return options, module
+    return options, modules[options.command]
 
 
 def _refuse_unknown(word: str) -> None:

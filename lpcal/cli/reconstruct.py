@@ -27,6 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--point", action="append", default=[], metavar="X,Y", help="a pixel that shows the object; may be repeated")
     parser.add_argument("--keep", choices=("object", "support", "all"), default="object", help="what to reconstruct of what is found")
     parser.add_argument("--lights", choices=("near", "distant"), default="near", help="how lights act (default: near, where known)")
+    parser.add_argument("--method", metavar="NAME", help="a method to compare with: least-squares, l1, ranks (default: lpcal's own)")
+    parser.add_argument("--integrator", default="lpcal", metavar="NAME", help="with --method: lpcal, poisson, cosines (default: lpcal)")
     parser.add_argument("--distance", metavar="LENGTH", help="median distance of the object where it is known, such as 352mm")
     parser.add_argument("--gamma", metavar="G", help="stored = linear^(1/G), or srgb for photographs, where nothing else states it")
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
@@ -49,6 +51,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
     wishes = Wishes(
         near=options.lights == "near",
+        method=None if options.method == "lpcal" else options.method,
+        integrator=options.integrator,
         distance_m=length(options.distance),
         mask=options.mask,
         sensor=_sensor(options),

@@ -16,6 +16,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
-    from lpcal.pipeline.study import study
+    from lpcal.pipeline.study import write_study
 
-    return study(options.which, options.output, progress)
+    return write_study(options.which, options.output, progress)

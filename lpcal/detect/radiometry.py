@@ -21,6 +21,9 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import FlatField, Sensor, StatedSensor
 
+NO_AMBIENT = "no ambient image: what lights the scene beside the lights is not taken away"
+"""The note of a capture whose ambient light nothing shows; it no longer holds once that light is estimated."""
+
 FLAT_DEGREE = 6
 FLAT_BLOCK_PX = 8
 NOISE_BINS = 24
@@ -78,7 +81,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
     notes += [] if piled is None else [piled_words(piled)]
     if ambient_linear is None:
-        notes.append("no ambient image: what lights the scene beside the lights is not taken away")
+        notes.append(NO_AMBIENT)
     else:
         times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
         ambient = np.asarray(np.mean(ambient_linear / times, axis=0), np.float32)

@@ -29,7 +29,7 @@ FEWEST_RAYS = 90
 
 
 @dataclass(frozen=True)
-class Curve:
+class RimCurve:
     """How an outline is fitted to points and drawn: `fit` (K, 2) points to parameters, `draw` parameters to (RAYS, 2) points."""
 
     fit: Callable[[Array], Array]
@@ -59,7 +59,7 @@ class Outline:
 AROUND = np.linspace(0, 2 * np.pi, RAYS, endpoint=False)
 
 
-def perspective_curve(camera: Camera, radius_m: float) -> Curve:
+def perspective_curve(camera: Camera, radius_m: float) -> RimCurve:
     """The tangent cone of a sphere through a lens; parameters are its centre in C."""
 
     def fit(points_px: Array) -> Array:
@@ -68,10 +68,10 @@ def perspective_curve(camera: Camera, radius_m: float) -> Curve:
         except ValueError as error:
             raise DegenerateError(str(error)) from error
 
-    return Curve(fit, lambda centre_C: camera.project(sphere.outline(centre_C, radius_m, AROUND)))
+    return RimCurve(fit, lambda centre_C: camera.project(sphere.outline(centre_C, radius_m, AROUND)))
 
 
-def circle_curve() -> Curve:
+def circle_curve() -> RimCurve:
     """A circle; parameters are x, y, radius in pixels (Kasa's fit)."""
 
     def fit(points_px: Array) -> Array:
@@ -79,10 +79,10 @@ def circle_curve() -> Curve:
         x, y, c = np.linalg.lstsq(A, np.sum(points_px**2, axis=1), rcond=None)[0]
         return np.array([x, y, np.sqrt(max(c + x * x + y * y, 0.0))])
 
-    return Curve(fit, lambda p: p[:2] + p[2] * np.stack([np.cos(AROUND), np.sin(AROUND)], axis=1))
+    return RimCurve(fit, lambda p: p[:2] + p[2] * np.stack([np.cos(AROUND), np.sin(AROUND)], axis=1))
 
 
-def refine_outline(image: Image, kind: str, start_px: Array, curve: Curve) -> Outline:
+def refine_outline(image: Image, kind: str, start_px: Array, curve: RimCurve) -> Outline:
     """Refine a circle start_px (x, y, radius) to the outline of a sphere in a linear image (H, W).
 
     Raises
@@ -102,7 +102,7 @@ def refine_outline(image: Image, kind: str, start_px: Array, curve: Curve) -> Ou
     return _outline(curve.draw(parameters), moved, good, distance, fits)
 
 
-def on_sharp_edges(image: Image, outline: Outline, curve: Curve) -> Outline:
+def on_sharp_edges(image: Image, outline: Outline, curve: RimCurve) -> Outline:
     """A chrome sphere's outline again, fitted to its sharp edges alone; as it was where they are too few.
 
     Where the rim mirrors what is as bright as what is behind it, there is no edge but where that fades: up to 2 px beside the rim.
@@ -142,7 +142,7 @@ def _majority(fits: Edges) -> Mask:
     return np.isin(np.arange(RAYS), rows[off[best] <= median[best]])
 
 
-def _agreeing(curve: Curve, moved: Array, found: Mask, first: Mask) -> tuple[Array, Mask, Array]:
+def _agreeing(curve: RimCurve, moved: Array, found: Mask, first: Mask) -> tuple[Array, Mask, Array]:
     """The parameters of the curve through those points found that agree, from a first guess at which; which they are; all's distances."""
     good, kept = first, found
     for _ in range(5):

@@ -17,7 +17,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
-from lpcal.records.observations import Radiance, SphereView
+from lpcal.records.observations import Radiance, SphereKind, SphereView
 
 REFINED_STARTS = 3
 CLEAR_RAYS, CLEAR_CONTRAST, CLEAR_SCATTER_PX = 0.9, 20.0, 0.5
@@ -35,7 +35,7 @@ MATTE_DISC, LIT_SIGMAS, LIT_SHARE = 0.9, 5.0, 0.02
 class Expected:
     """What is known of a sphere before it is looked for."""
 
-    kind: str
+    kind: SphereKind
     radius_m: float | None
     hint_px: Array | None = None
     """(3,) x, y, radius of its outline, about."""

@@ -5,7 +5,7 @@ see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` a
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. A lobe is one of
 
 - ``{kind: isotropic}``
-- ``{kind: cosine, exponent: m}``: cos(angle)^m
+- ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `geometry.light_field.FORMULAS`
 - ``{kind: leds, exponent: m, position_m: [[..]], axis: [[..]], power: [..], angle_deg: [..], value: [..]}``: the sum of
   LEDs in the frame L, each power cos(angle)^m / r^2; the table is its mean over the roll
 - ``{kind: table, angle_deg: [...], value: [...], node_deg: [...], factor: [[...]]}``: monotone cubic through the table, 1 on the axis, 0
@@ -28,12 +28,14 @@ from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.document_numbers import rigid, sigma
-from lpcal.formats.documents import Provenance, read_document, write_document
+from lpcal.formats.documents import read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
 from lpcal.formats.reading import reader
 from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_document
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
+from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 
 KIND = "calibration"
@@ -65,7 +67,17 @@ def read_calibration(path: Path) -> Calibration:
     InputError
         Not there, cut off, of another kind, or a value that is lacking, of another form, or no number; the light is named.
     """
-    document = read_document(path, KIND)
+    return calibration_from_document(read_document(path, KIND), path)
+
+
+def calibration_from_document(document: dict[str, Any], path: Path) -> Calibration:
+    """A calibration as written; `path` is what errors name.
+
+    Raises
+    ------
+    InputError
+        As `read_calibration`.
+    """
     try:
         camera, sensor = _camera(document.get("camera"), path)
         lights = tuple(_light(path, entry) for entry in document["lights"])
@@ -111,8 +123,6 @@ def light_document(light: Light) -> dict[str, Any]:
 def lobe_document(lobe: Lobe) -> dict[str, Any]:
     """A lobe as it is written."""
     seen = {} if np.isnan(lobe.seen_rad) else {"seen_deg": float(np.degrees(lobe.seen_rad).round(3))}
-    if lobe.kind == "cosine":
-        return {"kind": "cosine", "exponent": lobe.exponent}
     if lobe.kind == "table":
         table = {"kind": "table", "angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
         factor = {"node_deg": np.degrees(lobe.node_rad).round(4), "factor": lobe.factor.round(5)} if lobe.node_rad.size else {}
@@ -121,12 +131,12 @@ def lobe_document(lobe: Lobe) -> dict[str, Any]:
         leds = {"exponent": lobe.leds.exponent, "position_m": lobe.leds.position_L.round(7), "axis": lobe.leds.axis_L.round(7)}
         table = {"angle_deg": np.degrees(lobe.angle_rad).round(4), "value": lobe.value.round(6)}
         return {"kind": "leds", **leds, "power": lobe.leds.power.round(7), **table, **seen}
-    return {"kind": lobe.kind}
+    return {"kind": lobe.kind} if lobe.kind == "isotropic" else {"kind": lobe.kind, "exponent": lobe.exponent}
 
 
 def lobe_from_document(entry: dict[str, Any]) -> Lobe:
     """A lobe as it was written."""
-    if entry["kind"] in {"table", "leds"}:
+    if entry["kind"] in TABLED:
         seen_rad = np.radians(float(entry.get("seen_deg", np.nan)))
         lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"), seen_rad=seen_rad)
         if entry.get("node_deg"):

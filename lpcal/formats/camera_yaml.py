@@ -10,11 +10,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from lpcal.formats.camera_coefficients import sane_camera
-from lpcal.formats.document_numbers import covariance, numbers, sigma
-from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.document_numbers import covariance, number, numbers, sigma
+from lpcal.formats.documents import read_record, write_document
+from lpcal.formats.record_documents import document_of, record_of
 from lpcal.formats.sensor_document import sensor_from_document
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
+from lpcal.records.evidence import CameraEvidence
+from lpcal.records.provenance import Provenance
 
 KIND = "camera"
 COEFFICIENTS = {"opencv4": 4, "opencv5": 5, "opencv8": 8, "splined": -1}
@@ -30,7 +35,7 @@ def write_camera(path: Path, solution: CameraSolution, provenance: Provenance) -
         "covariance": camera.covariance,
         "corner_sigma_px": solution.corner_sigma_px,
         "solver": solution.solver,
-        "evidence": solution.evidence,
+        "evidence": document_of(solution.evidence),
         "warnings": list(solution.warnings),
         "views": [_view(view) for view in solution.views],
     }
@@ -46,6 +51,36 @@ def read_camera(path: Path) -> Camera:
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
     return sane_camera(read_record(path, KIND, "lpcal intrinsics", camera_from_document), str(path))
+
+
+def read_camera_solution(path: Path) -> CameraSolution:
+    """Read the camera of a camera.yaml with what became of each view and what it rests on; the board's shape stands in H_CB.yaml.
+
+    Raises
+    ------
+    InputError
+        As `read_camera`.
+    """
+    return read_record(path, KIND, "lpcal intrinsics", solution_from_document)
+
+
+def solution_from_document(document: dict[str, Any]) -> CameraSolution:
+    """A solved or given camera as it was written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        As `camera_from_document`.
+    """
+    return CameraSolution(
+        camera=camera_from_document(document),
+        points_B=np.zeros((0, 3)),
+        views=tuple(_verdict(view) for view in document["views"]),
+        solver=document.get("solver") or "",
+        corner_sigma_px=sigma(document, "corner_sigma_px"),
+        evidence=record_of(CameraEvidence, document.get("evidence") or {}),
+        warnings=tuple(document.get("warnings") or ()),
+    )
 
 
 def camera_document(camera: Camera) -> dict[str, Any]:
@@ -109,3 +144,16 @@ def _view(view: ViewVerdict) -> dict[str, Any]:
         "blur_px": view.blur_px,
         "glare": view.glare,
     }
+
+
+def _verdict(view: dict[str, Any]) -> ViewVerdict:
+    return ViewVerdict(
+        view["image"],
+        view["used"],
+        view["why"],
+        residual_px=number(view, "rms_px"),
+        corners=int(view["corners"]),
+        rejected=int(view.get("rejected") or 0),
+        blur_px=number(view, "blur_px"),
+        glare=number(view, "glare"),
+    )

@@ -7,32 +7,21 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field, fields
-from datetime import UTC, datetime
+from dataclasses import asdict, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
 
-from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.guarded_yaml import load_yaml
 from lpcal.formats.outputs import Kind, marked, refuse_place, write_text
 from lpcal.formats.reading import reader, reading
+from lpcal.formats.record_documents import document_of
+from lpcal.records.provenance import Provenance
 
 VERSION = 1
-
-
-@dataclass(frozen=True)
-class Provenance:
-    """What a file was made from."""
-
-    inputs: dict[str, str] = field(default_factory=dict)
-    """sha256 by path, relative to the rig folder where it lies in it."""
-    options: dict[str, Any] = field(default_factory=dict)
-    lpcal_version: str = __version__
-    time: str = field(default_factory=lambda: datetime.now(UTC).isoformat(timespec="seconds"))
 
 
 def sha256(path: Path) -> str:
@@ -102,6 +91,19 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     return document
 
 
+def read_provenance(path: Path, kind: str) -> Provenance:
+    """What a document of a kind was made from.
+
+    Raises
+    ------
+    InputError
+        As `read_document`.
+    """
+    stated = read_document(path, kind)["provenance"]
+    inputs = {str(name): str(digest) for name, digest in stated["inputs"].items()}
+    return Provenance(inputs, dict(stated["options"]), str(stated["lpcal_version"]), str(stated["time"]))
+
+
 def read_record[Record](path: Path, kind: str, command: str, record_of: Callable[[dict[str, Any]], Record]) -> Record:
     """What a document of a kind holds, by `record_of`; `command` writes it anew.
 
@@ -125,6 +127,8 @@ def plain(value: Any) -> Any:
     """The value in types that YAML and JSON know; NaN becomes null."""
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
+    if is_dataclass(value):
+        return plain(document_of(value))
     if isinstance(value, Mapping):
         return {str(key): plain(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):

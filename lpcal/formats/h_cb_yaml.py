@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from lpcal.formats.document_numbers import covariance, numbers, rigid
-from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.documents import read_record, write_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardPoses
+from lpcal.records.provenance import Provenance
 
 KIND = "H_CB"
 
@@ -44,17 +45,24 @@ def read_h_cb(path: Path) -> BoardPoses:
     InputError
         Not there, cut off, of another kind, or garbled.
     """
-    return read_record(path, KIND, "lpcal intrinsics", _poses)
+    return read_record(path, KIND, "lpcal intrinsics", h_cb_from_document)
 
 
-def _poses(document: dict[str, Any]) -> BoardPoses:
+def h_cb_from_document(document: dict[str, Any]) -> BoardPoses:
+    """Board poses as written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else; the message is the key's name.
+    """
     views = [view for view in document["views"] if view["H_CB"] is not None]
-    points_B = numbers(document["board"], "points_m", -1, 3)
+    points_B = numbers(document["board"], "points_m", -1, 3) if document["board"]["points_m"] else None
     return BoardPoses(
         images=tuple(view["image"] for view in views),
         t_camera_s=None,
         H_CB=_stack([rigid(view, "H_CB") for view in views], (4, 4)),
-        corners_px=_stack([view["corners_px"] for view in views], (len(points_B), 2)),
+        corners_px=_stack([view["corners_px"] for view in views], (0 if points_B is None else len(points_B), 2)),
         points_B=points_B,
         covariance=_stack([covariance(view, "covariance", 6) for view in views], (6, 6)),
         rms_px=np.array([numbers(view, "rms_px") for view in views]),

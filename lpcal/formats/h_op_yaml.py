@@ -15,8 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.formats.document_numbers import number, rigid
-from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.documents import read_record, write_document
 from lpcal.geometry.arrays import Array
+from lpcal.records.provenance import Provenance
 
 KIND = "H_OP"
 
@@ -33,6 +34,10 @@ class ImagePanelPoses:
     why: tuple[str | None, ...]
     steady: npt.NDArray[np.bool_]
     clock_offset_s: float | None
+
+    def by_image(self) -> dict[str, Array]:
+        """The pose (4, 4) at each image that has one to trust."""
+        return {image: H_OP for image, H_OP in zip(self.images, self.H_OP, strict=True) if np.isfinite(H_OP).all()}
 
 
 def write_h_op(path: Path, poses: ImagePanelPoses, provenance: Provenance) -> None:
@@ -59,10 +64,17 @@ def read_h_op(path: Path) -> ImagePanelPoses:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    return read_record(path, KIND, "lpcal handeye", _poses)
+    return read_record(path, KIND, "lpcal handeye", h_op_from_document)
 
 
-def _poses(document: dict[str, Any]) -> ImagePanelPoses:
+def h_op_from_document(document: dict[str, Any]) -> ImagePanelPoses:
+    """Poses of the body as written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else; the message is the key's name.
+    """
     views = document["views"]
     nothing = np.full((4, 4), np.nan)
     times = [number(view, "t_camera_s") for view in views]

@@ -20,9 +20,12 @@ from typing import Any
 import numpy as np
 
 from lpcal.formats.document_numbers import covariance, number, rigid
-from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.documents import read_record, write_document
 from lpcal.formats.pasted_transforms import both_ways
+from lpcal.formats.record_documents import document_of, known_record_of
 from lpcal.records.calibration import NAMES, Carries, HandEye, ViewVerdict
+from lpcal.records.evidence import HandEyeEvidence
+from lpcal.records.provenance import Provenance
 
 KIND = "handeye"
 
@@ -41,7 +44,7 @@ def write_handeye(path: Path, found: HandEye, provenance: Provenance, body: str 
         "clock_middle_s": found.clock_middle_s,
         "warnings": list(found.warnings),
         "transforms": both_ways(found.H_PC, found.H_OB, body, found.carries),
-        "evidence": found.evidence,
+        "evidence": {} if found.evidence is None else document_of(found.evidence),
         "views": [_view(view) for view in found.views],
     }
     write_document(path, KIND, content, provenance)
@@ -55,10 +58,17 @@ def read_handeye(path: Path) -> HandEye:
     InputError
         Not there, cut off, of another kind, or a key that is lacking or holds no numbers.
     """
-    return read_record(path, KIND, "lpcal handeye", _handeye)
+    return read_record(path, KIND, "lpcal handeye", handeye_from_document)
 
 
-def _handeye(document: dict[str, Any]) -> HandEye:
+def handeye_from_document(document: dict[str, Any]) -> HandEye:
+    """A hand-eye as written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else; the message is the key's name.
+    """
     carries: Carries = "board" if "H_OC" in document else "camera"
     camera, board = NAMES[carries]
     return HandEye(
@@ -72,7 +82,7 @@ def _handeye(document: dict[str, Any]) -> HandEye:
         clock_drift=1e-6 * (number(document, "clock_drift_ppm") or 0.0),
         clock_middle_s=number(document, "clock_middle_s") or 0.0,
         warnings=tuple(document.get("warnings") or ()),
-        evidence=document.get("evidence") or {},
+        evidence=known_record_of(HandEyeEvidence, document.get("evidence")),
         carries=carries,
         taken_offset_s=number(document, "clock_offset_s") or 0.0,
     )

@@ -14,6 +14,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.light_field import FORMULAS, TABLED
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.rig import reserved
 
@@ -28,7 +29,6 @@ FARTHEST_M = 100.0
 """Metres beyond which no near light is believed."""
 SHARPEST = 5000.0
 """The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
-KINDS = ("isotropic", "cosine", "table", "leds")
 """The lobes of calibration.yaml."""
 
 
@@ -191,13 +191,9 @@ def _wrong(light: Light) -> str:
     if light.axis_C is not None and (not np.isfinite(light.axis_C).all() or not np.any(light.axis_C)):
         return "an emission axis that is none"
     lobe = light.lobe
-    if lobe.kind not in KINDS or not 0 <= lobe.exponent <= SHARPEST:
+    if lobe.kind not in {*FORMULAS, *TABLED} or not 0 <= lobe.exponent <= SHARPEST:
         return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}"
-    if (
-        len(lobe.value) != len(lobe.angle_rad)
-        or np.any(np.diff(lobe.angle_rad) <= 0)
-        or (lobe.kind in {"table", "leds"} and len(lobe.value) < 2)
-    ):
+    if len(lobe.value) != len(lobe.angle_rad) or np.any(np.diff(lobe.angle_rad) <= 0) or (lobe.kind in TABLED and len(lobe.value) < 2):
         return "a lobe whose angles do not grow, or with unlike numbers of angles and values"
     return ""
 

@@ -17,10 +17,13 @@ import numpy as np
 from lpcal.formats.calibration_yaml import light_document, light_from_document
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
 from lpcal.formats.document_numbers import covariance, number, numbers, rigid, sigma
-from lpcal.formats.documents import Provenance, read_record, write_document
+from lpcal.formats.documents import read_record, write_document
 from lpcal.formats.light_tables import sane_lights
+from lpcal.formats.record_documents import document_of, record_of
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, LightsSolution, SphereFinding
+from lpcal.records.evidence import LightsEvidence
+from lpcal.records.provenance import Provenance
 
 KIND = "lights"
 
@@ -50,7 +53,7 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
             for sphere in solution.spheres
         ],
         "warnings": solution.warnings,
-        "evidence": solution.evidence,
+        "evidence": document_of(solution.evidence),
     }
     found = {
         "H_PC": solution.H_PC,
@@ -70,7 +73,7 @@ def read_lights(path: Path) -> LightsSolution:
     InputError
         Not there, cut off, of another kind, or garbled.
     """
-    found = read_record(path, KIND, "lpcal refine", _record_of)
+    found = read_record(path, KIND, "lpcal refine", lights_from_document)
     sane_lights(Calibration(path.stem, found.lights), str(path))
     return found
 
@@ -80,7 +83,15 @@ def _size(entry: dict[str, Any]) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _record_of(document: dict[str, Any]) -> LightsSolution:
+def lights_from_document(document: dict[str, Any]) -> LightsSolution:
+    """The refined lights as written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else; the message is the key's name.
+    """
+
     def matrix(key: str) -> Array | None:
         if document.get(key) is None:
             return None
@@ -113,6 +124,6 @@ def _record_of(document: dict[str, Any]) -> LightsSolution:
             )
             for entry in document["spheres"]
         ),
-        warnings=tuple(document["warnings"]),
-        evidence=document["evidence"],
+        warnings=tuple(document.get("warnings") or ()),
+        evidence=record_of(LightsEvidence, document.get("evidence") or {}),
     )

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,14 @@ import numpy.typing as npt
 
 from lpcal import __version__
 from lpcal.errors import InputError
+from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
+from lpcal.formats.reading import reading
+from lpcal.formats.record_documents import document_of, record_of
 from lpcal.geometry.arrays import Image
-from lpcal.records.surface import Alternative, Component, Surface
+from lpcal.records.figures import SurfaceFigures
+from lpcal.records.surface import Component, Surface, SurfaceSummary
 from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
@@ -78,10 +81,10 @@ def summary_of(surface: Surface) -> dict[str, Any]:
         "kind": "surface",
         "name": surface.name,
         "units": "metres" if surface.metric else "pixels",
-        "components": [asdict(component) for component in surface.components],
-        "counts_and_residuals": surface.figures,
-        "mask_doubt": surface.figures.get("mask_doubt"),
-        "mask_doubt_why": surface.figures.get("mask_doubt_why"),
+        "components": [document_of(component) for component in surface.components],
+        "counts_and_residuals": document_of(surface.figures),
+        "mask_doubt": surface.figures.mask_doubt,
+        "mask_doubt_why": surface.figures.mask_doubt_why,
         "versions": {"lpcal": __version__},
         "sensor": None if surface.sensor is None else surface.sensor.document(),
         "notes": list(surface.warnings),
@@ -109,10 +112,39 @@ def read_surface(folder: Path) -> Surface:
     return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, warnings=said, **maps)
 
 
+def read_summary(path: Path) -> SurfaceSummary:
+    """Read a summary.json.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, or a value in it is something else.
+    """
+    with reading(path, "a summary that lpcal wrote"):
+        return summary_from_document(json.loads(path.read_text(encoding="utf-8")))
+
+
+def summary_from_document(document: dict[str, Any]) -> SurfaceSummary:
+    """What summary.json holds, as it was written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else.
+    """
+    return SurfaceSummary(
+        metric=document.get("units") != "pixels",
+        components=tuple(_component(entry) for entry in document.get("components") or ()),
+        figures=record_of(SurfaceFigures, document.get("counts_and_residuals") or {}),
+        notes=tuple(str(note) for note in document.get("notes") or ()),
+        times_s={str(key): float(value) for key, value in (document.get("times_s") or {}).items()},
+        peak_memory_mb=number(document, "peak_memory_mb"),
+    )
+
+
 def _component(entry: dict[str, Any]) -> Component:
     """A piece as summary.json has it."""
-    others = tuple(Alternative(**other) for other in entry.get("alternatives") or ())
-    return Component(**(entry | {"alternatives": others}))
+    return record_of(Component, entry)
 
 
 def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from lpcal.formats.document_numbers import covariance, number, numbers, rigid
-from lpcal.formats.documents import Provenance, read_record, write_document
-from lpcal.geometry import se3
+from lpcal.formats.documents import read_record, write_document
 from lpcal.records.calibration import Wing, Wings
+from lpcal.records.provenance import Provenance
 
 KIND = "wings"
 
@@ -46,10 +46,17 @@ def read_wings(path: Path) -> Wings:
     InputError
         Not there, cut off, of another kind, or garbled.
     """
-    return read_record(path, KIND, "lpcal wings", _record_of)
+    return read_record(path, KIND, "lpcal wings", wings_from_document)
 
 
-def _record_of(document: dict[str, Any]) -> Wings:
+def wings_from_document(document: dict[str, Any]) -> Wings:
+    """The lights as designed, as written.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        A key is lacking or holds something else; the message is the key's name.
+    """
     lights, std = document["lights"], document["setting_std"]
     return Wings(
         wings=tuple(
@@ -85,7 +92,6 @@ def _joint_angle(setting: dict[str, Any]) -> float:
 
 def _light(wings: Wings, k: int) -> dict[str, Any]:
     wing = wings.wings[k]
-    block = wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
     return {
         "name": wing.name,
         "setting": {
@@ -97,6 +103,6 @@ def _light(wings: Wings, k: int) -> dict[str, Any]:
         "leds": wing.leds,
         "H_DL": wings.H_DL[k],
         "H_CL": wings.H_CL[k],
-        "position_std_m": float(np.sqrt(np.trace(se3.origin_covariance(wings.H_CL[k], block)) / 3)),
-        "axis_std_deg": float(np.degrees(np.sqrt(np.trace(block[:3, :3]) / 3))),
+        "position_std_m": wings.position_std_m[k],
+        "axis_std_deg": np.degrees(wings.axis_std_rad[k]),
     }

@@ -36,8 +36,8 @@ __all__ = [
     "POSE",
     "Block",
     "Model",
-    "Options",
     "Solution",
+    "SolverOptions",
     "Term",
     "compile_residual",
     "independent_prior",
@@ -54,7 +54,7 @@ NO_WAY_DOWN = 1e12
 
 
 @dataclass(frozen=True)
-class Options:
+class SolverOptions:
     """Knobs of the descent."""
 
     iterations: int = 60
@@ -191,7 +191,9 @@ class Solution:
         return np.concatenate([self._layout.columns(name).ravel() for name in names])
 
 
-def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str | None = None, options: Options | None = None) -> Solution:
+def solve(
+    blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str | None = None, options: SolverOptions | None = None
+) -> Solution:
     """The blocks that make the terms' cost least, from where they stand, by Levenberg-Marquardt.
 
     Parameters
@@ -207,7 +209,7 @@ def solve(blocks: Mapping[str, Block], terms: Sequence[Term], *, eliminate: str 
     ConvergenceError
         The cost still falls after the last iteration, by more than no datum would notice, or is not finite.
     """
-    options = options or Options()
+    options = options or SolverOptions()
     layout = Layout(dict(blocks), eliminate)
     system = linearise(layout, blocks, terms)
     if not np.isfinite(system.cost):

@@ -11,6 +11,8 @@ the rays seem to come from, which for LEDs on a dome lies behind them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from lpcal.geometry.arrays import Array
@@ -19,6 +21,19 @@ from lpcal.geometry.arrays import Array
 def cosine_lobe(angle_rad: Array, exponent: float) -> Array:
     """cos(angle)^exponent, 0 behind the light."""
     return np.asarray(np.maximum(np.cos(angle_rad), 0.0) ** exponent)
+
+
+def isotropic_lobe(angle_rad: Array, _exponent: float) -> Array:
+    """1 in all directions."""
+    return np.ones_like(angle_rad)
+
+
+type Formula = Callable[[Array, float], Array]
+"""Relative intensity (...) at angles (...) rad from the axis, 1 on the axis, by one parameter, the ``exponent`` of the file."""
+FORMULAS: dict[str, Formula] = {"isotropic": isotropic_lobe, "cosine": cosine_lobe}
+"""Lobes of one parameter, by the ``kind`` of the file. Another kind is one more function here: files, report and fields follow it."""
+TABLED = ("table", "leds")
+"""Kinds of lobe that a table holds."""
 
 
 def table_lobe(angle_rad: Array, knots_rad: Array, value: Array) -> Array:

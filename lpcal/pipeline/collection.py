@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +21,7 @@ from lpcal.report.pictures import png, shaded, shrink
 
 THUMBNAIL = 120
 """Pixels of a surface's picture along its longer side: a screen shows some fifty."""
-COLUMNS = (
-    "name", "state", "doubt", "pixels", "pieces", "distance_mm", "distance_std_mm", "other_distance_odds", "mask_doubt",
-    "normal_std_deg", "residual_sigmas", "solving_s", "peak_memory_mb", "folder", "notes", "error",
-)  # fmt: skip
+COLUMNS = tuple(one.name for one in fields(Row) if one.name != "picture")
 
 
 @dataclass(frozen=True)
@@ -63,7 +60,7 @@ def write_collection(root: Path, found: Sequence[tuple[Task, str, dict[str, Any]
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
-    table.writerows([_written(row.cells[column]) for column in COLUMNS] for row in rows)
+    table.writerows([_written(getattr(row, column)) for column in COLUMNS] for row in rows)
     write_text(root / COLLECTION.csv, text.getvalue(), CSV)
     write_text(root / COLLECTION.page, render(root.resolve().name, rows), PAGE)
     return root / COLLECTION.page
@@ -75,25 +72,26 @@ def row_of(root: Path, task: Task, state: str, document: dict[str, Any], error: 
     metric = document.get("units") == "metres"
     largest = max(pieces, key=lambda piece: piece["pixels"], default=None)
     odds = max((one["odds"] for one in (largest or {}).get("alternatives", [])), default=None)
-    cells: dict[str, Any] = {
-        "name": task.name,
-        "state": state,
-        "doubt": round(1.0 if not document else max(float(document.get("mask_doubt") or 0), float(odds or 0)), 3),
-        "pixels": figures.get("pixels"),
-        "pieces": len(pieces) if document else None,
-        "distance_mm": 1e3 * largest["mean_depth_m"] if largest and metric else None,
-        "distance_std_mm": 1e3 * largest["mean_depth_m"] * largest["scale_std"] if largest and metric else None,
-        "other_distance_odds": odds,
-        "mask_doubt": document.get("mask_doubt"),
-        "normal_std_deg": figures.get("normal_std_deg"),
-        "residual_sigmas": figures.get("residual_sigmas_rms"),
-        "solving_s": document.get("times_s", {}).get("solving"),
-        "peak_memory_mb": document.get("peak_memory_mb"),
-        "folder": _seen_from(root, task.target),
-        "notes": " | ".join(document.get("notes", [])),
-        "error": "" if error is None else " ".join(str(error).split()),
-    }
-    return Row(cells, data_uri(picture) if document and (picture := _picture(task.target)) else None)
+    picture = _picture(task.target) if document else None
+    return Row(
+        name=task.name,
+        state=state,
+        doubt=round(1.0 if not document else max(float(document.get("mask_doubt") or 0), float(odds or 0)), 3),
+        pixels=figures.get("pixels"),
+        pieces=len(pieces) if document else None,
+        distance_mm=1e3 * largest["mean_depth_m"] if largest and metric else None,
+        distance_std_mm=1e3 * largest["mean_depth_m"] * largest["scale_std"] if largest and metric else None,
+        other_distance_odds=odds,
+        mask_doubt=document.get("mask_doubt"),
+        normal_std_deg=figures.get("normal_std_deg"),
+        residual_sigmas=figures.get("residual_sigmas_rms"),
+        solving_s=document.get("times_s", {}).get("solving"),
+        peak_memory_mb=document.get("peak_memory_mb"),
+        folder=_seen_from(root, task.target),
+        notes=" | ".join(document.get("notes", [])),
+        error="" if error is None else " ".join(str(error).split()),
+        picture=data_uri(picture) if picture else None,
+    )
 
 
 def _seen_from(root: Path, target: Path) -> str:

@@ -13,8 +13,7 @@ import numpy as np
 
 from lpcal.errors import DisagreementError
 from lpcal.formats.camera_files import read_camera_file
-from lpcal.formats.camera_yaml import KIND, read_camera
-from lpcal.formats.documents import read_document
+from lpcal.formats.camera_yaml import read_camera, read_camera_solution
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.pipeline.workspace import Workspace
@@ -84,18 +83,18 @@ def _measures(own: Camera, foreign: Camera, pixels: Array) -> dict[str, Any]:
 
 def _covered(path: Path, pixels: Array) -> Mask:
     """The pixels near a place of camera.yaml's grid that corners cover; none where it has no grid."""
-    sure = read_document(path, KIND).get("evidence", {}).get("projection_uncertainty")
-    if not sure:
+    sure = read_camera_solution(path).evidence.projection_uncertainty
+    if sure is None:
         return np.zeros(len(pixels), dtype=bool)
-    column = np.abs(pixels[:, :1] - np.array(sure["columns_px"])).argmin(axis=1)
-    row = np.abs(pixels[:, 1:] - np.array(sure["rows_px"])).argmin(axis=1)
-    return np.asarray(np.array(sure["covered"], dtype=bool)[row, column])
+    column = np.abs(pixels[:, :1] - sure.columns_px).argmin(axis=1)
+    row = np.abs(pixels[:, 1:] - sure.rows_px).argmin(axis=1)
+    return np.asarray(sure.covered[row, column])
 
 
 def _expected(path: Path) -> float | None:
     """What this camera's own sigma makes of it, rms where corners are."""
-    sure = read_document(path, KIND).get("evidence", {}).get("projection_uncertainty")
-    return float(sure["rms_px"]) if sure else None
+    sure = read_camera_solution(path).evidence.projection_uncertainty
+    return None if sure is None else sure.rms_px
 
 
 def _lines(document: dict[str, Any], other: Path) -> list[str]:

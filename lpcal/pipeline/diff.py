@@ -10,7 +10,6 @@ import numpy as np
 from lpcal.api.comparison import compare_calibrations
 from lpcal.errors import LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
-from lpcal.formats.documents import read_document
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.outputs import marked, refuse_place, write_text
 from lpcal.geometry.arrays import Array
@@ -34,9 +33,8 @@ def diff(one: Path, other: Path, page: Path) -> Outcome:
     refuse_place(page, PAGE, files)
     before, after = (read_calibration(path) for path in files)
     change = compare_calibrations(before, after, H_PC_covariances=(_covariance(files[0], before.H_PC), _covariance(files[1], after.H_PC)))
-    documents = [read_document(path, "calibration") for path in files]
     lines = lines_of(change)
-    write_text(page, render((str(one), str(other)), (documents[0], documents[1]), change, lines), PAGE)
+    write_text(page, render((str(one), str(other)), (before, after), change, lines), PAGE)
     document = {"before": str(files[0]), "after": str(files[1]), "changed": list(change.changed), **asdict(change)}
     return Outcome([*lines, verdict(change), f"written {page}"], document, list(change.notes))
 

@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 
 from lpcal.formats.pasted_transforms import both_ways, matrix_lines, numbers
+from lpcal.formats.record_documents import document_of
 from lpcal.geometry import se3
 from lpcal.pipeline.handeye_inputs import HandEyeInputs
 from lpcal.records.calibration import HandEye
 from lpcal.records.digits import fine, fine_each
+from lpcal.records.evidence import HandEyeEvidence
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 
@@ -42,7 +44,7 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
         _clock(handeye, given),
         f"views       {len(used)} of {len(handeye.views)} used; the board misses its place by {_rms_words(handeye)}{_held_out(handeye)}",
         *_left_out(handeye),
-        f"noise       {_noise(handeye)}",
+        *_noise(handeye.evidence),
         *([f"mocap file  {'; '.join(given.notes)}"] if given.notes else []),
         f"written     calib/handeye.yaml (all forms, both ways; what would sharpen it), calib/H_OP.yaml, calib/{EASY_HANDEYE_FILE}",
     ]
@@ -56,10 +58,9 @@ def summarise(handeye: HandEye, given: HandEyeInputs, rig: Rig) -> Outcome:
 
 def _size(handeye: HandEye) -> list[str]:
     """How large the mocap finds the board, and that H_PC is in the mocap's metres."""
-    found: dict[str, Any] = handeye.evidence
-    if "board_size_by_mocap" not in found:
+    if handeye.evidence is None:
         return []
-    share, std = 100 * float(found["board_size_by_mocap"]), 100 * float(found["board_size_by_mocap_std"])
+    share, std = 100 * handeye.evidence.board_size_by_mocap, 100 * handeye.evidence.board_size_by_mocap_std
     return [f"scale       the board is {share:.2f} +- {fine(std)} % of its stated size by the mocap, in whose metres {handeye.names[0]} is"]
 
 
@@ -88,7 +89,7 @@ def _left_out(handeye: HandEye) -> list[str]:
     why: dict[str, list[str]] = {}
     for view in handeye.views:
         if not view.used:
-            why.setdefault(str(view.why).split(" by ")[0], []).append(view.image)
+            why.setdefault(view.reason or view.why or "no reason given", []).append(view.image)
     if not why:
         return []
     texts = [f"{reason}: {', '.join(images[:NAMED_VIEWS])}{_more(len(images) - NAMED_VIEWS)}" for reason, images in why.items()]
@@ -99,13 +100,15 @@ def _more(count: int) -> str:
     return f" and {count} more" if count > 0 else ""
 
 
-def _noise(handeye: HandEye) -> str:
-    found: dict[str, Any] = handeye.evidence
-    if "corner_sigma_px" in found:
-        mocap = f"mocap {fine(found['mocap_sigma_deg'], 3)} deg, {fine(1e3 * float(found['mocap_sigma_m']))} mm"
-        return f"{mocap}; corners {fine(found['corner_sigma_px'], 3)} px"
-    across, depth = 1e3 * float(found["board_sigma_m"][0]), 1e3 * float(found["board_sigma_m"][2])
-    return f"{fine(found['board_sigma_deg'], 3)} deg, {fine(across)} mm across, {fine(depth)} mm in depth, both sensors together"
+def _noise(found: HandEyeEvidence | None) -> list[str]:
+    if found is None:
+        return []
+    if found.corner_sigma_px is not None:
+        mocap = f"mocap {fine(found.mocap_sigma_deg, 3)} deg, {fine(1e3 * found.mocap_sigma_m)} mm"
+        return [f"noise       {mocap}; corners {fine(found.corner_sigma_px, 3)} px"]
+    across, _, depth = (1e3 * sigma_m for sigma_m in found.board_sigma_m or (np.nan,) * 3)
+    turn = fine(found.board_sigma_deg or np.nan, 3)
+    return [f"noise       {turn} deg, {fine(across)} mm across, {fine(depth)} mm in depth, both sensors together"]
 
 
 def _held_out(handeye: HandEye) -> str:
@@ -125,5 +128,5 @@ def _document(handeye: HandEye, body: str) -> dict[str, Any]:
         "views_used": sum(view.used for view in handeye.views),
         "views_left_out": {view.image: view.why for view in handeye.views if not view.used},
         "held_out_m": {view.image: view.held_out_m for view in handeye.views if view.held_out_m is not None},
-        "evidence": handeye.evidence,
+        "evidence": {} if handeye.evidence is None else document_of(handeye.evidence),
     }

@@ -14,6 +14,7 @@ from lpcal.formats.capture import read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
+from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import SURFACE, summary_of, write_surface
 from lpcal.pipeline.reconstruct import from_here
 from lpcal.records.calibration import Camera
@@ -24,7 +25,13 @@ HEAD = 1000
 
 
 def integrate_file(
-    normals: Path, calibration: Path | None, mask: Path | None, target: Path, distance_m: float | None = None, green: Green = "auto"
+    normals: Path,
+    calibration: Path | None,
+    mask: Path | None,
+    target: Path,
+    distance_m: float | None = None,
+    green: Green = "auto",
+    integrator: str = "lpcal",
 ) -> Outcome:
     """Integrate a normal map and write its folder.
 
@@ -38,14 +45,15 @@ def integrate_file(
     values, good = read_normals(normals)
     inside = good if mask is None else good & read_mask(mask, good.shape)
     camera, working_m = (None, None) if calibration is None else _camera(calibration)
-    surface = integrate(values, camera, inside, distance_m=distance_m or working_m or DISTANCE_M, green=green, name=normals.stem)
+    distance_m = distance_m or working_m or DISTANCE_M
+    surface = integrate(values, camera, inside, distance_m=distance_m, green=green, integrator=integrator, name=normals.stem)
     *told, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
-    convention = surface.figures["convention"]
+    figures = document_of(surface.figures)
     document = summary_of(surface) | {
-        "convention": convention,
-        "counts_and_residuals": {key: value for key, value in surface.figures.items() if key != "convention"},
+        "convention": figures.pop("convention"),
+        "counts_and_residuals": figures,
         "times_s": {"solving": seconds},
         "inputs": inputs,
     }

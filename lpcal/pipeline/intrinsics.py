@@ -18,7 +18,6 @@ from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import write_camera
 from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
 from lpcal.formats.corners_vnl import write_corners
-from lpcal.formats.documents import Provenance
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.images import read_image
@@ -30,6 +29,7 @@ from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardViews
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.provenance import Provenance
 from lpcal.records.rig import CameraSection
 from lpcal.records.sensor import Sensor
 

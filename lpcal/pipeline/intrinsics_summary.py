@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.record_documents import document_of
 from lpcal.records.calibration import CameraSolution
 from lpcal.records.digits import fine
+from lpcal.records.evidence import CameraEvidence, ShapeTerm
 from lpcal.records.observations import BoardPoses
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
@@ -23,7 +25,7 @@ def summarise(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, s
     """The outcome of the stage."""
     camera = solution.camera
     lines = [f"camera      {camera.model}, {camera.image_size[0]}x{camera.image_size[1]}, {solution.solver}"]
-    if note := solution.evidence.get("solver_note"):
+    if note := solution.evidence.solver_note:
         lines.append(f"            {note}")
     lines += _figures(solution)
     images = len(poses.images) + len(left_out)
@@ -43,7 +45,7 @@ def _figures(solution: CameraSolution) -> list[str]:
     if not solution.views:
         K = camera.K
         return [f"            f {K[0, 0]:.2f} {K[1, 1]:.2f} px, c {K[0, 2]:.2f} {K[1, 2]:.2f} px, as given"]
-    chosen: dict[str, Any] = dict(evidence.get("chosen", {}))  # type: ignore[call-overload]
+    why = evidence.chosen.why if evidence.chosen is not None else "as asked"
     used = sum(view.used for view in solution.views)
     found = sum(view.corners + view.rejected > 0 for view in solution.views)
     rejected = sum(view.rejected for view in solution.views)
@@ -55,56 +57,51 @@ def _figures(solution: CameraSolution) -> list[str]:
         values = (camera.K[0, 0], camera.K[1, 1]) if label == "f" else (camera.K[0, 2], camera.K[1, 2])
         sigma = np.sqrt(np.diag(camera.covariance))[[first, second]] if camera.covariance is not None else [np.nan, np.nan]
         lines.append(f"{label}           {values[0]:.2f} +- {fine(sigma[0])}, {values[1]:.2f} +- {fine(sigma[1])} px")
-    return [*lines, f"board       {_board(evidence)}", f"model       {camera.model}: {chosen.get('why', 'as asked')}", *_sureness(evidence)]
+    return [*lines, f"board       {_board(evidence.board_shape or {})}", f"model       {camera.model}: {why}", *_sureness(evidence)]
 
 
-def _board(evidence: Mapping[str, Any]) -> str:
+def _board(shape: Mapping[str, ShapeTerm]) -> str:
     """The board's shape in words."""
-    shape = {name: entry["value"] for name, entry in evidence.get("board_shape", {}).items()}
     if not shape:
         return "taken as flat"
-    within = all(abs(entry["value"]) < FLAT_SIGMAS * entry["std"] for entry in evidence["board_shape"].values())
+    within = all(abs(term.value) < FLAT_SIGMAS * term.std for term in shape.values())
     words = "flat within its sigma: " if within else ""
-    words += f"bowed by {_mm(evidence, 'bow_x_m')} along x, {_mm(evidence, 'bow_y_m')} along y"
+    words += f"bowed by {_mm(shape['bow_x_m'])} along x, {_mm(shape['bow_y_m'])} along y"
     if "twist_m" in shape:
-        cubic = max(abs(value) for name, value in shape.items() if name.startswith("cubic"))
-        words += f", twisted by {_mm(evidence, 'twist_m')}, bent otherwise by up to {fine(1e3 * cubic)} mm"
+        cubic = max(abs(term.value) for name, term in shape.items() if name.startswith("cubic"))
+        words += f", twisted by {_mm(shape['twist_m'])}, bent otherwise by up to {fine(1e3 * cubic)} mm"
     if "stretch" in shape:
-        words += (
-            f"; its squares are {1e2 * shape['stretch']:.3f} % longer along x than along y, and {np.degrees(shape['shear']):.3f} deg askew"
-        )
+        askew_deg = np.degrees(shape["shear"].value)
+        words += f"; its squares are {1e2 * shape['stretch'].value:.3f} % longer along x than along y, and {askew_deg:.3f} deg askew"
     return words
 
 
-def _mm(evidence: Mapping[str, Any], term: str) -> str:
+def _mm(term: ShapeTerm) -> str:
     """A term of the board's shape in mm, with its sigma where that is known."""
-    entry = evidence["board_shape"][term]
-    sigma = "" if not np.isfinite(entry["std"]) else f" +- {fine(1e3 * entry['std'])}"
-    return f"{fine(1e3 * entry['value'])}{sigma} mm"
+    sigma = "" if not np.isfinite(term.std) else f" +- {fine(1e3 * term.std)}"
+    return f"{fine(1e3 * term.value)}{sigma} mm"
 
 
-def _sureness(evidence: Mapping[str, Any]) -> list[str]:
+def _sureness(evidence: CameraEvidence) -> list[str]:
     """How sure, where, by which views, and what to do next."""
-    sure, lines = evidence.get("projection_uncertainty"), []
-    if sure:
+    sure, lines = evidence.projection_uncertainty, []
+    if sure is not None:
         lines += [
-            f"sure to     {fine(sure['rms_px'])} px rms where corners are, {fine(sure['most_px'])} px at most",
-            f"            to be trusted over {100 * sure['trusted_share']:.0f} % of the imager, of which corners cover "
-            f"{100 * sure['covered_share']:.0f} %; not known beyond them",
+            f"sure to     {fine(sure.rms_px)} px rms where corners are, {fine(sure.most_px)} px at most",
+            f"            to be trusted over {100 * sure.trusted_share:.0f} % of the imager, of which corners cover "
+            f"{100 * sure.covered_share:.0f} %; not known beyond them",
         ]
-    for check in ("independent_check", "free_board_check"):
-        other = evidence.get(check) or {}
-        if "difference_rms_px" in other:
-            by, rms_px, most_px = other["by"], other["difference_rms_px"], other["difference_worst_px"]
-            lines.append(f"check       {by}: {fine(rms_px)} px rms, {fine(most_px)} px at most apart")
-    if "coverage" in evidence:
-        lines.append(f"coverage    {evidence['coverage']['in_words']}")
-    if evidence.get("views_that_matter"):
-        first = evidence["views_that_matter"][:3]
-        lines.append("views       that matter most: " + ", ".join(f"{v['image']} ({100 * (v['without_it'] - 1):.0f} %)" for v in first))
-    if evidence.get("next_view"):
-        view = evidence["next_view"]
-        lines.append(f"next view   {view['hold_the_board']}: {fine(view['std_now_px'])} px would become {fine(view['std_then_px'])} px")
+    for other in (evidence.independent_check, evidence.free_board_check):
+        if other is not None and other.difference_rms_px is not None and other.difference_worst_px is not None:
+            apart = f"{fine(other.difference_rms_px)} px rms, {fine(other.difference_worst_px)} px at most apart"
+            lines.append(f"check       {other.by}: {apart}")
+    if evidence.coverage is not None:
+        lines.append(f"coverage    {evidence.coverage.in_words}")
+    if evidence.views_that_matter:
+        first = evidence.views_that_matter[:3]
+        lines.append("views       that matter most: " + ", ".join(f"{v.image} ({100 * (v.without_it - 1):.0f} %)" for v in first))
+    if (view := evidence.next_view) is not None:
+        lines.append(f"next view   {view.hold_the_board}: {fine(view.std_now_px)} px would become {fine(view.std_then_px)} px")
     return lines
 
 
@@ -129,7 +126,7 @@ def _document(solution: CameraSolution, poses: BoardPoses, left_out: dict[str, s
         "parameters": camera.parameters,
         "std": None if camera.covariance is None else np.sqrt(np.diag(camera.covariance)),
         "solver": solution.solver,
-        "evidence": solution.evidence,
+        "evidence": document_of(solution.evidence),
         "views": [vars(view) for view in solution.views],
         "boards_found": len(poses.images),
         "boards_not_found": left_out,

@@ -52,6 +52,9 @@ class Wishes:
     """What the user asks for, for every capture."""
 
     near: bool = True
+    method: str | None = None
+    """A method to compare with; None: lpcal's own."""
+    integrator: str = "lpcal"
     distance_m: float | None = None
     mask: str = "auto"
     """auto | none | a file."""
@@ -131,10 +134,10 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         progress=progress,
     )
     read = time.perf_counter()
-    surface = made(mask=mask, method="near" if wishes.near else "distant")
+    surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
-    if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
+    if document["flatness"] and wishes.near and wishes.method is None and calibration.lights[0].source_C is not None:
         document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
     document["made_from"] = made_from
     write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
@@ -231,9 +234,9 @@ def _flat_said(document: dict[str, Any]) -> str:
     near, distant = document["flatness"], document.get("flatness_distant")
     if not near:
         return ""
-    said = f"\n  nearly flat: {near['plane_rms_mm']:.2f} mm rms from a plane, {near['plane_peak_to_valley_mm']:.2f} mm from peak to valley"
-    said += f" over {near['extent_mm']:.0f} mm, a bowl of {near['bowl_mm']:.2f} mm"
-    return said + (f"; with distant lights it would be one of {distant['bowl_mm']:.1f} mm" if distant else "")
+    said = f"\n  nearly flat: {near.plane_rms_mm:.2f} mm rms from a plane, {near.plane_peak_to_valley_mm:.2f} mm from peak to valley"
+    said += f" over {near.extent_mm:.0f} mm, a bowl of {near.bowl_mm:.2f} mm"
+    return said + (f"; with distant lights it would be one of {distant.bowl_mm:.1f} mm" if distant else "")
 
 
 def from_here(target: Path) -> Path:

@@ -15,6 +15,7 @@ from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.capture import check_lights, read_capture
 from lpcal.formats.lights_yaml import KIND, write_lights
 from lpcal.formats.lobe_files import read_lobe
+from lpcal.formats.record_documents import document_of
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine_handeye import summary_of_handeye, with_handeye
@@ -103,13 +104,12 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
-    evidence = solution.evidence | ({"exposure_sweep": swept} if swept else {})
     found = tuple(_with_outline(sphere, views) for sphere in solution.spheres)
     solution = replace(
         solution,
         spheres=(*found, *left_out),
         warnings=(*(note for view in views for note in view.notes), *solution.warnings),
-        evidence=evidence,
+        evidence=replace(solution.evidence, exposure_sweep=swept),
     )
     write_lights(workspace.calib(FILE), solution, STAGE.provenance(workspace))
     return Outcome(
@@ -117,7 +117,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         document={
             "file": str(workspace.calib(FILE)),
             "lights": {light.name: light.direction_C for light in solution.lights},
-            "evidence": solution.evidence,
+            "evidence": document_of(solution.evidence),
         },
         warnings=[*(f"left out: {error}" for error in bad.values()), *solution.warnings],
         next_command="lpcal export",
@@ -150,11 +150,11 @@ def summary_of(solution: LightsSolution) -> list[str]:
 
 def _advice(solution: LightsSolution) -> list[str]:
     """Which sphere to add next, and what it gains."""
-    advice = solution.evidence.get("next_sphere")
-    if not isinstance(advice, dict):
+    advice = solution.evidence.next_sphere
+    if advice is None:
         return []
-    before, after = (advice[key] for key in ("direction_std_deg", "with_it_deg"))
-    return [f"one more chrome sphere tells most {advice['where']}: directions from +- {fine(before, 3)} to +- {fine(after, 3)} deg"]
+    gain = f"directions from +- {fine(advice.direction_std_deg, 3)} to +- {fine(advice.with_it_deg, 3)} deg"
+    return [f"one more chrome sphere tells most {advice.where}: {gain}"]
 
 
 def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,14 +12,15 @@ import numpy as np
 from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
-from lpcal.formats.camera_yaml import read_camera
-from lpcal.formats.documents import read_document, sha256
+from lpcal.formats.camera_yaml import read_camera_solution
+from lpcal.formats.documents import read_provenance, sha256
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.h_op_yaml import read_h_op
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.images import read_image
 from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.outputs import marked, refuse_place, write_text
+from lpcal.formats.surface_files import read_summary
 from lpcal.formats.wings_yaml import read_wings
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
@@ -45,27 +45,26 @@ class ReportStage(Stage):
         return path.is_file() and f'content="{_stamp(workspace)}"' in path.read_text(encoding="utf-8")[:STAMP_WITHIN]
 
 
-READERS: dict[str, Callable[[Path], object]] = {
-    "camera": read_camera,
-    "H_CB": read_h_cb,
-    "H_OP": read_h_op,
-    "handeye": read_handeye,
-    "wings": read_wings,
-    "lights": read_lights,
-    "calibration": read_calibration,
-}
-"""What judges each kind of document."""
+def _report(workspace: Workspace, surfaces: Sequence[SurfaceReport]) -> RigReport:
+    """The records of the documents that there are."""
+    paths = {path.stem: path for path in _documents(workspace)}
 
+    def read[Record](kind: str, reader: Callable[[Path], Record]) -> Record | None:
+        return reader(paths[kind]) if kind in paths else None
 
-def _page(report: RigReport, workspace: Workspace) -> str:
-    """The page; where it cannot be made, the fault of the document that its own reader refuses."""
-    try:
-        return render(report, _stamp(workspace))
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError):
-        for path in _documents(workspace):
-            if path.stem in READERS:
-                READERS[path.stem](path)
-        raise
+    found = read("H_OP", read_h_op)
+    return RigReport(
+        workspace.rig_file.rig.name,
+        camera=read("camera", read_camera_solution),
+        boards=read("H_CB", read_h_cb),
+        body_poses=None if found is None else found.by_image(),
+        handeye=read("handeye", read_handeye),
+        wings=read("wings", read_wings),
+        lights=read("lights", read_lights),
+        calibration=read("calibration", read_calibration),
+        provenance={kind: read_provenance(path, kind) for kind, path in paths.items()},
+        surfaces=tuple(surfaces),
+    )
 
 
 def write_report(workspace: Workspace, progress: Progress) -> Outcome:
@@ -78,9 +77,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
     """
     path = workspace.calib(FILE)
     refuse_place(path, KIND)
-    documents = {path.stem: read_document(path, path.stem) for path in _documents(workspace)}
     folders = [path.parent for path in _summaries(workspace)]
-    if not documents and not folders:
+    if not _documents(workspace) and not folders:
         raise InputError(
             "nothing to report on: no stage has written anything yet",
             where=str(workspace.folder / "calib"),
@@ -91,8 +89,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
     for done, folder in enumerate(folders, start=1):
         surfaces.append(_surface(folder))
         progress("pictures", done, len(folders))
-    report = RigReport(workspace.rig_file.rig.name, documents, tuple(surfaces))
-    write_text(path, _page(report, workspace), KIND)
+    report = _report(workspace, surfaces)
+    write_text(path, render(report, _stamp(workspace)), KIND)
     lines = verdicts(report)
     tone, sentence = headline(lines)
     summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, workspace.relative(path)]
@@ -101,15 +99,8 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
 
 
 def _surface(folder: Path) -> SurfaceReport:
-    try:
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    except ValueError as error:
-        todo = "reconstruct the object anew, or remove the folder"
-        raise InputError(
-            "not readable as JSON", where=str(folder / "summary.json"), needed="a summary that lpcal wrote", todo=todo
-        ) from error
     relight = f"../surfaces/{folder.name}/relight.html" if (folder / "relight.html").is_file() else None
-    return SurfaceReport(folder.name, summary, _pictures(folder), relight)
+    return SurfaceReport(folder.name, read_summary(folder / "summary.json"), _pictures(folder), relight)
 
 
 def _pictures(folder: Path) -> dict[str, bytes]:

@@ -13,7 +13,9 @@ captures, calibration    -> surfaces       reconstruct
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.panel_yaml import FILE_NAME
@@ -29,19 +31,27 @@ def before(stage: Stage) -> tuple[Stage, ...]:
     return CHAIN[: CHAIN.index(stage)]
 
 
-def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Progress) -> Outcome:
+@dataclass(frozen=True)
+class Brought:
+    """A stage, and what running it found; None where its files were up to date."""
+
+    stage: Stage
+    outcome: Outcome | None
+
+
+def bring_up_to_date(workspace: Workspace, stages: Sequence[Stage], progress: Progress) -> list[Brought]:
     """Run those of the stages that the rig has the sections for and whose files are out of date, in order."""
-    summary: list[str] = []
-    document: dict[str, object] = {}
-    warnings: list[str] = []
-    exit_code = 0
-    for stage in stages:
-        if not stage.wanted(workspace):
+    wanted = (stage for stage in stages if stage.wanted(workspace))
+    return [Brought(stage, None if stage.up_to_date(workspace) else stage.run(workspace, progress)) for stage in wanted]
+
+
+def together(brought: Sequence[Brought], *, say_up_to_date: bool) -> Outcome:
+    """One outcome of several stages; the exit code is the first that is not 0."""
+    summary, document, warnings, exit_code = list[str](), dict[str, Any](), list[str](), 0
+    for stage, outcome in ((one.stage, one.outcome) for one in brought):
+        if outcome is None:
+            summary += [f"{stage.name}: up to date"] * say_up_to_date
             continue
-        if stage.up_to_date(workspace):
-            summary.append(f"{stage.name}: up to date")
-            continue
-        outcome = stage.run(workspace, progress)
         summary += [f"{stage.name}: {outcome.summary[0]}", *(f"  {line}" for line in outcome.summary[1:])]
         document[stage.name] = outcome.document
         warnings += [f"{stage.name}: {warning}" for warning in outcome.warnings]
@@ -69,12 +79,10 @@ def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome
     """
     earlier_stages = before(stage) if stage.wanted(workspace) else ()
     look_ahead(workspace, (*earlier_stages, stage))
-    earlier = bring_up_to_date(workspace, earlier_stages, progress)
+    earlier = together(bring_up_to_date(workspace, earlier_stages, progress), say_up_to_date=False)
     outcome = stage.run(workspace, progress)
-    told = [line for line in earlier.summary if not line.endswith(": up to date")]
-    return Outcome(
-        [*told, *outcome.summary], outcome.document, [*earlier.warnings, *outcome.warnings], outcome.next_command, outcome.exit_code
-    )
+    said, warnings = [*earlier.summary, *outcome.summary], [*earlier.warnings, *outcome.warnings]
+    return Outcome(said, outcome.document, warnings, outcome.next_command, outcome.exit_code)
 
 
 def run_all(workspace: Workspace, progress: Progress) -> Outcome:
@@ -94,7 +102,7 @@ def run_all(workspace: Workspace, progress: Progress) -> Outcome:
             todo="see lpcal new, or the README's rig folder",
         )
     look_ahead(workspace, stages)
-    chain = bring_up_to_date(workspace, stages, progress)
+    chain = together(bring_up_to_date(workspace, stages, progress), say_up_to_date=True)
     page = report.write_report(workspace, progress)
     return Outcome(
         [*chain.summary, *page.summary],

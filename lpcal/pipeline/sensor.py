@@ -11,6 +11,7 @@ from lpcal.detect.radiometry import fit_flat_field
 from lpcal.formats.capture import read_sweep
 from lpcal.formats.images import read_image
 from lpcal.pipeline.workspace import Workspace
+from lpcal.records.evidence import ExposureSweep
 from lpcal.records.sensor import PLAIN, Sensor, StatedSensor
 
 
@@ -36,7 +37,7 @@ def sweep_path(workspace: Workspace) -> Path | None:
     return workspace.path(named, "camera.exposure_sweep") if named else None
 
 
-def check_sweep(workspace: Workspace, sensor: Sensor) -> dict[str, float] | None:
+def check_sweep(workspace: Workspace, sensor: Sensor) -> ExposureSweep | None:
     """Hold the sensor as stated against the exposure sweep; what the sweep says, None where there is none.
 
     Raises
@@ -51,7 +52,7 @@ def check_sweep(workspace: Workspace, sensor: Sensor) -> dict[str, float] | None
     found = fit_sweep(images, exposure_s, sensor, step)
     refuse_contradiction(found, sensor)
     read, shot = found.noise
-    return {"black_level": found.black_level, "gamma": found.gamma, "misfit": found.misfit, "noise_read": read, "noise_shot": shot}
+    return ExposureSweep(black_level=found.black_level, gamma=found.gamma, misfit=found.misfit, noise_read=read, noise_shot=shot)
 
 
 def flat_field_path(workspace: Workspace) -> Path | None:

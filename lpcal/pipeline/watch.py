@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.api.boards import board_of
-from lpcal.api.watching import Seen, Session, lacking
+from lpcal.api.watching import Seen, Watched, lacking
 from lpcal.detect.board import find_board
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.images import read_image
@@ -44,7 +44,7 @@ class Watch:
 
     folder: Path
     rig: Rig | None
-    session: Session
+    session: Watched
     known: dict[Path, tuple[int, int]] = field(default_factory=dict)
     """Size and time of each image when it was last looked at."""
     done: set[tuple[Path, int, int]] = field(default_factory=set)
@@ -121,7 +121,7 @@ def watch(
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder that images come into")
     board = None if rig is None or rig.board is None else board_of(rig.board)
-    at = Watch(folder, rig, Session(board, tuple(rig.lights) if rig else ()))
+    at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else ()))
     if board is not None:
         find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
     with _served(at, port) as address:

@@ -14,10 +14,11 @@ from typing import Any
 
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
-from lpcal.formats.documents import Provenance, document_kind, plain, read_document, sha256
+from lpcal.formats.documents import document_kind, plain, read_document, sha256
 from lpcal.formats.named_files import hidden, kind_of_other, resolve_named, spellings
 from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.provenance import Provenance
 from lpcal.records.rig import RigFile
 
 IMAGE_ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")

@@ -13,6 +13,8 @@ import numpy as np
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
+from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
+from lpcal.records.observations import SphereKind
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
@@ -77,7 +79,8 @@ class HandEye(Shown):
     """By how much the camera's clock runs faster, s/s; the offset holds at the camera's time `clock_middle_s`. 0: no drift shows."""
     clock_middle_s: float = 0.0
     warnings: tuple[str, ...] = ()
-    evidence: dict[str, object] = field(default_factory=dict)
+    evidence: HandEyeEvidence | None = None
+    """What the solve rests on; None where the transform was not solved for here."""
     carries: Carries = "camera"
     taken_offset_s: float = 0.0
     """The clock offset at which the body's poses were taken, where the data do not show it too."""
@@ -87,6 +90,16 @@ class HandEye(Shown):
     def mocap_times(self, t_camera_s: Array) -> Array:
         """Times (N,) on the mocap's clock of times (N,) on the camera's, seconds."""
         return np.asarray(t_camera_s - self.clock_drift * (t_camera_s - self.clock_middle_s) - self.taken_offset_s)
+
+    @property
+    def position_std_m(self) -> Array:
+        """Standard deviation (3,) of the camera's place: of the last column of ``H_PC``, metres."""
+        return np.asarray(se3.origin_sigmas(self.H_PC, self.H_PC_covariance))
+
+    @property
+    def rotation_std_rad(self) -> Array:
+        """Standard deviation (3,) of the turn of ``H_PC``, about the axes of the body, radians."""
+        return np.sqrt(np.diag(self.H_PC_covariance)[:3])
 
     @property
     def names(self) -> tuple[str, str]:
@@ -144,6 +157,20 @@ class Wings(Shown):
     """Where H_CD comes from, in words."""
     d_object_m: float = float("nan")
 
+    @property
+    def position_std_m(self) -> Array:
+        """Standard deviation (L,) of each light's position, an axis, metres."""
+        blocks = [self._block(k) for k in range(len(self.wings))]
+        return np.array([np.sqrt(np.trace(se3.origin_covariance(H_CL, b)) / 3) for H_CL, b in zip(self.H_CL, blocks, strict=True)])
+
+    @property
+    def axis_std_rad(self) -> Array:
+        """Standard deviation (L,) of each light's axis, an axis, radians."""
+        return np.array([np.sqrt(np.trace(self._block(k)[:3, :3]) / 3) for k in range(len(self.wings))])
+
+    def _block(self, k: int) -> Array:
+        return self.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
+
 
 @dataclass(frozen=True)
 class LedCluster:
@@ -162,9 +189,10 @@ class LedCluster:
 class Lobe:
     """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
 
-    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. ``table``: cubic through (angle_rad, value), 0 beyond the last.
-    ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the roll. A table may carry a smooth factor over the
-    directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in the light's frame.
+    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. Others of one parameter: `light_field.FORMULAS`. ``table``: cubic
+    through (angle_rad, value), 0 beyond the last. ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the
+    roll. A table may carry a smooth factor over the directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in
+    the light's frame.
     """
 
     kind: str = "isotropic"
@@ -179,11 +207,9 @@ class Lobe:
 
     def __call__(self, angle_rad: Array) -> Array:
         """Relative intensity (...) at angles (...) from the axis."""
-        if self.kind == "cosine":
-            return light_field.cosine_lobe(angle_rad, self.exponent)
-        if self.kind in {"table", "leds"}:
+        if self.kind in light_field.TABLED:
             return light_field.table_lobe(angle_rad, self.angle_rad, self.value)
-        return np.ones_like(angle_rad)
+        return light_field.FORMULAS[self.kind](angle_rad, self.exponent)
 
 
 @dataclass(frozen=True, repr=False)
@@ -258,7 +284,7 @@ class SphereFinding:
     """What one sphere says by itself."""
 
     name: str
-    kind: str
+    kind: SphereKind
     centre_C: Array | None
     radius_m: float | None
     used: bool
@@ -285,7 +311,7 @@ class LightsSolution(Shown):
     H_CD: Array | None
     spheres: tuple[SphereFinding, ...]
     warnings: tuple[str, ...] = ()
-    evidence: dict[str, object] = field(default_factory=dict)
+    evidence: LightsEvidence = field(default_factory=LightsEvidence)
     H_CD_covariance: Array | None = None
     camera: Camera | None = None
     """The camera as the joint solve has it; None: it was taken as it is."""
@@ -332,6 +358,8 @@ class Calibration(Shown):
     """What is stated of the sensor where there is no camera; else the camera holds it."""
     warnings: tuple[str, ...] = ()
     """What is to be said of the file that it comes from, in words."""
+    origin: str = ""
+    """The format of another system that it was read from."""
 
     def of_images(self, size: tuple[int, int]) -> Calibration:
         """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""

@@ -8,9 +8,12 @@ from lpcal.geometry import camera as central
 from lpcal.geometry import splined
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma
+from lpcal.records.evidence import CameraEvidence
 from lpcal.records.sensor import FlatField
 from lpcal.records.shown import Shown
 
+COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
+"""OpenCV's names of the distortion's coefficients, in its order."""
 SIZE_DOUBT = 0.25
 """Share of a guessed image size by which images may differ from it: a principal point lies that close to the middle of a real image."""
 
@@ -73,6 +76,21 @@ class Camera(Shown):
         near = all(abs(told - own) <= SIZE_DOUBT * own for told, own in zip(size, self.image_size, strict=True))
         return replace(self, image_size=size, size_guessed=False) if self.size_guessed and near else self
 
+    def std_of(self, parameter: str) -> float:
+        """The standard deviation of one of `parameters`, such as ``fx``; NaN where it was not solved for."""
+        if self.covariance is None or parameter not in self.parameters:
+            return float("nan")
+        row = self.parameters.index(parameter)
+        return float(self.covariance[row, row]) ** 0.5
+
+    def value_of(self, parameter: str) -> float:
+        """The value of one of `parameters`, such as ``fx`` or ``k1``; NaN for one that K and the distortion do not hold."""
+        core = {"fx": (0, 0), "fy": (1, 1), "cx": (0, 2), "cy": (1, 2)}
+        if parameter in core:
+            return float(self.K[core[parameter]])
+        known = parameter in COEFFICIENTS[: self.distortion.size]
+        return float(self.distortion[COEFFICIENTS.index(parameter)]) if known else float("nan")
+
     def project(self, x_C: Array) -> Array:
         """Pixels (..., 2) of points x_C (..., 3)."""
         if self.spline is not None:
@@ -111,6 +129,8 @@ class ViewVerdict:
     """Share of a board that is as bright as the image gets."""
     held_out_m: float | None = None
     """What it misses a solve of the other views by."""
+    reason: str | None = None
+    """`why` without this view's own figures: the same for all views that were left out for it."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -122,11 +142,11 @@ class CameraSolution(Shown):
     """(M, 3) corners of the board with its warp, mean plane z = 0."""
     views: tuple[ViewVerdict, ...]
     solver: str
-    """mrcal | opencv."""
+    """mrcal or opencv, or from where the camera was given."""
     corner_sigma_px: float
     """One standard deviation of a corner coordinate."""
-    evidence: dict[str, object] = field(default_factory=dict)
-    """How the model was chosen, in figures that go into camera.yaml."""
+    evidence: CameraEvidence = field(default_factory=CameraEvidence)
+    """How the model was chosen and how sure the camera is; empty for a camera that was given."""
     warnings: tuple[str, ...] = ()
     cameramodel: str = ""
     """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +12,11 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.records.shown import Shown
+
+type BoardKind = Literal["chessboard", "charuco"]
+"""What a board shows."""
+type SphereKind = Literal["chrome", "matte"]
+"""What a sphere's surface is: a mirror tells directions, a Lambertian one intensities."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +45,7 @@ class Board:
     """Square size along x, along y."""
     warp: bool = True
     """Whether its departure from a plane may be estimated."""
-    kind: str = "chessboard"
-    """chessboard | charuco."""
+    kind: BoardKind = "chessboard"
     marker_m: float = float("nan")
     """Charuco: side of a marker."""
     dictionary: str = ""
@@ -249,8 +254,7 @@ class SphereView(Shown):
     """What the images of one sphere show."""
 
     name: str
-    kind: str
-    """chrome | matte."""
+    kind: SphereKind
     radius_m: float
     outline_px: Array
     """(K, 2) points of its outline, at sub-pixel."""

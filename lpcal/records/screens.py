@@ -30,7 +30,7 @@ LISTED, WARNED = 12, 3
 
 
 @dataclass(frozen=True)
-class Screen:
+class RecordScreen:
     """What a record shows."""
 
     title: str
@@ -67,14 +67,14 @@ def _cut(line: str) -> str:
 
 
 @singledispatch
-def screen_of(record: object) -> Screen:
+def screen_of(record: object) -> RecordScreen:
     """What a record shows."""
     raise TypeError(type(record).__name__)
 
 
 @screen_of.register
-def _camera(camera: Camera) -> Screen:
-    return Screen(f"Camera {camera.model}, {camera.image_size[0]} x {camera.image_size[1]} px", _lens(camera))
+def _camera(camera: Camera) -> RecordScreen:
+    return RecordScreen(f"Camera {camera.model}, {camera.image_size[0]} x {camera.image_size[1]} px", _lens(camera))
 
 
 def _lens(camera: Camera) -> list[tuple[str, str]]:
@@ -99,14 +99,14 @@ def _lens(camera: Camera) -> list[tuple[str, str]]:
 
 
 @screen_of.register
-def _camera_solution(found: CameraSolution) -> Screen:
+def _camera_solution(found: CameraSolution) -> RecordScreen:
     size = found.camera.image_size
     rows = [*_lens(found.camera), ("corners", f"{fine(found.corner_sigma_px, 3)} px, one sigma"), *_views(found.views)]
-    return Screen(f"CameraSolution {found.camera.model}, {size[0]} x {size[1]} px, by {found.solver}", rows, found.warnings)
+    return RecordScreen(f"CameraSolution {found.camera.model}, {size[0]} x {size[1]} px, by {found.solver}", rows, found.warnings)
 
 
 @screen_of.register
-def _hand_eye(found: HandEye) -> Screen:
+def _hand_eye(found: HandEye) -> RecordScreen:
     camera, board = found.names
     clock = "none, or the data do not show it"
     if found.clock_offset_s is not None:
@@ -117,7 +117,7 @@ def _hand_eye(found: HandEye) -> Screen:
         ("clock", clock),
         *_views(found.views),
     ]
-    return Screen(f"HandEye: the tracked body carries the {found.carries}", rows, found.warnings)
+    return RecordScreen(f"HandEye: the tracked body carries the {found.carries}", rows, found.warnings)
 
 
 def _pose(name: str, H_AB: Array, covariance: Array) -> list[tuple[str, str]]:
@@ -145,7 +145,7 @@ def _views(views: Sequence[ViewVerdict]) -> list[tuple[str, str]]:
 
 
 @screen_of.register
-def _wings(wings: Wings) -> Screen:
+def _wings(wings: Wings) -> RecordScreen:
     sigma_mm = [1e3 * se3.origin_sigmas(H, wings.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]) for k, H in enumerate(wings.H_CL)]
     rows = [
         (wing.name, f"at {_numbers(1e3 * H_CL[:3, 3], 1)} +- {fine_each(sigma)} mm, joint {np.degrees(wing.joint_angle_rad):.1f} deg")
@@ -153,12 +153,12 @@ def _wings(wings: Wings) -> Screen:
     ]
     places_C = {wing.name: H_CL[:3, 3] for wing, H_CL in zip(wings.wings, wings.H_CL, strict=True)}
     title = f"Wings: {len(wings.wings)} lights as designed, axes meet {1e3 * wings.d_object_m:.1f} mm before the disc"
-    return Screen(title, _some(rows), picture=lambda: pictures.lights(places_C))
+    return RecordScreen(title, _some(rows), picture=lambda: pictures.lights(places_C))
 
 
 @screen_of.register
-def _light(light: Light) -> Screen:
-    return Screen(f"Light {light.name}", [*_place(light), ("lobe", light.lobe.kind)])
+def _light(light: Light) -> RecordScreen:
+    return RecordScreen(f"Light {light.name}", [*_place(light), ("lobe", light.lobe.kind)])
 
 
 def _place(light: Light) -> list[tuple[str, str]]:
@@ -178,14 +178,14 @@ def _places(lights: Sequence[Light]) -> dict[str, Array]:
 
 
 @screen_of.register
-def _lights_solution(found: LightsSolution) -> Screen:
+def _lights_solution(found: LightsSolution) -> RecordScreen:
     used = sum(sphere.used for sphere in found.spheres)
     title = f"LightsSolution: {len(found.lights)} lights from {used} of {len(found.spheres)} spheres"
-    return Screen(title, _lights(found.lights), found.warnings, lambda: pictures.lights(_places(found.lights)))
+    return RecordScreen(title, _lights(found.lights), found.warnings, lambda: pictures.lights(_places(found.lights)))
 
 
 @screen_of.register
-def _calibration(found: Calibration) -> Screen:
+def _calibration(found: Calibration) -> RecordScreen:
     camera = (
         "none: parallel rays"
         if found.camera is None
@@ -195,23 +195,23 @@ def _calibration(found: Calibration) -> Screen:
     rows += [("distance", f"{1e3 * found.d_object_m:.1f} mm, where the lights' axes meet")] if found.d_object_m is not None else []
     rows += _lights(found.lights)
     title = f"Calibration {found.name}: {len(found.lights)} lights (source in mm, direction, intensity)"
-    return Screen(title, rows, found.warnings, lambda: pictures.lights(_places(found.lights)))
+    return RecordScreen(title, rows, found.warnings, lambda: pictures.lights(_places(found.lights)))
 
 
 @screen_of.register
-def _light_field(field: LightField) -> Screen:
+def _light_field(field: LightField) -> RecordScreen:
     shape = field.irradiance.shape
     rows = [
         (name, f"irradiance {one.min():.4g} to {one.max():.4g}, {int(beyond.sum())} points extrapolated")
         for name, one, beyond in zip(field.names, field.irradiance, field.extrapolated, strict=True)
     ]
-    return Screen(
+    return RecordScreen(
         f"LightField: {len(field.names)} lights at {int(np.prod(shape[1:-1]))} points, {shape[-1]} channels", _some(rows), field.warnings
     )
 
 
 @screen_of.register
-def _surface(surface: Surface) -> Screen:
+def _surface(surface: Surface) -> RecordScreen:
     unit, scale = ("mm", 1e3) if surface.metric else ("px", 1.0)
     inside = surface.mask & np.isfinite(surface.depth)
     height, width = surface.mask.shape
@@ -228,11 +228,11 @@ def _surface(surface: Surface) -> Screen:
         place = f"at {scale * piece.mean_depth_m:.1f}{sigma} {unit}"
         others = "".join(f", or {scale * one.mean_depth_m:.1f} {unit} (odds {100 * one.odds:.0f} %)" for one in piece.alternatives)
         rows.append((f"piece {piece.label}", f"{piece.pixels} pixels {place}{others}"))
-    return Screen(f"Surface {surface.name}", rows, surface.warnings, lambda: pictures.surface(surface))
+    return RecordScreen(f"Surface {surface.name}", rows, surface.warnings, lambda: pictures.surface(surface))
 
 
 @screen_of.register
-def _evaluation(found: Evaluation) -> Screen:
+def _evaluation(found: Evaluation) -> RecordScreen:
     rows = [
         ("pixels", str(found.pixels)),
         ("normals", f"{found.normal_mean_deg:.3f} deg mean, {found.normal_median_deg:.3f} median, {found.normal_p95_deg:.3f} at 95 %"),
@@ -244,11 +244,13 @@ def _evaluation(found: Evaluation) -> Screen:
         ratio = f", scale {found.scale:.4f}" if np.isfinite(found.scale) else ""
         rows.append(("depth", f"{shape} rms of the shape, {whole} as it is{ratio}"))
     rows += [("mask", f"{100 * found.mask_iou:.1f} % in common")] * bool(np.isfinite(found.mask_iou))
-    return Screen(f"Evaluation of {found.name}", rows, picture=lambda: pictures.heat(found.angle_deg, "angle between the normals, deg"))
+    return RecordScreen(
+        f"Evaluation of {found.name}", rows, picture=lambda: pictures.heat(found.angle_deg, "angle between the normals, deg")
+    )
 
 
 @screen_of.register
-def _pose_stream(stream: PoseStream) -> Screen:
+def _pose_stream(stream: PoseStream) -> RecordScreen:
     t_s, x_mm = stream.t_s, 1e3 * stream.H_OP[:, :3, 3]
     rows = [
         ("samples", f"{len(t_s)} at {stream.rate_hz:.4g} Hz, {stream.lost} lost"),
@@ -256,11 +258,11 @@ def _pose_stream(stream: PoseStream) -> Screen:
         ("moves over", f"{_numbers(np.ptp(x_mm, axis=0), 1)} mm along x, y, z of O" if len(t_s) else "nothing"),
         ("markers", ", ".join(list(stream.markers_O)[:LISTED]) or "none"),
     ]
-    return Screen(f"PoseStream of {stream.body or 'a body'}", rows, stream.notes)
+    return RecordScreen(f"PoseStream of {stream.body or 'a body'}", rows, stream.notes)
 
 
 @screen_of.register
-def _raw_capture(raw: RawCapture) -> Screen:
+def _raw_capture(raw: RawCapture) -> RecordScreen:
     shape, t_s = raw.images.shape, raw.exposure_s
     kind = "RGB" if len(shape) == 4 else "grey"
     rows = [
@@ -271,11 +273,11 @@ def _raw_capture(raw: RawCapture) -> Screen:
         ("short", ", ".join(list(raw.short)[:LISTED]) or "none"),
         ("mask", "none" if raw.mask is None else f"{int(raw.mask.sum())} pixels"),
     ]
-    return Screen(f"RawCapture {raw.name}: {len(raw.lights)} lights", rows, raw.notes, lambda: pictures.grey(raw.images.mean(axis=0)))
+    return RecordScreen(f"RawCapture {raw.name}: {len(raw.lights)} lights", rows, raw.notes, lambda: pictures.grey(raw.images.mean(axis=0)))
 
 
 @screen_of.register
-def _sphere_view(view: SphereView) -> Screen:
+def _sphere_view(view: SphereView) -> RecordScreen:
     centre = view.outline_px.mean(axis=0) if len(view.outline_px) else np.full(2, np.nan)
     radius = np.linalg.norm(view.outline_px - centre, axis=1).mean() if len(view.outline_px) else np.nan
     rows = [
@@ -285,11 +287,11 @@ def _sphere_view(view: SphereView) -> Screen:
         )
     ]
     rows += _some([(name, f"highlight at {_numbers(at, 2)} px") for name, at in view.highlights_px.items()])
-    return Screen(f"SphereView {view.name}, {view.kind}", rows, view.notes)
+    return RecordScreen(f"SphereView {view.name}, {view.kind}", rows, view.notes)
 
 
 @screen_of.register
-def _rig_file(found: RigFile) -> Screen:
+def _rig_file(found: RigFile) -> RecordScreen:
     rig = found.rig
     named = {"lights": [*rig.lights], "spheres": [*rig.spheres], "objects": [*rig.objects]}
     rows = [("file", str(found.file))]
@@ -298,22 +300,22 @@ def _rig_file(found: RigFile) -> Screen:
         rows.append(("board", f"{rig.board.kind}, {rig.board.corners[0]} x {rig.board.corners[1]} inner corners, squares of {squares} mm"))
     rows += [("mocap", str(rig.mocap.file or rig.mocap.poses))] if rig.mocap is not None else []
     rows += [(key, ", ".join(names[:LISTED]) + _more(len(names))) for key, names in named.items() if names]
-    return Screen(f"RigFile {rig.name}", rows)
+    return RecordScreen(f"RigFile {rig.name}", rows)
 
 
 @screen_of.register
-def _board_views(boards: BoardViews) -> Screen:
+def _board_views(boards: BoardViews) -> RecordScreen:
     found = [view for view in boards.views if view.corners_px is not None]
     rows = [("boards", f"found in {len(found)} of {len(boards.views)} images of {boards.image_size[0]} x {boards.image_size[1]} px")]
     blurs = [view.blur_px for view in found if np.isfinite(view.blur_px)]
     rows += [("blur", f"{np.median(blurs):.2f} px, one sigma (median)")] if blurs else []
     rows += _some([(view.image, str(view.why)) for view in boards.views if view.corners_px is None])
     corners = [view.corners_px for view in found if view.corners_px is not None]
-    return Screen("BoardViews", rows, picture=lambda: pictures.points(corners, boards.image_size))
+    return RecordScreen("BoardViews", rows, picture=lambda: pictures.points(corners, boards.image_size))
 
 
 @screen_of.register
-def _board_poses(poses: BoardPoses) -> Screen:
+def _board_poses(poses: BoardPoses) -> RecordScreen:
     z_mm = 1e3 * poses.H_CB[:, 2, 3]
     rows = [("poses", f"{len(poses.images)} of {len(poses.images) + len(poses.without)} images")]
     rows += [("distance", f"{z_mm.min():.1f} to {z_mm.max():.1f} mm")] if len(z_mm) else []
@@ -321,7 +323,7 @@ def _board_poses(poses: BoardPoses) -> Screen:
         sigma = np.median([1e3 * se3.origin_sigmas(H, C) for H, C in zip(poses.H_CB, poses.covariance, strict=True)], axis=0)
         rows.append(("sigma", f"{fine_each(sigma)} mm along x, y, z of C (median)"))
     rows += [("residual", f"{np.median(poses.rms_px):.3f} px rms, a coordinate (median)")] if poses.rms_px is not None and len(z_mm) else []
-    return Screen("BoardPoses", rows + _some(list(poses.without.items())))
+    return RecordScreen("BoardPoses", rows + _some(list(poses.without.items())))
 
 
 def _more(count: int) -> str:

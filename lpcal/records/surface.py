@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.records.figures import ALWAYS, SurfaceFigures
 from lpcal.records.sensor import SensorInUse
 from lpcal.records.shown import Shown
 
@@ -28,7 +29,21 @@ class Component:
     pixels: int
     mean_depth_m: float
     scale_std: float
-    alternatives: tuple[Alternative, ...] = ()
+    alternatives: tuple[Alternative, ...] = field(default=(), metadata=ALWAYS)
+
+
+@dataclass(frozen=True)
+class SurfaceSummary:
+    """What summary.json says of a surface, its maps apart."""
+
+    metric: bool = True
+    """Whether depths are metres, else pixels."""
+    components: tuple[Component, ...] = ()
+    figures: SurfaceFigures = field(default_factory=SurfaceFigures)
+    notes: tuple[str, ...] = ()
+    times_s: dict[str, float] = field(default_factory=dict)
+    """Seconds of each part of the work."""
+    peak_memory_mb: float | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -84,7 +99,7 @@ class Surface(Shown):
     rays_C: Array
     """(H, W, 3) of length 1 in z, so that a point is depth * ray; orthographic: (0, 0, 1)."""
     components: tuple[Component, ...] = ()
-    figures: dict[str, object] = field(default_factory=dict)
+    figures: SurfaceFigures = field(default_factory=SurfaceFigures)
     """Residuals and counts for summary.json."""
     breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""

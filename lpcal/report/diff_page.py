@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-import numpy as np
+from dataclasses import replace
 
 from lpcal import __version__
+from lpcal.records.calibration import Calibration
 from lpcal.records.comparison import CalibrationChange
 from lpcal.report.page import script_json
-from lpcal.report.rig_report import RigReport, array, items
-from lpcal.report.scene import Scene, rig_scene
+from lpcal.report.rig_report import RigReport
+from lpcal.report.scene import LineItem, LineScene, rig_scene
 from lpcal.report.templates import environment
-from lpcal.report.wording import Document
 
 MARK = '<meta name="lpcal-page" content="diff">'
 """What tells the page from one of anybody else's."""
 
 
-def render(names: tuple[str, str], documents: tuple[Document, Document], change: CalibrationChange, lines: Sequence[str]) -> str:
+def render(names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str]) -> str:
     """The page."""
-    scene = scene_of(documents, change)
+    scene = scene_of(rigs, change)
     return (
         environment()
         .get_template("diff.html")
@@ -29,24 +28,28 @@ def render(names: tuple[str, str], documents: tuple[Document, Document], change:
             names=names,
             change=change,
             lines=lines,
-            scene=None if scene is None else script_json(scene),
+            scene=None if scene is None else script_json(scene.document()),
             version=__version__,
         )
     )
 
 
-def scene_of(documents: tuple[Document, Document], change: CalibrationChange) -> Scene | None:
+def scene_of(rigs: tuple[Calibration, Calibration], change: CalibrationChange) -> LineScene | None:
     """The later rig, where each light stood before, and the arrow of its own change, what all share taken out."""
-    before, after = (RigReport(str(one.get("name", "")), {"calibration": one}) for one in documents)
-    scene, own = rig_scene(after), rig_scene(before)
+    own, scene = (rig_scene(RigReport(one.name, calibration=one)) for one in rigs)
     if scene is None or own is None:
         return None
-    ghosts = [dict(item, tone="designed", layer="designed", thin=True) for item in own["items"] if item["kind"] in {"line", "point"}]
-    placed = {entry["name"]: array(entry["source_m"]) for entry in items(after.get("calibration"), "lights") if entry.get("source_m")}
+    ghosts = [replace(item, tone="designed", layer="designed", thin=True) for item in own.items if item.kind in {"line", "point"}]
+    sources = {light.name: light.source_C for light in rigs[1].lights if light.source_C is not None}
     arrows = [
-        {"kind": "arrow", "from": np.round(placed[light.name] - light.moved_C, 5).tolist(), "by": np.round(light.moved_C, 5).tolist(),
-         "tone": "poor" if light.says else "designed", "layer": "wings"}
+        LineItem(
+            kind="arrow",
+            points=(sources[light.name] - light.moved_C)[None],
+            by=light.moved_C,
+            tone="poor" if light.says else "designed",
+            layer="wings",
+        )
         for light in change.lights
-        if light.name in placed
-    ]  # fmt: skip
-    return scene | {"items": [*ghosts, *scene["items"], *arrows]}
+        if light.name in sources
+    ]
+    return replace(scene, items=(*ghosts, *scene.items, *arrows))

@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import base64
 import json
+from dataclasses import dataclass, fields
 from typing import Any
 
 from lpcal import __version__
+from lpcal.records.provenance import Provenance
+from lpcal.records.surface import Component
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.light_sections import lights_section, spheres_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
-from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
+from lpcal.report.scene import LineScene, layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.templates import environment
 from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import Document, with_sigma
+from lpcal.report.wording import with_sigma
 
 FIGURES_SHOWN = 16
 
@@ -48,8 +51,8 @@ def render(report: RigReport, stamp: str = "") -> str:
             rig_caption=rig_caption(report),
             room=_script(room_scene(report)),
             surfaces=[_surface(surface) for surface in report.surfaces],
-            provenance=[_provenance(kind, report) for kind in KINDS if report.get(kind)],
-            missing=[kind for kind in KINDS if not report.get(kind)],
+            provenance=[_provenance(kind, report.provenance[kind]) for kind in KINDS if kind in report.provenance],
+            missing=[kind for kind in KINDS if kind not in report.provenance],
         )
     )
 
@@ -64,55 +67,74 @@ def script_json(value: Any) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def _script(scene: Any) -> str | None:
-    return None if scene is None else script_json(scene)
+def _script(scene: LineScene | None) -> str | None:
+    return None if scene is None else script_json(scene.document())
 
 
 def _latest(report: RigReport) -> str:
-    times = [str((document.get("provenance") or {}).get("time") or "") for document in report.documents.values() if document]
-    return max(times, default="").replace("T", " ").replace("+00:00", " UTC")
+    return _shown_time(max((one.time for one in report.provenance.values()), default=""))
 
 
-def _surface(surface: SurfaceReport) -> dict[str, Any]:
+def _shown_time(iso: str) -> str:
+    return iso.replace("T", " ").replace("+00:00", " UTC")
+
+
+@dataclass(frozen=True)
+class SurfaceSection:
+    """A surface: its pictures as data: URIs, its pieces' distances, its figures and what is to be said of it."""
+
+    name: str
+    relight: str | None
+    pictures: list[tuple[str, str]]
+    pieces: list[tuple[str, str]]
+    notes: tuple[str, ...]
+    figures: list[tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class ProvenanceSection:
+    """What a document was made from."""
+
+    file: str
+    version: str
+    time: str
+    inputs: list[tuple[str, str]]
+    options: str
+
+
+def _surface(surface: SurfaceReport) -> SurfaceSection:
     summary = surface.summary
     figures = [
-        *(summary.get("counts_and_residuals") or {}).items(),
-        *((f"{key}, s", value) for key, value in (summary.get("times_s") or {}).items()),
-        ("peak memory, MB", summary.get("peak_memory_mb")),
+        *((field.name, getattr(summary.figures, field.name)) for field in fields(summary.figures)),
+        *((f"{part}, s", seconds) for part, seconds in summary.times_s.items()),
+        ("peak memory, MB", summary.peak_memory_mb),
     ]
-    return {
-        "name": surface.name,
-        "relight": surface.relight,
-        "pictures": [(what, data_uri(content)) for what, content in surface.pictures.items()],
-        "pieces": [_piece(piece, summary) for piece in summary.get("components") or []],
-        "notes": [str(note) for note in summary.get("notes") or []],
-        "figures": [(str(key).replace("_", " "), _figure(value)) for key, value in figures if _is_figure(value)][:FIGURES_SHOWN],
-    }
+    return SurfaceSection(
+        name=surface.name,
+        relight=surface.relight,
+        pictures=[(what, data_uri(content)) for what, content in surface.pictures.items()],
+        pieces=[_piece(piece, metric=summary.metric) for piece in summary.components],
+        notes=summary.notes,
+        figures=[(label.replace("_", " "), _figure(value)) for label, value in figures if _is_figure(value)][:FIGURES_SHOWN],
+    )
 
 
-def _piece(piece: dict[str, Any], summary: Document) -> tuple[str, str]:
-    depth, spread = piece.get("mean_depth_m"), piece.get("scale_std")
-    label = f"piece {piece.get('label')}, {piece.get('pixels')} pixels"
-    if summary.get("units") == "pixels" or not isinstance(depth, (int, float)):
+def _piece(piece: Component, *, metric: bool) -> tuple[str, str]:
+    label = f"piece {piece.label}, {piece.pixels} pixels"
+    if not metric:
         return label, "relative depth"
-    return label, with_sigma(1000 * depth, None if spread is None else 1000 * depth * spread, "mm")
+    return label, with_sigma(1000 * piece.mean_depth_m, 1000 * piece.mean_depth_m * piece.scale_std, "mm")
 
 
-def _is_figure(value: Any) -> bool:
+def _is_figure(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _figure(value: float) -> str:
-    return str(value) if isinstance(value, int) else f"{value:.4g}"
+    return str(int(value)) if float(value).is_integer() else f"{value:.4g}"
 
 
-def _provenance(kind: str, report: RigReport) -> dict[str, Any]:
-    stated = report.get(kind).get("provenance") or {}
-    inputs = stated.get("inputs") or {}
-    return {
-        "file": f"{kind}.yaml",
-        "version": stated.get("lpcal_version", "–"),
-        "time": str(stated.get("time", "–")).replace("T", " ").replace("+00:00", " UTC"),
-        "inputs": [(path, str(digest)) for path, digest in inputs.items()],
-        "options": script_json(stated.get("options") or {}),
-    }
+def _provenance(kind: str, stated: Provenance) -> ProvenanceSection:
+    return ProvenanceSection(
+        f"{kind}.yaml", stated.lpcal_version, _shown_time(stated.time), [*stated.inputs.items()], script_json(stated.options)
+    )

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import base64
 import zlib
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.surface import Surface
 from lpcal.report.pictures import block_sum, bounds
@@ -29,22 +30,47 @@ SIGMA_SCALE = 25.0
 type Planes = list[npt.NDArray[np.uint8] | npt.NDArray[np.uint16]]
 
 
+@dataclass(frozen=True)
+class Reduced:
+    """A surface's maps (H, W) as the page shows them, normals (H, W, 3) and albedo (H, W[, 3])."""
+
+    mask: Mask
+    normals: Image
+    depth: Image
+    albedo: Image
+    sigma: Image
+    lights: Labels
+    component: Labels
+
+
+@dataclass(frozen=True)
+class PageLight:
+    """A calibrated light as the page's script reads it; a distant one has no source, axis and lobe."""
+
+    name: str
+    direction: list[float]
+    intensity: list[float]
+    source: list[float] | None = None
+    axis: list[float] | None = None
+    lobe: list[float] | None = None
+    """Emission at LOBE_KNOTS angles from the axis, from 0 to LOBE_STOP_RAD."""
+
+
 def pack(surface: Surface, calibration: Calibration | None) -> dict[str, Any]:
     """Everything that the page's script reads, as plain data."""
     window = bounds(surface.mask)
     step = int(np.ceil(np.sqrt(max(1.0, surface.mask[window].size / MOST_PIXELS))))
     maps = _reduced(surface, window, step)
-    mask = maps["mask"]
-    depth = maps["depth"]
+    mask, depth = maps.mask, maps.depth
     low, high = _range(depth[mask])
     perspective = bool(np.any(np.abs(np.nan_to_num(surface.rays_C[..., :2])) > 0))
     nodes_px, rays = _grid(surface, window, perspective=perspective)
-    albedo = maps["albedo"].reshape(*mask.shape, -1)
+    albedo = maps.albedo.reshape(*mask.shape, -1)
     white = float(np.percentile(albedo[mask], 99.5)) if mask.any() else 1.0
-    planes: Planes = [*_octahedral(maps["normals"]), _code(depth, mask, low, high)]
+    planes: Planes = [*_octahedral(maps.normals), _code(depth, mask, low, high)]
     planes += [_byte(255 * np.sqrt(np.clip(albedo[..., c] / max(white, 1e-9), 0, 1)), mask) for c in range(albedo.shape[-1])]
-    planes.append(_byte(SIGMA_SCALE * np.log2(1 + np.clip(maps["sigma"], 0, 180)), mask))
-    planes += [_byte(maps["lights"], mask), _byte(maps["component"], mask)]
+    planes.append(_byte(SIGMA_SCALE * np.log2(1 + np.clip(maps.sigma, 0, 180)), mask))
+    planes += [_byte(maps.lights, mask), _byte(maps.component, mask)]
     return {
         "name": surface.name,
         "width": mask.shape[1],
@@ -57,12 +83,12 @@ def pack(surface: Surface, calibration: Calibration | None) -> dict[str, Any]:
         "step": step,
         "grid": {"size": GRID, "px": np.round(nodes_px, 3).tolist(), "ray": np.round(rays, 6).tolist()},
         "sigmaScale": SIGMA_SCALE,
-        "lights": [] if calibration is None else _lights(calibration, perspective=perspective),
+        "lights": [] if calibration is None else [vars(light) for light in _lights(calibration, perspective=perspective)],
         "lobeStop": LOBE_STOP_RAD,
     }
 
 
-def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> dict[str, Any]:
+def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduced:
     """The maps cropped, and averaged over blocks of step by step pixels."""
     mask = surface.mask[window]
     total = block_sum(mask.astype(np.float32), step)
@@ -75,15 +101,15 @@ def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> dict[s
 
     normals = mean(surface.normals)
     length = np.linalg.norm(normals, axis=2, keepdims=True)
-    return {
-        "mask": total > 0.5 * step * step if step > 1 else mask,
-        "normals": normals / np.maximum(length, 1e-9),
-        "depth": mean(surface.depth),
-        "albedo": mean(surface.albedo),
-        "sigma": mean(surface.normal_std_deg),
-        "lights": surface.lights_used[window][::step, ::step],
-        "component": surface.component[window][::step, ::step],
-    }
+    return Reduced(
+        mask=total > 0.5 * step * step if step > 1 else mask,
+        normals=normals / np.maximum(length, 1e-9),
+        depth=mean(surface.depth),
+        albedo=mean(surface.albedo),
+        sigma=mean(surface.normal_std_deg),
+        lights=surface.lights_used[window][::step, ::step],
+        component=surface.component[window][::step, ::step],
+    )
 
 
 def _range(values: Any) -> tuple[float, float]:
@@ -133,7 +159,7 @@ def _deflate(planes: Planes) -> str:
     return base64.b64encode(zlib.compress(b"".join(parts), 9)).decode("ascii")
 
 
-def _lights(calibration: Calibration, *, perspective: bool) -> list[dict[str, Any]]:
+def _lights(calibration: Calibration, *, perspective: bool) -> list[PageLight]:
     """The calibrated lights; the page can place near ones only where the surface has a camera."""
     angles = np.linspace(0, LOBE_STOP_RAD, LOBE_KNOTS)
     return [
@@ -141,18 +167,9 @@ def _lights(calibration: Calibration, *, perspective: bool) -> list[dict[str, An
     ]
 
 
-def _light(light: Light, angles: Array, *, near: bool) -> dict[str, Any]:
-    found: dict[str, Any] = {
-        "name": light.name,
-        "direction": np.round(light.direction_C, 6).tolist(),
-        "intensity": np.round(np.broadcast_to(light.intensity, 3), 5).tolist(),
-        "source": None,
-    }
-    if near and light.source_C is not None and light.axis_C is not None:
-        lobe = np.nan_to_num(light.lobe(angles))
-        found |= {
-            "source": np.round(light.source_C, 6).tolist(),
-            "axis": np.round(light.axis_C, 6).tolist(),
-            "lobe": np.round(lobe, 4).tolist(),
-        }
-    return found
+def _light(light: Light, angles: Array, *, near: bool) -> PageLight:
+    found = PageLight(light.name, np.round(light.direction_C, 6).tolist(), np.round(np.broadcast_to(light.intensity, 3), 5).tolist())
+    if not near or light.source_C is None or light.axis_C is None:
+        return found
+    lobe = np.round(np.nan_to_num(light.lobe(angles)), 4).tolist()
+    return replace(found, source=np.round(light.source_C, 6).tolist(), axis=np.round(light.axis_C, 6).tolist(), lobe=lobe)

@@ -1,16 +1,19 @@
-"""What the report is made from: the stages' documents as read, and what was written for each object."""
+"""What the report is made from: the stages' records as read, and what was written for each object."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.report.wording import Document
+from lpcal.records.calibration import Calibration, HandEye, Light, LightsSolution, Wings
+from lpcal.records.camera import Camera, CameraSolution
+from lpcal.records.observations import BoardPoses
+from lpcal.records.provenance import Provenance
+from lpcal.records.surface import SurfaceSummary
 
 KINDS = ("camera", "H_CB", "H_OP", "handeye", "wings", "lights", "calibration")
 """The documents in the chain's order, by kind; each stands in calib/ under its kind's name."""
@@ -18,84 +21,83 @@ KINDS = ("camera", "H_CB", "H_OP", "handeye", "wings", "lights", "calibration")
 
 @dataclass(frozen=True)
 class SurfaceReport:
-    """One reconstructed object: its summary.json, small PNG pictures by what they show, and the relighting page beside the report."""
+    """One reconstructed object: its summary, small PNG pictures by what they show, and the relighting page beside the report."""
 
     name: str
-    summary: Document = field(default_factory=dict)
+    summary: SurfaceSummary = field(default_factory=SurfaceSummary)
     pictures: Mapping[str, bytes] = field(default_factory=dict)
     relight: str | None = None
 
 
 @dataclass(frozen=True)
 class RigReport:
-    """A rig's name, its documents by kind (those that are there), and its surfaces."""
+    """A rig's name, what its stages found (None where one has not run), what each was made from, and its surfaces."""
 
     name: str
-    documents: Mapping[str, Document]
+    camera: CameraSolution | None = None
+    boards: BoardPoses | None = None
+    """H_CB.yaml."""
+    body_poses: Mapping[str, Array] | None = None
+    """H_OP.yaml: the tracked body (4, 4) at each image that has a pose to trust."""
+    handeye: HandEye | None = None
+    wings: Wings | None = None
+    lights: LightsSolution | None = None
+    calibration: Calibration | None = None
+    provenance: Mapping[str, Provenance] = field(default_factory=dict)
+    """By kind, of the documents that there are."""
     surfaces: tuple[SurfaceReport, ...] = ()
 
-    def get(self, kind: str) -> Document:
-        """A document, empty where the stage has not run."""
-        return self.documents.get(kind) or {}
+    @property
+    def lens(self) -> Camera | None:
+        """The camera as solved or read, or the one of an imported calibration; None for a rig that has none."""
+        if self.camera is not None:
+            return self.camera.camera
+        return None if self.calibration is None else self.calibration.camera
 
     @property
-    def camera(self) -> Document:
-        """The camera as solved or read, or the one of an imported calibration; empty for a rig that has none."""
-        return self.get("camera") or self.get("calibration").get("camera") or {}
+    def placed(self) -> LightsSolution | Calibration | None:
+        """What the lights stand in: refined, or exported or imported; None where they are designed at most."""
+        return self.lights or self.calibration
 
     @property
-    def lights(self) -> Document:
-        """The document that the lights stand in: refined, or exported or imported; empty where there is none."""
-        return self.get("lights") or self.get("calibration")
+    def shown_lights(self) -> tuple[Light, ...]:
+        """The lights as refined or imported, else as designed."""
+        if self.placed is not None:
+            return self.placed.lights
+        return () if self.wings is None else designed(self.wings)
 
     @property
     def intensities_measured(self) -> bool:
         """Whether the lights' intensities are more than a stand-in of 1: matte spheres showed them, or an import states them."""
-        lights = items(self.lights, "lights")
-        if any(np.any(array(light.get("intensity")) != 1.0) for light in lights):
+        lights = () if self.placed is None else self.placed.lights
+        if any(np.any(light.intensity != 1.0) for light in lights):
             return True
-        if self.get("lights"):
-            return any(sphere.get("used") and sphere.get("kind") == "matte" for sphere in items(self.get("lights"), "spheres"))
-        return not self.get("wings") and any(light.get("intensity_std") is not None for light in lights)
+        if self.lights is not None:
+            return any(sphere.used and sphere.kind == "matte" for sphere in self.lights.spheres)
+        return self.wings is None and any(np.isfinite(light.intensity_std) for light in lights)
 
 
-def array(value: Any) -> Array:
-    """A nested list as an array, null as NaN."""
-    return np.array(value, dtype=float)
+def designed(wings: Wings) -> tuple[Light, ...]:
+    """The lights of the drawing, each where its blob is and along its axis."""
+    return tuple(
+        Light(wing.name, -H_CL[:3, 2], np.ones(1), H_CL=H_CL, axis_C=H_CL[:3, 2])
+        for wing, H_CL in zip(wings.wings, wings.H_CL, strict=True)
+    )
 
 
-def items(document: Document, key: str) -> list[dict[str, Any]]:
-    """A list of entries; a mapping by name becomes entries with their name."""
-    found = document.get(key) or []
-    if isinstance(found, Mapping):
-        return [{"name": name, **(entry if isinstance(entry, Mapping) else {"value": entry})} for name, entry in found.items()]
-    return [dict(entry) for entry in found if isinstance(entry, Mapping)]
-
-
-def board_points(report: RigReport) -> Array | None:
-    """Corners (M, 3) of the board with its warp, metres; None where no board was seen."""
-    found = (report.get("H_CB").get("board") or {}).get("points_m")
-    return array(found) if found else None
-
-
-def poses(document: Document, name: str) -> dict[str, Array]:
-    """Transforms (4, 4) by image, of H_CB.yaml and H_OP.yaml; images without one are left out."""
-    return {str(view.get("image")): array(view[name]) for view in items(document, "views") if view.get(name) is not None}
-
-
-def sigmas(covariance: Any, size: int) -> Array:
+def sigmas(covariance: Array | None, size: int) -> Array:
     """Standard deviations (size,) of a covariance; NaN where there is none."""
-    if covariance is None or np.shape(covariance) != (size, size):
+    if covariance is None:
         return np.full(size, np.nan)
-    return np.sqrt(np.maximum(np.diag(array(covariance)), 0))
+    return np.sqrt(np.maximum(np.diag(covariance), 0))
 
 
-def origin_sigmas(H: Array, covariance: Any) -> Array:
+def origin_sigmas(H: Array, covariance: Array | None) -> Array:
     """Standard deviations (6,) of a rotation (rad) and of the origin (m), from the covariance (6, 6) of the left perturbation.
 
     NaN where there is no covariance.
     """
-    if covariance is None or np.shape(covariance) != (6, 6):
+    if covariance is None:
         return np.full(6, np.nan)
     J = se3.turn_and_origin_jacobian(H)
-    return sigmas(J @ array(covariance) @ J.T, 6)
+    return sigmas(J @ covariance @ J.T, 6)

@@ -13,7 +13,7 @@ SOFTWARE = "lpcal study"
 
 
 @dataclass(frozen=True)
-class Curve:
+class PlotLine:
     """One line of the plot."""
 
     name: str
@@ -22,7 +22,7 @@ class Curve:
     """Mean relative error, per cent."""
 
 
-def plot_png(curves: Sequence[Curve], across: str) -> bytes:
+def plot_png(curves: Sequence[PlotLine], across: str) -> bytes:
     """The curves as a PNG, error on a logarithmic axis."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

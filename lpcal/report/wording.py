@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import TypeGuard
 
 from lpcal.records.digits import fine
-
-type Document = Mapping[str, Any]
-"""A document that a stage wrote, as read."""
 
 NOTHING = "–"
 MINUS = "−"
 
 
-def number(value: Any, digits: int = 3, unit: str = "") -> str:
+def number(value: float | None, digits: int = 3, unit: str = "") -> str:
     """A number to some significant digits, without an exponent where it can be read without; a dash for none."""
     if not _finite(value):
         return NOTHING
@@ -29,17 +26,17 @@ def number(value: Any, digits: int = 3, unit: str = "") -> str:
     return _signed(text) + _unit(unit)
 
 
-def fixed(value: Any, decimals: int, unit: str = "") -> str:
+def fixed(value: float | None, decimals: int, unit: str = "") -> str:
     """A number to some decimals; a dash for none."""
     return _signed(f"{float(value):z.{decimals}f}") + _unit(unit) if _finite(value) else NOTHING
 
 
-def sigma_of(value: Any, decimals: int, unit: str = "") -> str:
+def sigma_of(value: float | None, decimals: int, unit: str = "") -> str:
     """A standard deviation with two significant digits at least, some decimals at least; a dash for none."""
     return _signed(fine(float(value), decimals)) + _unit(unit) if _finite(value) else NOTHING
 
 
-def with_sigma(value: Any, sigma: Any, unit: str = "") -> str:
+def with_sigma(value: float | None, sigma: float | None, unit: str = "") -> str:
     """``712.41 ± 0.23 px``: the standard deviation to two digits, the value to the same place."""
     if not _finite(value):
         return NOTHING
@@ -61,8 +58,8 @@ def listed(names: Sequence[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
-def _finite(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+def _finite(value: float | None) -> TypeGuard[float]:
+    return value is not None and math.isfinite(value)
 
 
 def _signed(text: str) -> str:

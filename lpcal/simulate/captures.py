@@ -15,7 +15,7 @@ from lpcal.simulate.built import Built
 from lpcal.simulate.mirror import highlight, led_image_sigma
 from lpcal.simulate.picture import MIRROR, Rendered, render
 from lpcal.simulate.recipe import Recipe
-from lpcal.simulate.scene import Scene
+from lpcal.simulate.scene import DrawnScene
 from lpcal.simulate.sensor import Response, Stored, blur, splat
 
 EXPOSURE_S = 0.020
@@ -109,11 +109,13 @@ class Studio:
         width, height = self.built.lens.image_size
         return self.response(np.full((height, width), 0.75), rng)
 
-    def _scene(self, shape: shapes.Shape, H_CS: Array, wall_m: float, rng: np.random.Generator, sphere: SphereTruth | None = None) -> Scene:
+    def _scene(
+        self, shape: shapes.Shape, H_CS: Array, wall_m: float, rng: np.random.Generator, sphere: SphereTruth | None = None
+    ) -> DrawnScene:
         """An object before a light wall; a sphere on a rod, before a dark card on a darker wall."""
         n_C = np.array([*rng.normal(0, 0.04, 2), -1.0])
         panel_m = float(max((np.linalg.norm(light.H_CL[:2, 3]) for light in self.built.lights if light.H_DL is not None), default=0.05))
-        bare = Scene(
+        bare = DrawnScene(
             shape,
             H_CS,
             np.array([0, 0, wall_m]),

@@ -21,7 +21,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Index
 from lpcal.simulate.rays import LEAVE
-from lpcal.simulate.scene import Points, Scene, direct, joined, meet
+from lpcal.simulate.scene import DrawnScene, Points, direct, joined, meet
 
 RAYS, SURFEL_RAYS = 64, 32
 BOUNCES = 8
@@ -38,7 +38,7 @@ CHUNK = 1 << 17
 
 
 @dataclass(frozen=True)
-class Thrown:
+class ThrownLight:
     """J (N, L) at nodes: the radiance that a white point there would have of it, for each light."""
 
     nodes: Points
@@ -60,22 +60,22 @@ class Thrown:
         return cKDTree(_place(self.nodes, self.length_m, TURN))
 
 
-def thrown(scene: Scene, nodes: Points) -> Thrown:
+def thrown(scene: DrawnScene, nodes: Points) -> ThrownLight:
     """The light that the scene throws on nodes on its surfaces, every bounce of it."""
     length_m = float(np.median(np.linalg.norm(np.diff(nodes.x_C, axis=0), axis=1)))
     ends, of_node = gather(scene, nodes, RAYS)
     if not len(of_node):
-        return Thrown(nodes, np.zeros((len(nodes.x_C), len(scene.lights))), length_m)
+        return ThrownLight(nodes, np.zeros((len(nodes.x_C), len(scene.lights))), length_m)
     surfels = thin(scene, ends)
     D = np.stack([direct(scene, surfels, light) for light in scene.lights], axis=1)
     back = transfer(scene, surfels, *gather(scene, surfels, SURFEL_RAYS), len(D), SURFEL_RAYS)
     L = D
     for _ in range(BOUNCES - 1):
         L = D + surfels.albedo[:, None] * (back @ L)
-    return Thrown(nodes, transfer(scene, surfels, ends, of_node, len(nodes.x_C), RAYS) @ L, length_m)
+    return ThrownLight(nodes, transfer(scene, surfels, ends, of_node, len(nodes.x_C), RAYS) @ L, length_m)
 
 
-def gather(scene: Scene, points: Points, rays: int) -> tuple[Points, Index]:
+def gather(scene: DrawnScene, points: Points, rays: int) -> tuple[Points, Index]:
     """Where cosine-distributed rays of points end, those that meet something, and the index of the point of each."""
     ends, owners = [], []
     for start in range(0, len(points.x_C), CHUNK // rays):
@@ -89,7 +89,7 @@ def gather(scene: Scene, points: Points, rays: int) -> tuple[Points, Index]:
     return joined(ends), np.concatenate(owners)
 
 
-def thin(scene: Scene, ends: Points) -> Points:
+def thin(scene: DrawnScene, ends: Points) -> Points:
     """One of the ends in each box and octant of normals; boxes grow with the distance from the shape."""
     away = np.linalg.norm(ends.x_C - scene.H_CS[:3, 3], axis=1) / scene.shape.bound_m
     level = np.ceil(np.log2(np.maximum(away, 1))).astype(np.int64)
@@ -101,7 +101,7 @@ def thin(scene: Scene, ends: Points) -> Points:
     return ends[first]
 
 
-def transfer(scene: Scene, surfels: Points, ends: Points, owner: Index, count: int, rays: int) -> Any:
+def transfer(scene: DrawnScene, surfels: Points, ends: Points, owner: Index, count: int, rays: int) -> Any:
     """Sparse (count, S): the share of each of `count` points' rays that ends nearest to each surfel."""
     from scipy.sparse import csr_array
     from scipy.spatial import cKDTree

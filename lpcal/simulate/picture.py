@@ -17,9 +17,9 @@ import numpy as np
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Labels, Mask
-from lpcal.simulate.interreflection import Thrown, thrown
+from lpcal.simulate.interreflection import ThrownLight, thrown
 from lpcal.simulate.lens import Lens
-from lpcal.simulate.scene import Points, Scene, direct, meet, wall_reflectance
+from lpcal.simulate.scene import DrawnScene, Points, direct, meet, wall_reflectance
 
 EDGE_OVERSAMPLING = 4
 CHUNK = 1 << 15
@@ -46,7 +46,7 @@ class Rendered:
     component: Labels
 
 
-def render(lens: Lens, scene: Scene) -> Rendered:
+def render(lens: Lens, scene: DrawnScene) -> Rendered:
     """All lights and the room, unblurred, with the truth at the pixels' centres."""
     width, height = lens.image_size
     plane = lens.grid()
@@ -74,7 +74,7 @@ def render(lens: Lens, scene: Scene) -> Rendered:
     )
 
 
-def _radiance(scene: Scene, plane: Array, between: Thrown | None) -> tuple[Array, Array]:
+def _radiance(scene: DrawnScene, plane: Array, between: ThrownLight | None) -> tuple[Array, Array]:
     """What rays (N, 2) of the image see of each light (L, N) and of the room (N,)."""
     points, glow = _seen(scene, plane), np.zeros(len(plane))
     if scene.chrome:
@@ -111,7 +111,7 @@ def _directions(plane: Array) -> Array:
     return np.asarray(d_C / np.linalg.norm(d_C, axis=1, keepdims=True))
 
 
-def _seen(scene: Scene, plane: Array) -> Points:
+def _seen(scene: DrawnScene, plane: Array) -> Points:
     """What rays (N, 2) of the image meet first: the shape, else the rod, else the wall."""
     d_C = _directions(plane)
     points = meet(scene, np.zeros(3), d_C)
@@ -121,7 +121,7 @@ def _seen(scene: Scene, plane: Array) -> Points:
     return points
 
 
-def _rod(scene: Scene, d_C: Array) -> Mask:
+def _rod(scene: DrawnScene, d_C: Array) -> Mask:
     """Rays that meet the rod: it goes down from the shape's middle, in the plane of that depth."""
     at = d_C[:, :2] * (scene.H_CS[2, 3] / d_C[:, 2])[:, None] - scene.H_CS[:2, 3]
     return np.asarray((np.abs(at[:, 0] + 0.03 * at[:, 1]) < scene.rod_m) & (at[:, 1] > 0))
@@ -137,7 +137,7 @@ def _edges(met: Points, component: Labels, size: tuple[int, int], reach: int) ->
     return np.asarray(binary_dilation(across & near, iterations=reach)).ravel()
 
 
-def _mirrored(scene: Scene, points: Points, plane: Array) -> tuple[Points, Array]:
+def _mirrored(scene: DrawnScene, points: Points, plane: Array) -> tuple[Points, Array]:
     """Points that a chrome sphere shows in place of its own, the wall behind it; and the room light (N,) of the dark panel and the room."""
     d_C = _directions(plane)
     r_C = d_C - 2 * np.sum(d_C * points.n_C, axis=1, keepdims=True) * points.n_C

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
-class Sensor:
+class SensorRecipe:
     """What turns light into stored numbers. Noise in electrons; the blur is a Gaussian's sigma."""
 
     full_well_e: float = 30000.0
@@ -54,5 +54,5 @@ class Recipe:
     ambient: float = 0.16
     """Of the mean irradiance at the focus."""
     working_points: int = 200
-    sensor: Sensor = field(default_factory=Sensor)
+    sensor: SensorRecipe = field(default_factory=SensorRecipe)
     tracking: Tracking = field(default_factory=Tracking)

@@ -23,7 +23,7 @@ PROBES = (0, 8, 12, 16)
 
 
 @dataclass(frozen=True)
-class Scene:
+class DrawnScene:
     """A shape at H_CS before a wall. `ambient` is the room's radiance on white, `wall_n_C` points to the camera."""
 
     shape: Shape
@@ -55,7 +55,7 @@ class Points:
         return Points(self.x_C[some], self.n_C[some], self.albedo[some], self.on_shape[some])
 
 
-def meet(scene: Scene, o_C: Array, d_C: Array, touch: float = TOUCH) -> Points:
+def meet(scene: DrawnScene, o_C: Array, d_C: Array, touch: float = TOUCH) -> Points:
     """What unit rays (N, 3) from o_C (3,) or (N, 3) meet first: the shape, else the wall. Nothing stands behind the wall."""
     H_SC = se3.inv(scene.H_CS)
     t = cast(scene.shape, se3.apply(H_SC, o_C), se3.rotate(H_SC, d_C), touch)
@@ -78,7 +78,7 @@ def joined(parts: list[Points]) -> Points:
     return Points(x_C, n_C, np.concatenate([part.albedo for part in parts]), np.concatenate([part.on_shape for part in parts]))
 
 
-def wall_reflectance(scene: Scene, x_C: Array) -> Array:
+def wall_reflectance(scene: DrawnScene, x_C: Array) -> Array:
     """Albedo (N,) of the wall with its card at points (N, 3) of it."""
     behind = scene.wall_x_C[2] / scene.H_CS[2, 3] * scene.H_CS[:2, 3]
     on_card = np.abs(x_C[:, :2] - behind).max(axis=1) < scene.card_half_m
@@ -86,7 +86,7 @@ def wall_reflectance(scene: Scene, x_C: Array) -> Array:
     return np.where(on_card, CARD_ALBEDO, scene.wall_albedo) * grain
 
 
-def direct(scene: Scene, points: Points, light: LedLight) -> Array:
+def direct(scene: DrawnScene, points: Points, light: LedLight) -> Array:
     """Radiance (N,) of points under one light alone, without what they throw on each other."""
     seen = np.zeros((len(light.power), len(points.x_C)))
     for k, (position, axis, power) in enumerate(zip(light.position_C, light.axis_C, light.power, strict=True)):

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma, decode, encode
-from lpcal.simulate.recipe import Sensor
+from lpcal.simulate.recipe import SensorRecipe
 
 type Stored = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
@@ -26,7 +26,7 @@ type Stored = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 class Response:
     """A sensor behind a lens, as panel.yaml describes it."""
 
-    sensor: Sensor
+    sensor: SensorRecipe
     vignetting: Array
     black: float = 0.0
     white: float = 1.0

@@ -17,6 +17,7 @@ import numpy as np
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
+from lpcal.records.figures import Curl
 from lpcal.surface.sight import ray_map
 
 GRAZING = 0.2
@@ -33,20 +34,6 @@ SURE = 6.0
 """Standard errors by which the likeness must differ from nothing; neighbours are not independent, so three would not be enough."""
 FACING = 0.9
 """Share of normals that face the camera from which the channels' order is believed."""
-
-
-@dataclass(frozen=True)
-class Curl:
-    """What the curl says."""
-
-    likeness: float
-    """Of the slopes' changes: 1 for a surface, -1 for one upside down."""
-    sure: float
-    """The likeness by its standard error."""
-    twist_sure: float
-    """The twist by its standard error."""
-    median: float
-    """Median size of the curl, a pixel."""
 
 
 @dataclass(frozen=True)

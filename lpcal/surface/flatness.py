@@ -6,10 +6,9 @@ the best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
 
 NEARLY = 0.2
@@ -18,7 +17,7 @@ RIM_PX = 3
 FEWEST = 100
 
 
-def flatness(surface: Surface) -> dict[str, Any] | None:
+def flatness(surface: Surface) -> Flatness | None:
     """Deviation of the largest piece from a plane, mm, its bowl and extent; None where it is not nearly flat, or depth is in pixels."""
     from scipy import ndimage
 
@@ -35,9 +34,9 @@ def flatness(surface: Surface) -> dict[str, Any] | None:
         return None
     round_C = np.sum((centred @ along[:, :2]) ** 2, axis=1)
     k = np.linalg.lstsq(np.stack([np.ones_like(round_C), round_C], axis=1), deviation, rcond=None)[0][1]
-    return {
-        "bowl_mm": float(1e3 * abs(k) * (extent / 2) ** 2),
-        "plane_rms_mm": float(1e3 * deviation.std()),
-        "plane_peak_to_valley_mm": float(1e3 * (high - low)),
-        "extent_mm": 1e3 * extent,
-    }
+    return Flatness(
+        bowl_mm=float(1e3 * abs(k) * (extent / 2) ** 2),
+        plane_rms_mm=float(1e3 * deviation.std()),
+        plane_peak_to_valley_mm=float(1e3 * (high - low)),
+        extent_mm=1e3 * extent,
+    )

@@ -8,6 +8,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
+from lpcal.records.figures import SurfaceFigures
 from lpcal.records.surface import Component, Surface
 from lpcal.surface import bilateral, pieces
 from lpcal.surface.integrate import Grid
@@ -64,7 +65,7 @@ def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera |
         components=tuple(
             Component(int(one), int((label == one).sum()), float(depth[label == one].mean()), UNKNOWN_DISTANCE) for one in np.unique(label)
         ),
-        figures={"pixels": len(n), "normals_away_from_the_camera": round(away, 4)},
+        figures=SurfaceFigures(pixels=len(n), normals_away_from_the_camera=round(away, 4)),
         breaks=pieces.break_map(grid, weight, mask),
     )
 

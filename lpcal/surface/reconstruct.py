@@ -15,6 +15,7 @@ from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Alternative, Component, Surface
@@ -126,19 +127,25 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C, basins_found)
-    told = {} if gain is None else {"intensities_found": dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))}
     found_by = background if wanted else None
-    doubt = {} if found_by is None or found_by.doubt is None else {"mask_doubt": found_by.doubt, "mask_doubt_why": found_by.why}
-    places = _exchanged(state, seen, radiance.lights)
+    doubted = found_by if found_by is not None and found_by.doubt is not None else None
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
-    return replace(surface, layer=layer, figures={"mask": _how(found_by, radiance, options), **doubt, **told, **places, **surface.figures})
+    figures = replace(
+        surface.figures,
+        mask=_how(found_by, radiance, options),
+        mask_doubt=None if doubted is None else doubted.doubt,
+        mask_doubt_why=None if doubted is None else doubted.why,
+        intensities_found=None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True)),
+        images_exchanged=_exchanged(state, seen, radiance.lights) or None,
+    )
+    return replace(surface, layer=layer, figures=figures)
 
 
-def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, object]:
+def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
     """The images that fit another light than theirs, and which."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
     found = exchanged(matte, state.lit.B, state.found.b, seen.usable)
-    return {"images_exchanged": {names[image]: names[light] for image, light in found.items()}} if found else {}
+    return {names[image]: names[light] for image, light in found.items()}
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
@@ -274,17 +281,17 @@ def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     return found[0] if len(found) == 1 else np.stack(found, axis=1)
 
 
-def _figures(state: State) -> dict[str, object]:
+def _figures(state: State) -> SurfaceFigures:
     found = state.found
     known = np.isfinite(found.b[:, 0])
     freedom = np.maximum(found.used - 3, 0)
     shine = state.field.gloss
-    return {
-        "pixels": len(found.b),
-        "pixels_with_three_lights": int(known.sum()),
-        "median_lights_used": float(np.median(found.used)),
-        "shadow_anchors": {label: asdict(anchor) for label, anchor in state.anchors.items()},
-        "gloss": asdict(shine) if shine is not None and shine.clear else None,
-        "reflectance": state.reflectance,
-        "residual_sigmas_rms": float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
-    }
+    return SurfaceFigures(
+        pixels=len(found.b),
+        pixels_with_three_lights=int(known.sum()),
+        median_lights_used=float(np.median(found.used)),
+        shadow_anchors=state.anchors,
+        gloss=GlossFound(**asdict(shine)) if shine is not None and shine.clear else None,
+        reflectance=state.reflectance,
+        residual_sigmas_rms=float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
+    )

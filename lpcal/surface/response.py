@@ -87,7 +87,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownResponse:
     """What a curve is looked for in."""
 
     light: Callable[[Gamma], Array]
@@ -100,7 +100,7 @@ class Shown:
     """Whether nobody has measured the lights' powers."""
 
 
-def stored_curve(shown: Shown, taken: Gamma, claimed: Gamma) -> Curve | None:
+def stored_curve(shown: ShownResponse, taken: Gamma, claimed: Gamma) -> Curve | None:
     """The curve of stored numbers, which are taken to be of one and claimed to be of another; None where too little tells it."""
     light = shown.light(taken)
     count, unknowns = len(light), shown.B.shape[2]

@@ -14,8 +14,9 @@ from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
+from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import bounce, distance, field, normals, pieces, shadow_anchor, sight
+from lpcal.surface import bounce, distance, field, normals, pieces, sight
 from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
@@ -51,7 +52,7 @@ class State:
     """Of the normals, and the gloss of the object."""
     reflectance: float | None = None
     """Of the object's median pixel, by the light that its parts throw on each other; None where that was not asked."""
-    anchors: dict[int, shadow_anchor.Anchor] = dataclasses.field(default_factory=dict)
+    anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
 
 

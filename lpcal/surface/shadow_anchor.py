@@ -21,6 +21,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Camera, Light
+from lpcal.records.figures import Anchor
 from lpcal.surface import planes
 from lpcal.surface.sight import Sight
 
@@ -57,18 +58,6 @@ def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mas
     known = strong & (count >= 2) & (square < planes.TRUSTED**2) & ~object_mask.ravel()
     size = (len(m), *seen.mask.shape)
     return Screen(plane, np.where(known, shade, 0.0).reshape(size), known.astype(float).reshape(size), factor)
-
-
-@dataclass(frozen=True)
-class Anchor:
-    """What the shadow of a piece says of the scale of its distance."""
-
-    seen: float
-    """By the shadow alone."""
-    used: float
-    """Joined with near light's own."""
-    std: float
-    """Relative standard deviation of the two together."""
 
 
 def anchored(

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Light
+from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.surface import mask, room_light, sight
@@ -59,7 +59,7 @@ def reconstruct(
         object_mask, depth = surface.mask, surface.depth[surface.mask].astype(float)
     if surface is None or room is None:
         plain = solve(radiance, given)
-        return replace(plain, figures={**plain.figures, "ambient": {"estimated": False, "note": UNDECIDED}})
+        return replace(plain, figures=replace(plain.figures, ambient=AmbientFound(estimated=False, note=UNDECIDED)))
     more = np.where(surface.mask, (1 + PATCHY) * room_map, room_map)
     return doubted(surface, solve(without(radiance, more, lights), surface.mask), room, float(_share(radiance, room_map, surface.mask)))
 
@@ -82,7 +82,7 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
     normal_std = np.where(both, np.hypot(surface.normal_std_deg, np.nan_to_num(turned)), surface.normal_std_deg)
     central = bool(surface.rays_C[..., :2].any())
     depth_std, components = surface.depth_std.copy(), []
-    anchored: Any = surface.figures.get("shadow_anchors") or {}
+    anchored = surface.figures.shadow_anchors or {}
     for piece in surface.components:
         inside = both & (surface.component == piece.label)
         if not inside.any():
@@ -95,13 +95,14 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
         held = not central or piece.label in anchored
         scale_std = piece.scale_std if held else float(np.hypot(piece.scale_std, whole * room.std / PATCHY))
         components.append(replace(piece, scale_std=scale_std))
-    told = {"estimated": True, "share_of_signal": round(share, 3), "relative_std": round(room.std, 3), "law": room.c.round(4).tolist()}
+    law = tuple(room.c.round(4).tolist())
+    ambient = AmbientFound(estimated=True, share_of_signal=round(share, 3), relative_std=round(room.std, 3), law=law)
     return replace(
         surface,
         normal_std_deg=np.asarray(normal_std, np.float32),
         depth_std=np.asarray(depth_std, np.float32),
         components=tuple(components),
-        figures={**surface.figures, "ambient": told},
+        figures=replace(surface.figures, ambient=ambient),
     )
 
 

@@ -32,7 +32,7 @@ LEAST_M, LEAST_RAD = 1e-5, 1e-6
 
 
 @dataclass(frozen=True)
-class Advice:
+class MotionAdvice:
     """The worst direction of H_PC, and the views that would mend it most."""
 
     sigma_m: float
@@ -63,7 +63,7 @@ class Advice:
         return f"H_PC is known {self.words()}" if self.sigma_m > TARGET_M or self.sigma_rad > TARGET_RAD else None
 
 
-def advise(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array, covariance: Array | None = None) -> Advice:
+def advise(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array, covariance: Array | None = None) -> MotionAdvice:
     """The worst direction, and what more views would do.
 
     Parameters
@@ -86,7 +86,7 @@ def advise(H_OP: Array, H_CB: Array, H_PC: Array, H_OB: Array, covariance: Array
         after["xyz"[axis]] = _worst(scale * _centred(_covariance(N + more), H_PC))
     best = min(after, key=lambda axis: after[axis][1] / TARGET_M + after[axis][0] / TARGET_RAD)
     sigma_rad, sigma_m = _worst(now)
-    return Advice(sigma_m, vectors[:, -1], sigma_rad, best, min(after[best][1], sigma_m), min(after[best][0], sigma_rad), more_views)
+    return MotionAdvice(sigma_m, vectors[:, -1], sigma_rad, best, min(after[best][1], sigma_m), min(after[best][0], sigma_rad), more_views)
 
 
 def _worst(covariance: Array) -> tuple[float, float]:

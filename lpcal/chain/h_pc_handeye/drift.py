@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye.state import State
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
@@ -39,7 +39,7 @@ class Drift:
         return np.asarray(t_camera_s - self.rate * (t_camera_s - self.middle_s))
 
 
-def drift_of(state: State, t_s: Array) -> Drift | None:
+def drift_of(state: SolveState, t_s: Array) -> Drift | None:
     """The rate that remains in a settled solve at camera times t_s (N,); None where the panel did not move in enough views."""
     found = state.estimate()
     moving = state.inliers & np.any(state.panel.velocity != 0, axis=1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,18 +10,21 @@ from lpcal.chain.h_pc_handeye import congruence, observability, variance
 from lpcal.chain.h_pc_handeye.advice import advise
 from lpcal.chain.h_pc_handeye.drift import Drift
 from lpcal.chain.h_pc_handeye.held_out import held_out
-from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, misfit
+from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Views, misfit
 from lpcal.chain.h_pc_handeye.moved import find_step
 from lpcal.chain.h_pc_handeye.pose_errors import covariance_of_pose_errors
 from lpcal.chain.h_pc_handeye.set_up import SetUp
-from lpcal.chain.h_pc_handeye.state import State
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import TrackPoses
 from lpcal.records.calibration import Carries, HandEye, ViewVerdict
+from lpcal.records.evidence import HandEyeEvidence
 
 ON_BODY = SetUp()
+MISFIT = "its mocap pose misses the others"
+"""Why a view was left out whose pose was measured but does not fit."""
 MOST_BAD = 0.5
 """Share of the views that may not fit one rigid camera."""
 
@@ -44,7 +47,7 @@ class HandEyeFinding:
 
 
 def finding_of(
-    state: State,
+    state: SolveState,
     t_camera_s: Array | None,
     warnings: list[str],
     known_offset_s: float | None,
@@ -88,7 +91,7 @@ def finding_of(
         clock_drift=drift.rate if drift is not None else 0.0,
         clock_middle_s=drift.middle_s if drift is not None else 0.0,
         warnings=(*warnings, *more),
-        evidence=_evidence(state, found, spread, factor) | weakest,
+        evidence=replace(_evidence(state, found, spread, factor), weakest=weakest),
         carries=carries,
         taken_offset_s=state.offset_s,
         misread=set_up.misstated,
@@ -96,17 +99,17 @@ def finding_of(
     return HandEyeFinding(handeye, state.panel, state.offset_s, drift, set_up)
 
 
-def _weakest(found: Estimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], dict[str, object]]:
-    """Warnings; and, where the body carries the camera, in which direction it is known worst, as evidence."""
+def _weakest(found: HandEyeEstimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], str | None]:
+    """Warnings; and, where the body carries the camera, in which direction it is known worst, in words."""
     size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC, carries)
     if carries == "board":
-        return ([size] if size else []), {}
+        return ([size] if size else []), None
     roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
     advised = advise(views.H_OP, found.in_mocap_metres(views.H_CB), found.H_PC, found.H_OB, covariance[:6, :6])
-    return [each for each in (size, roles, advised.warning()) if each is not None], {"weakest": advised.words()}
+    return [each for each in (size, roles, advised.warning()) if each is not None], advised.words()
 
 
-def _refuse_a_step(state: State) -> None:
+def _refuse_a_step(state: SolveState) -> None:
     """Stop where board or camera moved between two views; their order is that of the images."""
     rows = np.flatnonzero(state.panel.trusted)
     images = [state.boards.images[row] for row in rows]
@@ -115,7 +118,7 @@ def _refuse_a_step(state: State) -> None:
         raise step.refusal()
 
 
-def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
+def _verdicts(state: SolveState, found: HandEyeEstimate) -> tuple[ViewVerdict, ...]:
     whole = Views(state.boards.H_CB, state.panel.H, state.panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
     angle, distance = misfit(whole, found)
     _, held_out_m = held_out(state)
@@ -131,7 +134,7 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
         why = state.panel.why[k]
         used = bool(state.inliers[k])
         if why is None and not used:
-            why = f"its mocap pose misses the others by {np.degrees(angle[k]):.2f} deg, {1e3 * distance[k]:.1f} mm"
+            why = f"{MISFIT} by {np.degrees(angle[k]):.2f} deg, {1e3 * distance[k]:.1f} mm"
         seen = why is None or used or state.panel.why[k] is None
         verdicts.append(
             ViewVerdict(
@@ -142,6 +145,7 @@ def _verdicts(state: State, found: Estimate) -> tuple[ViewVerdict, ...]:
                 residual_m=float(distance[k]) if seen else None,
                 residual_rad=float(angle[k]) if seen else None,
                 held_out_m=float(held_out_m[k]) if np.isfinite(held_out_m[k]) else None,
+                reason=None if used else state.panel.why[k] or MISFIT,
             )
         )
     return tuple(verdicts)
@@ -155,27 +159,29 @@ def _with_pose_errors(covariance: Array, added: Array, factor: float) -> Array:
     return np.asarray(whole * max(1.0, factor / grown))
 
 
-def _evidence(state: State, found: Estimate, spread: observability.Spread, factor: float) -> dict[str, object]:
+def _evidence(state: SolveState, found: HandEyeEstimate, spread: observability.Spread, factor: float) -> HandEyeEvidence:
     s = state.sigmas
     group = int(state.views().noise_class.max())
-    evidence: dict[str, object] = {
-        "views_used": int(state.inliers.sum()),
-        "rotation_spread_deg": np.degrees(spread.sigma_rad),
-        "mocap_sigma_deg": np.degrees(s.mocap_rad[0]),
-        "mocap_sigma_m": s.mocap_m[0],
-        "closed_form_H_OC" if state.board_carried else "closed_form_H_PC": state.start[0],
-        "covariance_factor_of_shared_errors": factor,
-        "board_size_by_mocap": found.scale,
-        "board_size_by_mocap_std": found.scale_std * np.sqrt(factor),
-        "views_that_share_an_error": float(np.median(state.deflation[state.inliers])),
-    }
-    if group:
-        evidence |= {"mocap_sigma_dwell_deg": np.degrees(s.mocap_rad[1]), "mocap_sigma_dwell_m": s.mocap_m[1]}
-    if state.camera is not None:
-        evidence |= {"corner_sigma_px": s.px, "camera_as_refined_here": found.camera, "camera_moved": found.camera - state.camera.mean}
-    else:
-        evidence |= {"board_sigma_deg": np.degrees(s.board_rad), "board_sigma_m": [s.board_lateral_m, s.board_lateral_m, s.board_depth_m]}
-    difference = found.H_PC @ se3.inv(state.start[0])
-    evidence["moved_from_closed_form_deg"] = float(np.degrees(se3.angle_rad(difference[:3, :3])))
-    evidence["moved_from_closed_form_m"] = float(np.linalg.norm(found.H_PC[:3, 3] - state.start[0][:3, 3]))
-    return evidence
+    dwells, camera = bool(group), state.camera
+    start, difference = state.start[0], found.H_PC @ se3.inv(state.start[0])
+    return HandEyeEvidence(
+        views_used=int(state.inliers.sum()),
+        rotation_spread_deg=np.degrees(spread.sigma_rad),
+        mocap_sigma_deg=float(np.degrees(s.mocap_rad[0])),
+        mocap_sigma_m=s.mocap_m[0],
+        closed_form_H_PC=None if state.board_carried else start,
+        closed_form_H_OC=start if state.board_carried else None,
+        covariance_factor_of_shared_errors=factor,
+        board_size_by_mocap=found.scale,
+        board_size_by_mocap_std=found.scale_std * float(np.sqrt(factor)),
+        views_that_share_an_error=float(np.median(state.deflation[state.inliers])),
+        mocap_sigma_dwell_deg=float(np.degrees(s.mocap_rad[1])) if dwells else None,
+        mocap_sigma_dwell_m=s.mocap_m[1] if dwells else None,
+        corner_sigma_px=s.px if camera is not None else None,
+        camera_as_refined_here=found.camera if camera is not None else None,
+        camera_moved=found.camera - camera.mean if camera is not None else None,
+        board_sigma_deg=float(np.degrees(s.board_rad)) if camera is None else None,
+        board_sigma_m=(s.board_lateral_m, s.board_lateral_m, s.board_depth_m) if camera is None else None,
+        moved_from_closed_form_deg=float(np.degrees(se3.angle_rad(difference[:3, :3]))),
+        moved_from_closed_form_m=float(np.linalg.norm(found.H_PC[:3, 3] - start[:3, 3])),
+    )

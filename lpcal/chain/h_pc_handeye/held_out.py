@@ -12,7 +12,7 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye import observability
 from lpcal.chain.h_pc_handeye.likelihood import misfit
-from lpcal.chain.h_pc_handeye.state import State
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
@@ -20,7 +20,7 @@ from lpcal.geometry.arrays import Array
 ONE_BY_ONE, FOLDS = 20, 10
 
 
-def held_out(state: State) -> tuple[Array, Array]:
+def held_out(state: SolveState) -> tuple[Array, Array]:
     """Angle (N,) and distance (N,) by which each used view's board misses the H_OB of the others; NaN for views not used."""
     rows = np.flatnonzero(state.inliers)
     angle, distance = np.full(len(state.inliers), np.nan), np.full(len(state.inliers), np.nan)

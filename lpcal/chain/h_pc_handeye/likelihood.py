@@ -31,7 +31,19 @@ import numpy.typing as npt
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.geometry.least_squares import POSE, Block, Model, Options, Solution, Term, compile_residual, matrix, prior, small_rotation, solve
+from lpcal.geometry.least_squares import (
+    POSE,
+    Block,
+    Model,
+    Solution,
+    SolverOptions,
+    Term,
+    compile_residual,
+    matrix,
+    prior,
+    small_rotation,
+    solve,
+)
 
 SCALE_SIGMA = 0.002
 """One standard deviation of the board's size by the mocap over its stated size, where the data show no more than that: a square measured
@@ -122,7 +134,7 @@ class Sigmas:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class HandEyeEstimate:
     """H_PC, H_OB, camera, offset, and the solution that they come from."""
 
     H_PC: Array
@@ -179,11 +191,11 @@ def estimate(
     views: Views,
     camera: CameraPrior | None,
     sigmas: Sigmas,
-    start: Estimate | tuple[Array, Array],
+    start: HandEyeEstimate | tuple[Array, Array],
     *,
     clock: bool,
-    options: Options | None = None,
-) -> Estimate:
+    options: SolverOptions | None = None,
+) -> HandEyeEstimate:
     """Solve at given sigmas from a start, which is an earlier estimate or (H_PC, H_OB).
 
     Raises
@@ -191,8 +203,8 @@ def estimate(
     DegenerateError, ConvergenceError
         As `least_squares.solve`.
     """
-    H_PC, H_OB = (start.H_PC, start.H_OB) if isinstance(start, Estimate) else start
-    earlier = start if isinstance(start, Estimate) else None
+    H_PC, H_OB = (start.H_PC, start.H_OB) if isinstance(start, HandEyeEstimate) else start
+    earlier = start if isinstance(start, HandEyeEstimate) else None
     log_scale = Block(np.full((1, 1), 0.0 if earlier is None else np.log(earlier.scale)))
     blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock), "scale": log_scale}
     of_scale = prior("scale", log_scale, np.zeros(1), np.array([[sigmas.log_scale**2]]))
@@ -208,10 +220,10 @@ def estimate(
     return _estimate(solve(blocks, terms, eliminate="H_OP", options=options), tuple(order), sigmas)
 
 
-def _estimate(found: Solution, order: tuple[str, ...], sigmas: Sigmas) -> Estimate:
+def _estimate(found: Solution, order: tuple[str, ...], sigmas: Sigmas) -> HandEyeEstimate:
     camera = found["camera"][0] if "camera" in found.blocks else np.zeros(CAMERA_SIZE)
     clock, scale = float(found["clock"][0, 0]), float(np.exp(found["scale"][0, 0]))
-    return Estimate(found["H_PC"][0], found["H_OB"][0], camera, clock, scale, found, order, sigmas)
+    return HandEyeEstimate(found["H_PC"][0], found["H_OB"][0], camera, clock, scale, found, order, sigmas)
 
 
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
@@ -308,7 +320,7 @@ def _corner_model() -> Model:
     return compile_residual(residual, (POSE, POSE, POSE, CAMERA_SIZE, 1), 5)
 
 
-def misfit(views: Views, found: Estimate) -> tuple[Array, Array]:
+def misfit(views: Views, found: HandEyeEstimate) -> tuple[Array, Array]:
     """Angle (N,) and distance (N,) by which each view's board, seen through the measured panel pose, misses H_OB."""
     H_OB_k = views.H_OP @ found.H_PC @ found.in_mocap_metres(views.H_CB)
     return se3.angle_rad(H_OB_k[:, :3, :3] @ found.H_OB[:3, :3].T), np.linalg.norm(H_OB_k[:, :3, 3] - found.H_OB[:3, 3], axis=1)

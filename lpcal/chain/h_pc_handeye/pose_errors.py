@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.optimize import minimize
 
-from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views
+from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Views
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera import projection_jacobian
@@ -32,7 +32,7 @@ LEAST_SHARE = 1e-4
 """The least variance of the smooth errors that is tried, as a share of the noise's: as good as none."""
 
 
-def covariance_of_pose_errors(views: Views, found: Estimate) -> Array:
+def covariance_of_pose_errors(views: Views, found: HandEyeEstimate) -> Array:
     """What errors that are linear in the panel's pose add to the covariance (12, 12) of H_PC and H_OB, as left perturbations.
 
     Zeros where the board poses come without corners, which would show their own noise, or where the views are few.
@@ -61,7 +61,7 @@ def covariance_of_pose_errors(views: Views, found: Estimate) -> Array:
     return np.asarray(carried * np.tile(smooth.repeat(3), F.shape[1] // 6) @ carried.T)
 
 
-def _board_covariance(views: Views, found: Estimate) -> Array:
+def _board_covariance(views: Views, found: HandEyeEstimate) -> Array:
     """(N, 6, 6) of the left perturbations of H_CB by the noise of the corners."""
     points_B = found.scale * np.asarray(views.points_B)
     fx, fy, cx, cy = found.camera[:4]

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import clock, congruence
-from lpcal.chain.h_pc_handeye.state import Options
+from lpcal.chain.h_pc_handeye.state import HandEyeOptions
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import PoseTrack, poses_at
@@ -47,7 +47,7 @@ class SetUp:
         return ["the poses take the body to the room, not mocap.direction: H_PO as is stated: they are read so"] if self.misstated else []
 
 
-def of_pairs(H_OP: Array, H_CB: Array, options: Options, *, from_images: bool = True) -> SetUp:
+def of_pairs(H_OP: Array, H_CB: Array, options: HandEyeOptions, *, from_images: bool = True) -> SetUp:
     """The set-up of panel poses H_OP (N, 4, 4), as read, and board poses H_CB (N, 4, 4).
 
     Board poses found elsewhere may be inverted, which looks as a fixed camera does: of these the data leave it open.
@@ -65,7 +65,7 @@ def of_pairs(H_OP: Array, H_CB: Array, options: Options, *, from_images: bool = 
     return SetUp(congruence.fits(turned, H_CB, agreed) and _carried(agreed))
 
 
-def of_track(track: PoseTrack, t_camera_s: Array, H_CB: Array, options: Options, *, from_images: bool = True) -> SetUp:
+def of_track(track: PoseTrack, t_camera_s: Array, H_CB: Array, options: HandEyeOptions, *, from_images: bool = True) -> SetUp:
     """The set-up of a recording and board poses at the camera's times (N,), at the likeliest clock offset: angles know of no set-up."""
     if options.carries is not None:
         return SetUp(options.carries == "board")

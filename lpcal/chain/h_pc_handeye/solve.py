@@ -15,25 +15,25 @@ from lpcal.chain.h_pc_handeye import observability, set_up, variance
 from lpcal.chain.h_pc_handeye.clock import without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
-from lpcal.chain.h_pc_handeye.likelihood import Estimate, Views, estimate, misfit
+from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Views, estimate, misfit
 from lpcal.chain.h_pc_handeye.stamps import late_stamps
 from lpcal.chain.h_pc_handeye.start import start_moving, start_paired
-from lpcal.chain.h_pc_handeye.state import Options, State
+from lpcal.chain.h_pc_handeye.state import HandEyeOptions, SolveState
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.geometry.least_squares import Options as LeastSquaresOptions
+from lpcal.geometry.least_squares import SolverOptions
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import BoardPoses
 
-__all__ = ["HandEyeFinding", "Options", "solve_moving", "solve_paired"]
+__all__ = ["HandEyeFinding", "HandEyeOptions", "solve_moving", "solve_paired"]
 
 ROUNDS = 25
 SETTLED = 0.01
 """Relative change of every sigma at which the estimate counts as settled."""
 SETTLED_S = 2e-6
-FIRST = LeastSquaresOptions(iterations=5, strict=False)
-THEN = LeastSquaresOptions(iterations=1, damping=1e-12, strict=False)
+FIRST = SolverOptions(iterations=5, strict=False)
+THEN = SolverOptions(iterations=1, damping=1e-12, strict=False)
 """Of the solves between which the sigmas still change: a Gauss-Newton step each, once near. Undamped: what the mocap determines is known
 a million times worse than what the corners do, and a damping in proportion to these would hold it."""
 OUTLIER_CHI2 = 33.0
@@ -48,7 +48,7 @@ CLOCK_UNSEEN_S = 0.02
 """An offset less certain than this is not one that the data show."""
 
 
-def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, options: Options) -> HandEyeFinding:
+def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, options: HandEyeOptions) -> HandEyeFinding:
     """Hand-eye from a recording with a clock.
 
     Parameters
@@ -86,7 +86,7 @@ def solve_moving(boards: BoardPoses, track: PoseTrack, camera: Camera | None, op
     return finding_of(state, t_camera_s, warnings, options.clock_offset_s, drift, found)
 
 
-def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: Options) -> HandEyeFinding:
+def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options: HandEyeOptions) -> HandEyeFinding:
     """Hand-eye from one panel pose a view, H_OP (N, 4, 4), no clock. Raises as `solve_moving`."""
     count = len(H_OP)
     found = set_up.of_pairs(H_OP, boards.H_CB, options, from_images=boards.corners_px is not None)
@@ -95,7 +95,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
     return finding_of(_refine(start_paired(boards, panel, camera, options), None), None, found.warnings(), None, set_up=found)
 
 
-def _refine(state: State, t_camera_s: Array | None) -> State:
+def _refine(state: SolveState, t_camera_s: Array | None) -> SolveState:
     """Settle with the closed form's inliers, choose the views anew, settle again with their shared errors counted."""
     state = _settle(state, t_camera_s)
     refused = np.zeros_like(state.inliers)
@@ -117,7 +117,7 @@ def _refine(state: State, t_camera_s: Array | None) -> State:
     return state
 
 
-def _without_drift(state: State, t_camera_s: Array) -> tuple[State, Array, Drift | None]:
+def _without_drift(state: SolveState, t_camera_s: Array) -> tuple[SolveState, Array, Drift | None]:
     """The solve and its times freed of the clocks' drift, where it shows."""
     total, t_s = None, t_camera_s
     for _ in range(ROUNDS_OF_DRIFT):
@@ -131,7 +131,7 @@ def _without_drift(state: State, t_camera_s: Array) -> tuple[State, Array, Drift
     return state, t_s, total
 
 
-def _settle(state: State, t_camera_s: Array | None) -> State:
+def _settle(state: SolveState, t_camera_s: Array | None) -> SolveState:
     """Solve at given sigmas, relinearise the clock, re-estimate the sigmas, until all of it stands still."""
     for _ in range(ROUNDS):
         views = state.views()
@@ -158,7 +158,7 @@ def _settle(state: State, t_camera_s: Array | None) -> State:
     return state
 
 
-def _clock_unseen(found: Estimate) -> bool:
+def _clock_unseen(found: HandEyeEstimate) -> bool:
     """Whether the views leave the offset open: the panel stood still in all of them."""
     try:
         return bool(np.sqrt(found.covariance()[12, 12]) > CLOCK_UNSEEN_S)
@@ -166,7 +166,7 @@ def _clock_unseen(found: Estimate) -> bool:
         return True
 
 
-def _choose(state: State, refused: Mask) -> tuple[Mask, Array | None]:
+def _choose(state: SolveState, refused: Mask) -> tuple[Mask, Array | None]:
     """Views whose mocap pose fits within its noise, and the corners without gross ones; what was refused once is not taken in again."""
     found, views = state.estimate(), state.views()
     kind = "mocap" if state.camera is not None else "board"
@@ -189,7 +189,7 @@ def _choose(state: State, refused: Mask) -> tuple[Mask, Array | None]:
     return chosen, _without_gross_corners(state, found)
 
 
-def _without_gross_corners(state: State, found: Estimate) -> Array | None:
+def _without_gross_corners(state: SolveState, found: HandEyeEstimate) -> Array | None:
     """The corners, NaN where one misses the model by many sigmas; the same array where none does."""
     residuals, _ = found.corner_residuals()
     if not len(residuals) or state.corners_px is None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.chain.h_pc_handeye.likelihood import Views, misfit
-from lpcal.chain.h_pc_handeye.state import State
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import poses_at
 
@@ -30,7 +30,7 @@ FITS = 3.0
 NAMED = 4
 
 
-def late_stamps(state: State, t_camera_s: Array) -> str | None:
+def late_stamps(state: SolveState, t_camera_s: Array) -> str | None:
     """In words, where views left out fit at other times than theirs; t_camera_s (N,) are the times of all views."""
     out = np.flatnonzero(state.panel.trusted & ~state.inliers)
     if state.track is None or len(out) < FEWEST:

@@ -13,7 +13,7 @@ from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import congruence, observability
 from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior
 from lpcal.chain.h_pc_handeye.ends import found_by_other_end, settled_ends, with_turned
-from lpcal.chain.h_pc_handeye.state import Options, State
+from lpcal.chain.h_pc_handeye.state import HandEyeOptions, SolveState
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
@@ -25,14 +25,14 @@ CLEARLY_WORSE = 1.0
 """Offsets at which the angles disagree by so much more, in logarithms of squares, are not tried."""
 
 
-def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Camera | None, options: Options) -> State:
+def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera: Camera | None, options: HandEyeOptions) -> SolveState:
     """The closed form at each likely offset; the one of least scatter."""
     if options.clock_offset_s is not None:
         offsets = [options.clock_offset_s]
     else:
         candidates = clocks.offset_candidates(track, t_camera_s, boards.H_CB)
         offsets = [candidate.offset_s for candidate in candidates if candidate.cost < candidates[0].cost + CLEARLY_WORSE]
-    best: tuple[float, State, park.Consensus] | None = None
+    best: tuple[float, SolveState, park.Consensus] | None = None
     for offset in offsets:
         panel = poses_at(track, t_camera_s - offset)
         if panel.trusted.sum() < observability.FEWEST_VIEWS:
@@ -80,7 +80,7 @@ def _by_the_clock(
     )
 
 
-def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: Options) -> State:
+def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, options: HandEyeOptions) -> SolveState:
     """The closed form with one panel pose a view. Raises as `start_moving`."""
     boards, _ = settled_ends(boards, panel.H, panel.trusted)
     boards, agreed = _turned_back(boards, panel, _agreed(boards, panel, options))
@@ -89,14 +89,14 @@ def start_paired(boards: BoardPoses, panel: TrackPoses, camera: Camera | None, o
     return state
 
 
-def _refuse(state: State, agreed: park.Consensus) -> None:
+def _refuse(state: SolveState, agreed: park.Consensus) -> None:
     """Stop where the data are no rigid motion, with what is wrong."""
     trusted = state.panel.trusted
     of_trusted = replace(agreed, inliers=agreed.inliers[trusted])
     congruence.refuse(state.panel.H[trusted], state.boards.H_CB[trusted], of_trusted, from_images=state.boards.corners_px is not None)
 
 
-def _agreed(boards: BoardPoses, panel: TrackPoses, options: Options) -> park.Consensus:
+def _agreed(boards: BoardPoses, panel: TrackPoses, options: HandEyeOptions) -> park.Consensus:
     """The closed form on the trusted views, after the refusal of motions that cannot show H_PC; rows are all views."""
     trusted = panel.trusted
     measured = se3.inv(panel.H[trusted]) if options.carries == "board" else panel.H[trusted]
@@ -129,11 +129,18 @@ def _turned_back(boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus) 
 
 
 def _state(
-    boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus, offset: float, camera: Camera | None, options: Options, *, clock: bool
-) -> State:
+    boards: BoardPoses,
+    panel: TrackPoses,
+    agreed: park.Consensus,
+    offset: float,
+    camera: Camera | None,
+    options: HandEyeOptions,
+    *,
+    clock: bool,
+) -> SolveState:
     count = len(boards.H_CB)
     corners, scale = (None, None) if boards.corners_px is None or camera is None else as_pinhole(boards.corners_px, camera)
-    return State(
+    return SolveState(
         boards,
         panel,
         agreed.inliers,

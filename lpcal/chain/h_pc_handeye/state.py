@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye.likelihood import CameraPrior, Estimate, Sigmas, Views
+from lpcal.chain.h_pc_handeye.likelihood import CameraPrior, HandEyeEstimate, Sigmas, Views
 from lpcal.errors import ConvergenceError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
@@ -18,7 +18,7 @@ FEWEST_OF_A_CLASS = 6
 
 
 @dataclass(frozen=True)
-class Options:
+class HandEyeOptions:
     """What is known beforehand."""
 
     clock_offset_s: float | None = None
@@ -33,7 +33,7 @@ class Options:
 
 
 @dataclass(frozen=True)
-class State:
+class SolveState:
     """The solve in progress. Row k of arrays is one of the boards' views."""
 
     boards: BoardPoses
@@ -45,7 +45,7 @@ class State:
     camera: CameraPrior | None
     sigmas: Sigmas = field(default_factory=Sigmas)
     deflation: Array = field(default_factory=lambda: np.zeros(0))
-    found: Estimate | None = None
+    found: HandEyeEstimate | None = None
     corners_px: Array | None = None
     corner_scale: Array | None = None
     """(N, M) by how much a pixel's error grew on the way to the pinhole of the likelihood; None: not at all."""
@@ -76,7 +76,7 @@ class State:
         )
         return whole.of(self.inliers)
 
-    def estimate(self) -> Estimate:
+    def estimate(self) -> HandEyeEstimate:
         """What has been found.
 
         Raises

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, Estimate, Sigmas, Views
+from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, HandEyeEstimate, Sigmas, Views
 from lpcal.errors import DegenerateError
 from lpcal.geometry.arrays import Array
 
@@ -39,7 +39,7 @@ session in 400 goes beyond."""
 FLOOR_PX = 1e-3
 
 
-def components(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array | None) -> Sigmas:
+def components(views: Views, found: HandEyeEstimate, sigmas: Sigmas, t_s: Array | None) -> Sigmas:
     """The sigmas that the residuals show, at the present weights; t_s (N,) are the times of the views, where they are known."""
     sigmas = replace(sigmas, log_scale=_scale_sigma(views, found, t_s))
     if (place := found.term("board")) >= 0:
@@ -65,7 +65,7 @@ def components(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array | None)
     return replace(sigmas, mocap_rad=tuple(rad), mocap_m=tuple(metre), px=max(float(px), SHRINK * sigmas.px, FLOOR_PX))
 
 
-def _scale_sigma(views: Views, found: Estimate, t_s: Array | None) -> float:
+def _scale_sigma(views: Views, found: HandEyeEstimate, t_s: Array | None) -> float:
     """The prior's sigma of the board's size: as wide as what was found beyond `SCALE_DOUBTS` of the data's own sigmas."""
     size, information = abs(np.log(found.scale)), found.scale_std**-2 - found.sigmas.log_scale**-2
     if not information > 0 or size < SCALE_DOUBTS * found.scale_std:
@@ -91,7 +91,7 @@ def change(before: Sigmas, after: Sigmas) -> float:
     return float(np.max(np.abs(new / old - 1)))
 
 
-def deflation(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array) -> Array:
+def deflation(views: Views, found: HandEyeEstimate, sigmas: Sigmas, t_s: Array) -> Array:
     """Factor (N,) on the mocap's variance of each view: the number of views that share its error, by the residuals' correlation."""
     kind = "mocap" if found.term("mocap") >= 0 else "board"
     z = found.solution.residuals[found.term(kind)] / row_sigmas(views, sigmas, kind)
@@ -113,7 +113,7 @@ def deflation(views: Views, found: Estimate, sigmas: Sigmas, t_s: Array) -> Arra
     return factor
 
 
-def block_factor(views: Views, found: Estimate, t_s: Array | None) -> float:
+def block_factor(views: Views, found: HandEyeEstimate, t_s: Array | None) -> float:
     """Factor on the covariance by which stretches of neighbouring views move H_PC more than their noise; at least 1.
 
     What correlation of neighbours misses: errors that last, and a model that is not all there is. Counted only where it is beyond chance,

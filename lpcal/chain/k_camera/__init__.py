@@ -26,6 +26,7 @@ from lpcal.chain.k_camera.variety import TODO, monotony
 from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
+from lpcal.records.evidence import CameraEvidence, ChosenModel, ShapeTerm, TriedModel
 from lpcal.records.observations import Board, BoardViews
 
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
@@ -85,7 +86,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
         views=_verdicts(views, found, misfits, fit),
         solver=name,
         corner_sigma_px=fit.sigma_px,
-        evidence=_evidence(chosen, tried, fit, board) | figures | ({"solver_note": missing} if missing else {}),
+        evidence=replace(_evidence(chosen, tried, fit, board, figures), solver_note=missing or None),
         warnings=(*doubts, *unmodelled, *blurred_or_glaring(views.views)),
         cameramodel=fit.cameramodel() if fit.cameramodel else "",
         H_CB={views.views[index].image: H_CB for index, H_CB in zip(found, fit.H_CB, strict=True)},
@@ -190,19 +191,26 @@ def _verdicts(views: BoardViews, found: Sequence[int], misfits: dict[int, str], 
         if index not in rows:
             verdicts.append(ViewVerdict(view.image, used=False, why=misfits.get(index, view.why)))
             continue
-        seen = {"blur_px": view.blur_px, "glare": view.glare}
         inlier, residual_px = fit.inlier[rows[index]], fit.residual_px[rows[index]]
         used = int(inlier.sum())
         rejected = int(np.isfinite(residual_px).all(axis=-1).sum()) - used
         verdicts.append(
-            ViewVerdict(view.image, used=True, why=None, residual_px=rms(residual_px, inlier), corners=used, rejected=rejected, **seen)
+            ViewVerdict(
+                view.image,
+                used=True,
+                why=None,
+                residual_px=rms(residual_px, inlier),
+                corners=used,
+                rejected=rejected,
+                blur_px=view.blur_px,
+                glare=view.glare,
+            )
         )
     return tuple(verdicts)
 
 
-def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, board: Board) -> dict[str, object]:
-    """How the choice was made, in figures and in words."""
-    scores = [{"model": c.model, "board": c.board, "cross_validation_px": c.score_px, "expected_error_px": c.expected_px} for c in tried]
+def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, board: Board, figures: CameraEvidence) -> CameraEvidence:
+    """The figures with how the choice was made, in figures and in words."""
     if len(tried) == 1 and (len(fit.H_CB) >= FEWEST_TO_CHOOSE or not board.warp):
         why = "as asked"
     elif np.isnan(chosen.score_px):
@@ -210,11 +218,14 @@ def _evidence(chosen: Candidate, tried: Sequence[Candidate], fit: CameraFit, boa
     else:
         sheets = [f"{c.expected_px:.3f} px on a {c.board} board" for c in tried if c.model == chosen.model]
         why = "expected to be nearest to the truth" + (f": {', '.join(sheets)}" if len(sheets) > 1 else "")
-    return {
-        "chosen": {"model": chosen.model, "board": chosen.board, "why": why},
-        "cross_validation": scores,
-        "corner_sigma_px": fit.sigma_px,
-        "board_warp_m": [fit.shape[name][0] for name in ("bow_x_m", "bow_y_m")] if fit.shape else None,
-        "board_shape": {name: {"value": value, "std": std} for name, (value, std) in fit.shape.items()},
-        "board_warp_allowed": board.warp,
-    }
+    return replace(
+        figures,
+        chosen=ChosenModel(model=chosen.model, board=chosen.board, why=why),
+        cross_validation=tuple(
+            TriedModel(model=c.model, board=c.board, cross_validation_px=c.score_px, expected_error_px=c.expected_px) for c in tried
+        ),
+        corner_sigma_px=fit.sigma_px,
+        board_warp_m=tuple(fit.shape[name][0] for name in ("bow_x_m", "bow_y_m")) if fit.shape else None,
+        board_shape={name: ShapeTerm(value=value, std=std) for name, (value, std) in fit.shape.items()},
+        board_warp_allowed=board.warp,
+    )

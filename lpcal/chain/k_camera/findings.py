@@ -7,6 +7,7 @@ modelled. See `assess`, `next_view`, `patterns`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,15 @@ from lpcal.chain.k_camera.independent import check
 from lpcal.chain.k_camera.next_view import WORTH_SAYING, advise
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
 from lpcal.geometry import se3
+from lpcal.records.evidence import (
+    CameraEvidence,
+    Coverage,
+    NextView,
+    OtherSolver,
+    ProjectionUncertainty,
+    ResidualPattern,
+    ViewThatMatters,
+)
 from lpcal.records.observations import BoardView
 
 CELLS = (6, 4)
@@ -32,46 +42,49 @@ FLAT_TILT_DEG = 15.0
 """Boards tilted less than this about an axis leave the focal length to chance."""
 
 
-def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, blame_board: bool = True) -> tuple[dict[str, Any], list[str]]:
+def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, blame_board: bool = True) -> tuple[CameraEvidence, list[str]]:
     """Figures for camera.yaml, and warnings; `names` are those of the problem's views.
 
     Nothing is said of the board where `blame_board` is false: views that are too much alike cannot tell its shape from the lens.
     """
-    left = {"board": patterns.on_board(fit), "image": patterns.on_image(fit)}
-    figures: dict[str, Any] = {
-        "coverage": _coverage(fit),
-        "residual_pattern": {where: {"size_px": one.size_px, "z": one.z} for where, one in left.items()},
-    }
-    warnings = [*_unmodelled(left, fit, blame_board), *_odd_size(problem, fit)]
+    on_board, on_image = patterns.on_board(fit), patterns.on_image(fit)
+    left = {where: ResidualPattern(size_px=one.size_px, z=one.z) for where, one in (("board", on_board), ("image", on_image))}
+    figures = CameraEvidence(coverage=_coverage(fit), residual_pattern=left)
+    warnings = [*_unmodelled(on_board, on_image, fit, blame_board), *_odd_size(problem, fit)]
     if fit.uncertainty is not None:
-        return figures | {"projection_uncertainty": _uncertainty(assess_spline(fit))}, warnings
+        return replace(figures, projection_uncertainty=_uncertainty(assess_spline(fit))), warnings
     if fit.camera.covariance is None:
-        return figures | {"projection_uncertainty": None}, warnings
+        return figures, warnings
     known = information(problem, fit)
-    sure = assess(known, fit)
-    figures["projection_uncertainty"] = _uncertainty(sure)
-    figures["independent_check"] = check(problem, fit)
-    figures["free_board_check"] = free = check_with_free_board(problem, fit)
-    warnings += _uneven(free or {}, sure, fit) if blame_board else []
+    sure, free, advice = assess(known, fit), check_with_free_board(problem, fit), advise(known, fit)
+    warnings += _uneven(free, sure, fit) if blame_board and free is not None else []
     order = np.argsort(-sure.gain)[:MOST_NAMED]
-    figures["views_that_matter"] = [{"image": names[row], "without_it": float(sure.gain[row])} for row in order]
-    advice = advise(known, fit)
-    if advice is not None and advice.after_px < WORTH_SAYING * advice.before_px:
-        figures["next_view"] = {"hold_the_board": advice.words, "std_now_px": advice.before_px, "std_then_px": advice.after_px}
+    worth = advice is not None and advice.after_px < WORTH_SAYING * advice.before_px
+    figures = replace(
+        figures,
+        projection_uncertainty=_uncertainty(sure),
+        independent_check=check(problem, fit),
+        free_board_check=free,
+        views_that_matter=tuple(ViewThatMatters(image=names[row], without_it=float(sure.gain[row])) for row in order),
+        next_view=NextView(hold_the_board=advice.words, std_now_px=advice.before_px, std_then_px=advice.after_px)
+        if advice is not None and worth
+        else None,
+    )
     return figures, warnings
 
 
-def _uneven(free: dict[str, Any], sure: Sureness, fit: CameraFit) -> list[str]:
+def _uneven(free: OtherSolver, sure: Sureness, fit: CameraFit) -> list[str]:
     """A word where freeing the board's corners explains much of what is left, or moves the camera by more than its sigma allows."""
-    if "difference_rms_px" not in free or not sure.covered.any():
+    apart_px, off_m = free.difference_rms_px, free.board_off_rms_m
+    if apart_px is None or off_m is None or not sure.covered.any():
         return []
-    off_px = free["board_off_rms_m"] * fit.camera.K[0, 0] / float(np.median(fit.H_CB[:, 2, 3]))
+    off_px = off_m * fit.camera.K[0, 0] / float(np.median(fit.H_CB[:, 2, 3]))
     said_px = float(np.sqrt(np.mean(sure.worst_px[sure.covered] ** 2)))
-    if off_px < UNEVEN_SHARE * fit.sigma_px and free["difference_rms_px"] < UNEVEN_SIGMAS * said_px:
+    if off_px < UNEVEN_SHARE * fit.sigma_px and apart_px < UNEVEN_SIGMAS * said_px:
         return []
     return [
-        f"the board's corners lie {1e3 * free['board_off_rms_m']:.2g} mm rms from where its shape says, and with them free the camera is "
-        f"{free['difference_rms_px']:.2g} px apart (its sigma there is {said_px:.2g} px): print on a stiff board, or have one made"
+        f"the board's corners lie {1e3 * off_m:.2g} mm rms from where its shape says, and with them free the camera is "
+        f"{apart_px:.2g} px apart (its sigma there is {said_px:.2g} px): print on a stiff board, or have one made"
     ]
 
 
@@ -88,23 +101,23 @@ def _odd_size(problem: CornerProblem, fit: CameraFit) -> list[str]:
     ]
 
 
-def _uncertainty(sure: Sureness) -> dict[str, Any]:
+def _uncertainty(sure: Sureness) -> ProjectionUncertainty:
     inside = sure.worst_px[sure.covered] if sure.covered.any() else sure.worst_px
-    return {
-        "of": "one standard deviation in its worst direction, at infinity, a turn of the camera taken out; rms and most where corners are",
-        "columns_px": sure.pixels[0, :, 0],
-        "rows_px": sure.pixels[:, 0, 1],
-        "worst_direction_std_px": np.round(sure.worst_px, 5),
-        "rms_px": float(np.sqrt(np.mean(inside**2))),
-        "most_px": float(inside.max()),
-        "covered_share": float(sure.covered.mean()),
-        "covered": sure.covered,
-        "trusted": sure.trusted,
-        "trusted_share": float(sure.trusted.mean()),
-    }
+    return ProjectionUncertainty(
+        of="one standard deviation in its worst direction, at infinity, a turn of the camera taken out; rms and most where corners are",
+        columns_px=sure.pixels[0, :, 0],
+        rows_px=sure.pixels[:, 0, 1],
+        worst_direction_std_px=np.round(sure.worst_px, 5),
+        rms_px=float(np.sqrt(np.mean(inside**2))),
+        most_px=float(inside.max()),
+        covered_share=float(sure.covered.mean()),
+        covered=sure.covered,
+        trusted=sure.trusted,
+        trusted_share=float(sure.trusted.mean()),
+    )
 
 
-def _coverage(fit: CameraFit) -> dict[str, Any]:
+def _coverage(fit: CameraFit) -> Coverage:
     """Corners in each cell of the image, and the boards' tilts, rolls and distances."""
     places = fit.camera.project(se3.apply(fit.H_CB, fit.points_B))[fit.inlier]
     size = fit.camera.image_size
@@ -115,15 +128,15 @@ def _coverage(fit: CameraFit) -> dict[str, Any]:
     roll = np.degrees(np.arctan2(fit.H_CB[:, 1, 0], fit.H_CB[:, 0, 0]))
     middle = se3.apply(fit.H_CB, np.broadcast_to(fit.points_B.mean(axis=0), (len(fit.H_CB), 1, 3)))[:, 0]
     distance = np.linalg.norm(middle, axis=-1)
-    return {
-        "corners_in_cells": counts,
-        "empty_cells": int((counts == 0).sum()),
-        "tilt_about_x_deg": [float(about_x.min()), float(about_x.max())],
-        "tilt_about_y_deg": [float(about_y.min()), float(about_y.max())],
-        "roll_deg": [float(roll.min()), float(roll.max())],
-        "distance_m": [float(distance.min()), float(distance.max())],
-        "in_words": _in_words(counts, about_x, about_y),
-    }
+    return Coverage(
+        corners_in_cells=counts,
+        empty_cells=int((counts == 0).sum()),
+        tilt_about_x_deg=(float(about_x.min()), float(about_x.max())),
+        tilt_about_y_deg=(float(about_y.min()), float(about_y.max())),
+        roll_deg=(float(roll.min()), float(roll.max())),
+        distance_m=(float(distance.min()), float(distance.max())),
+        in_words=_in_words(counts, about_x, about_y),
+    )
 
 
 def _in_words(counts: Any, about_x: Any, about_y: Any) -> str:
@@ -147,18 +160,18 @@ def _in_words(counts: Any, about_x: Any, about_y: Any) -> str:
     return "; ".join(parts)
 
 
-def _unmodelled(left: dict[str, patterns.Pattern], fit: CameraFit, blame_board: bool) -> list[str]:
+def _unmodelled(on_board: patterns.Pattern, on_image: patterns.Pattern, fit: CameraFit, blame_board: bool) -> list[str]:
     said = []
-    if blame_board and left["board"].seen(fit.sigma_px):
+    if blame_board and on_board.seen(fit.sigma_px):
         allowed = "its bow, twist and cubic terms" if fit.board not in {"flat", "bowed"} else f"a {fit.board} board"
         said.append(
-            f"the residuals keep a pattern of {left['board'].size_px:.3f} px on the board that {allowed} cannot explain: "
+            f"the residuals keep a pattern of {on_board.size_px:.3f} px on the board that {allowed} cannot explain: "
             "it is bent in another way, or printed unevenly; a stiffer board (glass, aluminium) would help"
         )
-    if left["image"].seen(fit.sigma_px):
+    if on_image.seen(fit.sigma_px):
         richer = "a richer lens (model: opencv8 or splined) may" if fit.camera.spline is None else "the lens bends within a knot's distance"
         said.append(
-            f"the residuals keep a pattern of {left['image'].size_px:.3f} px in the image that {fit.camera.model} cannot explain: {richer}"
+            f"the residuals keep a pattern of {on_image.size_px:.3f} px in the image that {fit.camera.model} cannot explain: {richer}"
         )
     return said
 

@@ -9,7 +9,6 @@ Source: COLMAP (pycolmap), bundle adjustment; Strobl & Hirzinger 2011 (imperfect
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +19,11 @@ from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.geometry.colmap import load_pycolmap
 from lpcal.geometry.rigid_fit import fit as rigid_fit
-from lpcal.records.calibration import Camera
+from lpcal.records.camera import Camera
+from lpcal.records.evidence import OtherSolver
+
+BY = "COLMAP bundle adjustment, every corner of the board free"
+"""Who checks."""
 
 MODELS = {"opencv4": "OPENCV", "opencv8": "FULL_OPENCV"}
 """COLMAP's names of the lenses that it shares with lpcal."""
@@ -30,16 +33,15 @@ FEWEST_SEEN = 3
 """A corner seen in fewer views than this stays out."""
 
 
-def check_with_free_board(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
+def check_with_free_board(problem: CornerProblem, fit: CameraFit) -> OtherSolver | None:
     """How far COLMAP's camera projects from the fit's, where corners are, and its points from the board's; None for other lenses."""
     if fit.camera.model not in MODELS or find_spec("pycolmap") is None:
         return None
-    by = {"by": "COLMAP bundle adjustment, every corner of the board free"}
     kept = np.flatnonzero(fit.inlier.sum(axis=0) >= FEWEST_SEEN)
     try:
         camera, points_B = _adjusted(problem, fit, kept)
     except (RuntimeError, ValueError) as error:
-        return by | {"failed": str(error).strip().splitlines()[0]}
+        return OtherSolver(by=BY, failed=str(error).strip().splitlines()[0])
     pixels = pixel_grid(problem.image_size)
     pixels = pixels[judged_pixels(pixels, fit)]
     if not len(pixels):
@@ -47,13 +49,14 @@ def check_with_free_board(problem: CornerProblem, fit: CameraFit) -> dict[str, A
     apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), camera.project)[0], axis=1)
     scale = np.linalg.norm(fit.points_B[kept] - fit.points_B[kept].mean(axis=0)) / np.linalg.norm(points_B - points_B.mean(axis=0))
     off_m = rigid_fit(fit.points_B[kept], scale * points_B)[2]
-    return by | {
-        "f_px": [round(float(camera.K[0, 0]), DIGITS), round(float(camera.K[1, 1]), DIGITS)],
-        "c_px": [round(float(camera.K[0, 2]), DIGITS), round(float(camera.K[1, 2]), DIGITS)],
-        "difference_rms_px": round(float(np.sqrt(np.mean(apart**2))), DIGITS),
-        "difference_worst_px": round(float(apart.max()), DIGITS),
-        "board_off_rms_m": round(float(np.sqrt(np.mean(off_m**2))), DIGITS + 3),
-    }
+    return OtherSolver(
+        by=BY,
+        f_px=(round(float(camera.K[0, 0]), DIGITS), round(float(camera.K[1, 1]), DIGITS)),
+        c_px=(round(float(camera.K[0, 2]), DIGITS), round(float(camera.K[1, 2]), DIGITS)),
+        difference_rms_px=round(float(np.sqrt(np.mean(apart**2))), DIGITS),
+        difference_worst_px=round(float(apart.max()), DIGITS),
+        board_off_rms_m=round(float(np.sqrt(np.mean(off_m**2))), DIGITS + 3),
+    )
 
 
 def _adjusted(problem: CornerProblem, fit: CameraFit, kept: npt.NDArray[np.intp]) -> tuple[Camera, Array]:

@@ -6,19 +6,21 @@ check. Source: OpenCV, calib3d; the difference: `geometry.camera_difference`.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lpcal.chain.k_camera.assess import judged_pixels
 from lpcal.chain.k_camera.problem import DIGITS, DISTORTIONS, CameraFit, CornerProblem
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
-from lpcal.records.calibration import Camera
+from lpcal.records.camera import Camera
+from lpcal.records.evidence import OtherSolver
+
+BY = "OpenCV calibrateCamera"
+"""Who checks."""
 
 STOP = (30, 1e-9)
 
 
-def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
+def check(problem: CornerProblem, fit: CameraFit) -> OtherSolver | None:
     """How far OpenCV's camera projects from the fit's, where corners are; None for lenses that it does not know."""
     import cv2
 
@@ -36,17 +38,17 @@ def check(problem: CornerProblem, fit: CameraFit) -> dict[str, Any] | None:
             points, corners, problem.image_size, fit.camera.K.copy(), start, flags=flags, criteria=criteria
         )
     except cv2.error as error:
-        return {"by": "OpenCV calibrateCamera", "failed": str(error).strip().splitlines()[-1]}
+        return OtherSolver(by=BY, failed=str(error).strip().splitlines()[-1])
     other = Camera(problem.image_size, fit.camera.model, np.asarray(K, dtype=float), np.ravel(distortion)[: fit.camera.distortion.size])
     pixels = pixel_grid(problem.image_size)
     pixels = pixels[judged_pixels(pixels, fit)]
     if not len(pixels):
         return None
     apart = np.linalg.norm(projection_difference(pixels, fit.camera.unproject(pixels), other.project)[0], axis=1)
-    return {
-        "by": "OpenCV calibrateCamera",
-        "f_px": [round(float(K[0, 0]), DIGITS), round(float(K[1, 1]), DIGITS)],
-        "c_px": [round(float(K[0, 2]), DIGITS), round(float(K[1, 2]), DIGITS)],
-        "difference_rms_px": round(float(np.sqrt(np.mean(apart**2))), DIGITS),
-        "difference_worst_px": round(float(apart.max()), DIGITS),
-    }
+    return OtherSolver(
+        by=BY,
+        f_px=(round(float(K[0, 0]), DIGITS), round(float(K[1, 1]), DIGITS)),
+        c_px=(round(float(K[0, 2]), DIGITS), round(float(K[1, 2]), DIGITS)),
+        difference_rms_px=round(float(np.sqrt(np.mean(apart**2))), DIGITS),
+        difference_worst_px=round(float(apart.max()), DIGITS),
+    )

@@ -40,7 +40,7 @@ LEAST_SEEN = 1.0
 
 
 @dataclass(frozen=True)
-class Advice:
+class BoardAdvice:
     """A view to add, in words, and the mean sigma over the imager before and after."""
 
     words: str
@@ -48,7 +48,7 @@ class Advice:
     after_px: float
 
 
-def advise(known: Information, fit: CameraFit) -> Advice | None:
+def advise(known: Information, fit: CameraFit) -> BoardAdvice | None:
     """The best of the views thought of; None where none of them has the board in the image."""
     pixels = pixel_grid(fit.camera.image_size, 12, 8)
     judged = judged_pixels(pixels, fit)
@@ -59,12 +59,12 @@ def advise(known: Information, fit: CameraFit) -> Advice | None:
     worst = worst_direction(slope, known.covariance(total))
     slope = slope[judged | (worst < SENSIBLE * np.median(worst[judged]))]
     before = mean_sigma(slope, known.covariance(total))
-    found: list[Advice] = []
+    found: list[BoardAdvice] = []
     for (place, x), (height, y), (tilt, turn), size in product(PLACES.items(), HEIGHTS.items(), TILTS.items(), SIZES):
         more = _information_of(known, fit, _pose(fit, (x, y), turn, size))
         if more is not None:
             after = mean_sigma(slope, known.covariance(total + more))
-            found.append(Advice(f"{_where(place, height)}, {tilt}, about {100 * size:.0f} % of the image's width long", before, after))
+            found.append(BoardAdvice(f"{_where(place, height)}, {tilt}, about {100 * size:.0f} % of the image's width long", before, after))
     return min(found, key=lambda one: one.after_px, default=None)
 
 

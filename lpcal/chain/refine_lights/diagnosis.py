@@ -50,18 +50,24 @@ def diagnose(solution: LightsSolution, used: Measured, camera: Camera, wings: Wi
     names = [light.name for light in solution.lights]
     kept = {finding.name: finding for finding in solution.spheres if finding.used and finding.centre_C is not None}
     placed = [(view, m, np.asarray(kept[view.name].centre_C)) for view, m in used if view.name in kept]
-    warnings, evidence = list[str](), dict[str, object]()
+    warnings, predicted = list[str](), None
     where = [(view, centre) for view, _, centre in placed]
     shaded = shading_misfit(where, solution.lights, camera)
     plain = shading_misfit(where, [_with_plain_lobe(light, wings) for light in solution.lights], camera)
     if shaded is not None and plain is not None:
         warnings += _drifts(shaded, names, DRIFTED) or _drifts(plain, names, DRIFTED_PLAIN)
         warnings += _other_lobes(shaded, solution.lights, wings)
-        foretold = _held_out_shading(shaded)
-        evidence["foretold_shading_rms"], evidence["foretold_shading_rms_albedo_free"] = foretold or (None, None)
-    evidence["foretold_highlight_px"], gate_px = _held_out_highlights(names, [(v, m) for v, m, _ in placed], camera, wings)
-    warnings += _gates(evidence, gate_px)
-    return replace(solution, warnings=(*solution.warnings, *warnings), evidence=solution.evidence | evidence)
+        predicted = _held_out_shading(shaded)
+    highlight_px, gate_px = _held_out_highlights(names, [(v, m) for v, m, _ in placed], camera, wings)
+    shading, shading_free = predicted or (None, None)
+    warnings += _gates(highlight_px, gate_px, shading_free)
+    evidence = replace(
+        solution.evidence,
+        foretold_shading_rms=shading,
+        foretold_shading_rms_albedo_free=shading_free,
+        foretold_highlight_px=highlight_px,
+    )
+    return replace(solution, warnings=(*solution.warnings, *warnings), evidence=evidence)
 
 
 def shading_misfit(placed: Sequence[tuple[SphereView, Array]], lights: Sequence[Light], camera: Camera) -> Shaded | None:
@@ -220,11 +226,10 @@ def _miss_px(measured: CentreMeasurement, radius_m: float, source_C: Array, seen
     return float(np.sqrt(np.mean(np.sum((seen - foretold(centre_C)) ** 2, axis=1))))
 
 
-def _gates(evidence: dict[str, object], gate_px: float) -> list[str]:
+def _gates(px: float | None, gate_px: float, shading: float | None) -> list[str]:
     told = []
-    px, shading = evidence.get("foretold_highlight_px"), evidence.get("foretold_shading_rms_albedo_free")
-    if isinstance(px, float) and px > gate_px:
+    if px is not None and px > gate_px:
         told.append(f"the highlights of a sphere held out are foretold to {px:.2f} px only, where {gate_px:.2f} is the gate")
-    if isinstance(shading, float) and shading > GATE_SHADING:
+    if shading is not None and shading > GATE_SHADING:
         told.append(f"the shading of a sphere held out is foretold to {100 * shading:.1f} % only, where {100 * GATE_SHADING} is the gate")
     return told

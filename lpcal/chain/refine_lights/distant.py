@@ -18,6 +18,7 @@ from lpcal.errors import DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light, LightsSolution, SphereFinding
+from lpcal.records.evidence import LightsEvidence
 from lpcal.records.observations import Radiance, SphereView
 
 SIGHT = np.array([0.0, 0.0, 1.0])
@@ -57,9 +58,7 @@ def refine_distant(views: Sequence[SphereView], lights: Sequence[str]) -> Lights
         found.append(
             Light(light, mean, intensity[k], direction_std_rad=float(max(own, spread / np.sqrt(2), FLOOR_RAD)), intensity_std=float("nan"))
         )
-    evidence: dict[str, object] = (
-        {"spheres_disagree_deg": float(np.degrees(np.sqrt(np.mean(np.square(disagreement)))))} if disagreement else {}
-    )
+    apart_deg = float(np.degrees(np.sqrt(np.mean(np.square(disagreement))))) if disagreement else None
     return LightsSolution(
         lights=tuple(found),
         focus_C=np.zeros(3),
@@ -67,7 +66,7 @@ def refine_distant(views: Sequence[SphereView], lights: Sequence[str]) -> Lights
         H_CD=None,
         spheres=tuple(findings),
         warnings=("without a camera the images are taken as orthographic and the lights as distant: directions only",),
-        evidence=evidence,
+        evidence=LightsEvidence(spheres_disagree_deg=apart_deg),
     )
 
 

@@ -23,6 +23,7 @@ from lpcal.chain.refine_lights.volume import volume_points
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, SphereFinding
+from lpcal.records.evidence import LightsEvidence
 from lpcal.records.observations import SphereView
 
 SURE_SIGMAS = 2.0
@@ -102,7 +103,7 @@ def with_far(
         H_CD=None,
         spheres=tuple(_finding(view, used, camera) for view in views),
         warnings=tuple(told),
-        evidence={"model": "distant lights"},
+        evidence=LightsEvidence(model="distant lights"),
     )
 
 

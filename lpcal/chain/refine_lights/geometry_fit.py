@@ -27,7 +27,7 @@ from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projectio
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array, Index
-from lpcal.geometry.least_squares import POSE, Block, Options, Solution, Term, compile_residual, independent_prior, prior, solve
+from lpcal.geometry.least_squares import POSE, Block, Solution, SolverOptions, Term, compile_residual, independent_prior, prior, solve
 from lpcal.geometry.wing import wing_jacobian, wing_transform
 from lpcal.records.calibration import Camera, Wings
 from lpcal.records.observations import SphereView
@@ -87,7 +87,7 @@ def fit_geometry(
         A light that is no wing has no highlight; or the data leave a direction undetermined.
     """
     problem = _Problem(tuple(lights), tuple(views), tuple(measured), camera, wings)
-    solution = solve(problem.blocks(), problem.terms(), options=Options(iterations=200))
+    solution = solve(problem.blocks(), problem.terms(), options=SolverOptions(iterations=200))
     return problem.result(solution)
 
 

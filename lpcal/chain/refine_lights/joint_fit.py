@@ -20,7 +20,7 @@ from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, S
 from lpcal.chain.refine_lights.volume import volume_points
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.arrays import Array, Index
-from lpcal.geometry.least_squares import Block, Options, Solution, Term, independent_prior, prior, solve
+from lpcal.geometry.least_squares import Block, Solution, SolverOptions, Term, independent_prior, prior, solve
 from lpcal.geometry.wing import wing_transform
 from lpcal.records.calibration import Camera, LedCluster, Light, Lobe, Wings
 from lpcal.records.observations import SphereView
@@ -86,10 +86,10 @@ def fit_jointly(
     problem = _Problem(tuple(start.lights), tuple(views), tuple(measured), camera, wings, intensity_sd)
     few = samples.some(samples.block % FIRST_SHARE == 0)
     blocks = problem.start(start, first, samples) | {"delta": _deltas(few)}
-    rough = solve(blocks, problem.terms(blocks, few), eliminate="delta", options=Options(iterations=100, tolerance=1e-3))
+    rough = solve(blocks, problem.terms(blocks, few), eliminate="delta", options=SolverOptions(iterations=100, tolerance=1e-3))
     samples = sample_blocks(views, rough["centre"], camera, problem.lights_of(dict(rough.blocks)))
     blocks = dict(rough.blocks) | {"delta": _deltas(samples)}
-    options = Options(iterations=100, tolerance=1e-5)
+    options = SolverOptions(iterations=100, tolerance=1e-5)
     solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)
     problem, blocks = replace(problem, scatter=problem.scatter_seen(solution)), dict(solution.blocks)
     solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)

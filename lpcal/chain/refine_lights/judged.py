@@ -77,19 +77,18 @@ def refine_judged(
 
 def _doubtful(solution: LightsSolution) -> bool:
     """Whether highlights, shading or the outlines' biases are not as they should be."""
-    highlight_px, shading, bias_px = (solution.evidence.get(key) for key in ("highlight_rms_px", "shading_rms", "outline_bias_px"))
-    if isinstance(highlight_px, float) and highlight_px > DOUBTED_PX:
+    found = solution.evidence
+    if found.highlight_rms_px is not None and found.highlight_rms_px > DOUBTED_PX:
         return True
-    if isinstance(shading, float) and shading > DOUBTED_SHADING:
+    if found.shading_rms is not None and found.shading_rms > DOUBTED_SHADING:
         return True
-    biased = bias_px if isinstance(bias_px, dict) else {}
+    biased = found.outline_bias_px or {}
     return any(abs(biased[kind] - mean) > DOUBTED_SIGMAS * sigma for kind, (mean, sigma) in BIAS_PX.items() if kind in biased)
 
 
 def _strained(solution: LightsSolution, used: Measured) -> bool:
     """Whether a sphere lies farther from where its outline puts it than the outline's own uncertainty leaves."""
-    biased = solution.evidence.get("outline_bias_px")
-    bias_px = biased if isinstance(biased, dict) else {}
+    bias_px = solution.evidence.outline_bias_px or {}
     centres = {finding.name: finding.centre_C for finding in solution.spheres if finding.used}
     for view, measured in used:
         centre_C = centres.get(view.name)

@@ -35,7 +35,7 @@ STEP = 1e-6
 
 
 @dataclass(frozen=True)
-class Advice:
+class SphereAdvice:
     """A sphere to add, in words, its place in C, and the mean standard deviation of the lights' directions before and after."""
 
     words: str
@@ -44,7 +44,7 @@ class Advice:
     after_rad: float
 
 
-def advise(source_C: Array, source_covariance: Array, focus_C: Array, radius_m: float, camera: Camera) -> Advice | None:
+def advise(source_C: Array, source_covariance: Array, focus_C: Array, radius_m: float, camera: Camera) -> SphereAdvice | None:
     """The best of the places thought of; None where the sphere fits into none of them.
 
     Parameters
@@ -54,7 +54,7 @@ def advise(source_C: Array, source_covariance: Array, focus_C: Array, radius_m: 
     radius_m : of the sphere
     """
     before = mean_direction_std(source_C, source_covariance, focus_C)
-    found: list[Advice] = []
+    found: list[SphereAdvice] = []
     half = (np.array(camera.image_size) - 1) / 2
     for (place, x), (height, y), away in product(PLACES.items(), HEIGHTS.items(), DISTANCES):
         centre_C = away * np.linalg.norm(focus_C) * camera.unproject(half * (1 + np.array([x, y])))
@@ -63,7 +63,7 @@ def advise(source_C: Array, source_covariance: Array, focus_C: Array, radius_m: 
             update = np.linalg.solve(np.eye(len(gain)) + source_covariance @ gain, source_covariance)
             where = f"at the {height} {place}".replace("  ", " ").strip() if height or place else "in the middle"
             words = f"{where} of the picture, {1e3 * np.linalg.norm(centre_C):.0f} mm from the camera"
-            found.append(Advice(words, centre_C, before, mean_direction_std(source_C, update, focus_C)))
+            found.append(SphereAdvice(words, centre_C, before, mean_direction_std(source_C, update, focus_C)))
     return min(found, key=lambda one: one.after_rad, default=None)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -33,6 +34,7 @@ from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera, Light, LightsSolution, Lobe, SphereFinding, Wings
+from lpcal.records.evidence import LightsEvidence, NextSphere, RefinedSetting
 from lpcal.records.observations import SphereView
 
 WORST_HIGHLIGHT_PX = 1.0
@@ -189,18 +191,17 @@ def _solution(
         centre_C = centres_C[names.index(view.name)] if view.name in names else None
         spheres.append(_finding(view, centre_C, highlights, misfit, refused, camera))
     settings = joint.settings if joint else fit.settings
-    evidence: dict[str, object] = {
-        "model": "sum of LEDs" if joint else "round lobe" if shading else "geometry only",
-        "source_offset_m": {str(mode): dome[0] for mode, dome in joint.dome_m.items()}
-        if joint
-        else {str(m): e for m, e in fit.source_offset_m.items()},
-        "outline_bias_px": joint.bias_px if joint else fit.bias_px,
-        "settings": _setting_report(settings, wings),
-        "lobe_seen_deg": dict(zip(fit.lights, np.degrees(shading.seen_rad).tolist(), strict=True)) if shading else None,
-        "highlight_rms_px": rms(list(highlights.values())),
-        "shading_rms": rms(list(misfit.values())),
-        "next_sphere": _next_sphere(fit, joint, focus_C, kept, camera),
-    }
+    offset_m = {mode: dome[0] for mode, dome in joint.dome_m.items()} if joint else fit.source_offset_m
+    evidence = LightsEvidence(
+        model="sum of LEDs" if joint else "round lobe" if shading else "geometry only",
+        source_offset_m={str(mode): offset for mode, offset in offset_m.items()},
+        outline_bias_px=joint.bias_px if joint else fit.bias_px,
+        settings=_setting_report(settings, wings),
+        lobe_seen_deg=dict(zip(fit.lights, np.degrees(shading.seen_rad).tolist(), strict=True)) if shading else None,
+        highlight_rms_px=rms(list(highlights.values())),
+        shading_rms=rms(list(misfit.values())),
+        next_sphere=_next_sphere(fit, joint, focus_C, kept, camera),
+    )
     told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings, *_doubts(joint.bias_px if joint else fit.bias_px, highlights))
     solved = joint or fit
     return LightsSolution(
@@ -216,9 +217,7 @@ def _solution(
     )
 
 
-def _next_sphere(
-    fit: GeometryFit, joint: JointFit | None, focus_C: Array, kept: Sequence[SphereView], camera: Camera
-) -> dict[str, object] | None:
+def _next_sphere(fit: GeometryFit, joint: JointFit | None, focus_C: Array, kept: Sequence[SphereView], camera: Camera) -> NextSphere | None:
     """Which chrome sphere would tell the most of the directions, as evidence."""
     source_C, covariance = (joint.source_C, joint.source_covariance) if joint else (fit.source_C, fit.source_covariance)
     radius_m = float(np.median([view.radius_m for view in kept]))
@@ -226,7 +225,7 @@ def _next_sphere(
     if advice is None:
         return None
     before, after = np.degrees([advice.before_rad, advice.after_rad])
-    return {"where": advice.words, "centre_m": advice.centre_C, "direction_std_deg": float(before), "with_it_deg": float(after)}
+    return NextSphere(where=advice.words, centre_m=advice.centre_C, direction_std_deg=float(before), with_it_deg=float(after))
 
 
 def _doubts(bias_px: dict[str, float], highlights: dict[tuple[str, str], float]) -> list[str]:
@@ -277,9 +276,12 @@ def _finding(
     return SphereFinding(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
 
 
-def _setting_report(settings: Array, wings: Wings | None) -> dict[str, object]:
+def _setting_report(settings: Array, wings: Wings | None) -> dict[str, RefinedSetting]:
     if wings is None:
         return {}
-    names = ("azimuth_deg", "joint_angle_deg", "d1_m", "d2_m")
-    scale = np.array([180 / np.pi, 180 / np.pi, 1, 1])
-    return {wing.name: dict(zip(names, (settings[k] * scale).tolist(), strict=True)) for k, wing in enumerate(wings.wings)}
+    found = {}
+    for k, wing in enumerate(wings.wings):
+        azimuth_rad, joint_angle_rad, d1_m, d2_m = settings[k].tolist()
+        azimuth_deg, joint_angle_deg = math.degrees(azimuth_rad), math.degrees(joint_angle_rad)
+        found[wing.name] = RefinedSetting(azimuth_deg=azimuth_deg, joint_angle_deg=joint_angle_deg, d1_m=d1_m, d2_m=d2_m)
+    return found

@@ -1,0 +1,62 @@
+"""What may be asked of a reconstruction: words, lights and places of the object that there are."""
+
+from __future__ import annotations
+
+import numpy.typing as npt
+
+from lpcal.api import compared, methods
+from lpcal.errors import DisagreementError, InputError
+from lpcal.records.calibration import Calibration
+from lpcal.records.observations import RawCapture
+from lpcal.surface.mask import Hints
+
+WAYS = ("near", "distant")
+"""lpcal's own method, by how lights act."""
+
+
+def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str, keep: str) -> None:
+    """Refuse words that mean nothing."""
+    if isinstance(mask, str) and mask not in {"auto", "none"}:
+        raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
+    own = compared.of_name(method, methods.NORMALS, "method", *WAYS) is None
+    if compared.of_name(integrator, methods.INTEGRATORS, "integrator", compared.OWN) is not None and own:
+        raise InputError(
+            repr(integrator),
+            where="integrator",
+            needed=f"a method of {', '.join(methods.NORMALS)}",
+            todo="lpcal's own method finds the depth with the normals: name a method to compare with, or leave the integrator out",
+        )
+    if keep not in {"object", "support", "all"}:
+        raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
+
+
+def refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
+    """Refuse images of lights that the calibration does not hold, or two of one light."""
+    known = {light.name for light in calibration.lights}
+    strange = [name for k, name in enumerate(raw.lights) if name not in known or name in raw.lights[:k]]
+    if strange:
+        raise DisagreementError(
+            f"no light of the calibration is called {', '.join(strange[:8])}, or two images are its",
+            where=f"{raw.name}, lights",
+            needed=f"some of {', '.join(sorted(known))}, each once",
+        )
+
+
+def refuse_hints(hints: Hints, shape: tuple[int, ...], name: str) -> None:
+    """Refuse places of the object that do not lie in the images, or in the box.
+
+    Raises
+    ------
+    DisagreementError
+        A box or a point of the user lies beyond the images (H, W), or a point beside the box.
+    """
+    height, width = shape
+    x, y, across, down = hints.box or (0, 0, width, height)
+    if min(x, y) < 0 or min(across, down) < 1 or x + across > width or y + down > height:
+        raise DisagreementError(
+            f"the box {x},{y},{across},{down} goes beyond the images", where=name, needed=f"a box within {width}x{height}"
+        )
+    for at in hints.points:
+        if not (x <= at[0] < x + across and y <= at[1] < y + down):
+            inside = "the box" if hints.box else f"the images of {width}x{height}"
+            raise DisagreementError(f"the point {at[0]},{at[1]} lies outside {inside}", where=name, needed=f"a pixel within {inside}")

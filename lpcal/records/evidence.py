@@ -1,0 +1,232 @@
+"""What each stage's result rests on: frozen figures, as they stand under ``evidence`` in camera.yaml, handeye.yaml and lights.yaml.
+
+A field that has a default stands in the file only where it is not None; the key is the field's name (`formats.record_documents`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from lpcal.geometry.arrays import Array, Index, Mask
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChosenModel:
+    """The lens model and the board's shape that were taken, and why, in words."""
+
+    model: str
+    board: str
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class TriedModel:
+    """A lens model on a board: how far the halves of the views are apart, and the expected error, px; NaN where not known."""
+
+    model: str
+    board: str
+    cross_validation_px: float
+    expected_error_px: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapeTerm:
+    """A term of the board's shape (metres; stretch and shear without unit) with its standard deviation."""
+
+    value: float
+    std: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Coverage:
+    """Corners in each cell of the image, and the span (2,) of the boards' tilts, rolls (degrees) and distances (m)."""
+
+    corners_in_cells: Index
+    """(rows, columns) counts."""
+    empty_cells: int
+    tilt_about_x_deg: tuple[float, ...]
+    tilt_about_y_deg: tuple[float, ...]
+    roll_deg: tuple[float, ...]
+    distance_m: tuple[float, ...]
+    in_words: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProjectionUncertainty:
+    """Standard deviation of projection on a grid (R, C) of the imager, px, in its worst direction."""
+
+    of: str
+    """What it is the standard deviation of, in words."""
+    columns_px: Array
+    rows_px: Array
+    worst_direction_std_px: Array
+    """(R, C)."""
+    rms_px: float
+    most_px: float
+    covered_share: float
+    covered: Mask
+    """(R, C) whether corners are near."""
+    trusted: Mask
+    """(R, C) whether the lens is known there."""
+    trusted_share: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class OtherSolver:
+    """The same corners by another program: its camera and how far it projects from ours, px; `failed` holds its message where it failed."""
+
+    by: str
+    failed: str | None = None
+    f_px: tuple[float, ...] | None = None
+    c_px: tuple[float, ...] | None = None
+    difference_rms_px: float | None = None
+    difference_worst_px: float | None = None
+    board_off_rms_m: float | None = None
+    """How far the corners lie from the board's shape, where they were free."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResidualPattern:
+    """How large a pattern left in the residuals is, rms px a coordinate, and how sure it is there, in standard errors."""
+
+    size_px: float
+    z: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewThatMatters:
+    """By what factor the camera would be less well known without this view."""
+
+    image: str
+    without_it: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextView:
+    """Where to hold the board next, in words, and what that makes of the mean standard deviation, px."""
+
+    hold_the_board: str
+    std_now_px: float
+    std_then_px: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraEvidence:
+    """What a camera solve rests on."""
+
+    chosen: ChosenModel | None = None
+    cross_validation: tuple[TriedModel, ...] = ()
+    corner_sigma_px: float | None = None
+    board_warp_m: tuple[float, ...] | None = None
+    """How far the board bows along x and y; None: it was taken as flat."""
+    board_shape: dict[str, ShapeTerm] | None = None
+    """Terms of the board's shape, by name."""
+    board_warp_allowed: bool | None = None
+    coverage: Coverage | None = None
+    residual_pattern: dict[str, ResidualPattern] | None = None
+    """Left on the ``board`` and in the ``image``."""
+    projection_uncertainty: ProjectionUncertainty | None = None
+    independent_check: OtherSolver | None = None
+    free_board_check: OtherSolver | None = None
+    views_that_matter: tuple[ViewThatMatters, ...] | None = None
+    next_view: NextView | None = None
+    solver_note: str | None = None
+    """Why another solver than mrcal was taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandEyeEvidence:
+    """What a hand-eye solve rests on."""
+
+    views_used: int
+    rotation_spread_deg: Array
+    """(3,) by how much the body turned, rms about three axes, the largest first."""
+    mocap_sigma_deg: float
+    mocap_sigma_m: float
+    """One standard deviation of a measured body pose."""
+    closed_form_H_PC: Array | None = None
+    """(4, 4) where the solve started, by Park's closed form."""
+    closed_form_H_OC: Array | None = None
+    """The same where the body carries the board."""
+    covariance_factor_of_shared_errors: float
+    """By how much errors that neighbouring views share grow the covariance."""
+    board_size_by_mocap: float
+    """The board's size over its stated size, by the mocap's metres."""
+    board_size_by_mocap_std: float
+    views_that_share_an_error: float
+    mocap_sigma_dwell_deg: float | None = None
+    mocap_sigma_dwell_m: float | None = None
+    """The same of a mean over a dwell."""
+    corner_sigma_px: float | None = None
+    camera_as_refined_here: Array | None = None
+    camera_moved: Array | None = None
+    """The camera's parameters after this solve, and less those of camera.yaml."""
+    board_sigma_deg: float | None = None
+    board_sigma_m: tuple[float, ...] | None = None
+    """Of board poses found elsewhere: two directions across, then depth."""
+    moved_from_closed_form_deg: float
+    moved_from_closed_form_m: float
+    weakest: str | None = None
+    """The direction in which H_PC is known worst, and what would mend it, in words."""
+
+
+type LightsModel = Literal["sum of LEDs", "round lobe", "geometry only", "distant lights"]
+"""What a light is taken for: its LEDs summed, a round lobe, a place without a lobe, a direction alone."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RefinedSetting:
+    """A wing's setting as refined."""
+
+    azimuth_deg: float
+    joint_angle_deg: float
+    d1_m: float
+    d2_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextSphere:
+    """Where one more chrome sphere tells most, and the mean standard deviation of the directions without and with it."""
+
+    where: str
+    centre_m: Array
+    direction_std_deg: float
+    with_it_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExposureSweep:
+    """What a sweep of exposures says of the sensor."""
+
+    black_level: float
+    gamma: float
+    misfit: float
+    noise_read: float
+    noise_shot: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LightsEvidence:
+    """What the refined lights rest on."""
+
+    model: LightsModel | None = None
+    source_offset_m: dict[str, float] | None = None
+    """How far a blob's source lies before its mechanical centre, by its count of LEDs."""
+    outline_bias_px: dict[str, float] | None = None
+    """By how much outlines are found too large, by the spheres' kind."""
+    settings: dict[str, RefinedSetting] | None = None
+    lobe_seen_deg: dict[str, float] | None = None
+    """The largest angle from the axis at which spheres showed each light."""
+    highlight_rms_px: float | None = None
+    shading_rms: float | None = None
+    """Rms misfit of the matte spheres, relative."""
+    next_sphere: NextSphere | None = None
+    foretold_shading_rms: float | None = None
+    foretold_shading_rms_albedo_free: float | None = None
+    """How well the other spheres predict a matte sphere held out, relative; the second with its albedo free."""
+    foretold_highlight_px: float | None = None
+    """The same of a chrome sphere's highlights."""
+    exposure_sweep: ExposureSweep | None = None
+    spheres_disagree_deg: float | None = None
+    """Rms of what the spheres' own directions differ by, of distant lights."""

@@ -1,0 +1,106 @@
+"""Counts and residuals of a reconstructed surface, as they stand under ``counts_and_residuals`` in summary.json."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+ALWAYS = {"always": True}
+"""Metadata of a field that stands in the file also where it is None, as null."""
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """What the shadow of a piece says of the scale of its distance."""
+
+    seen: float
+    """By the shadow alone."""
+    used: float
+    """Joined with near light's own."""
+    std: float
+    """Relative standard deviation of the two together."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GlossFound:
+    """Strength and roughness of the gloss, and the share of the robust cost that is left with it."""
+
+    ks: float
+    roughness: float
+    gain: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class AmbientFound:
+    """What became of the room's light where there is no image of it."""
+
+    estimated: bool
+    """Whether it was estimated and taken away."""
+    note: str | None = None
+    share_of_signal: float | None = None
+    relative_std: float | None = None
+    """The estimate's own, of its size."""
+    law: tuple[float, ...] | None = None
+    """Coefficients of the room's light over the normal."""
+
+
+@dataclass(frozen=True)
+class Curl:
+    """What the curl of a normal map says of its convention."""
+
+    likeness: float
+    """Of the slopes' changes: 1 for a surface, -1 for one upside down."""
+    sure: float
+    """The likeness by its standard error."""
+    twist_sure: float
+    """The twist by its standard error."""
+    median: float
+    """Median size of the curl, a pixel."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConventionFound:
+    """Whether the green channel of a normal map was turned over, and what its curl is both ways."""
+
+    green_turned_over: bool
+    curl_as_is: Curl
+    curl_turned_over: Curl
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flatness:
+    """How far a nearly flat piece strays from a plane, mm."""
+
+    bowl_mm: float
+    plane_rms_mm: float
+    plane_peak_to_valley_mm: float
+    extent_mm: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceFigures:
+    """Counts and residuals; None where a figure does not apply."""
+
+    mask: str | None = None
+    """How the mask was found, in words."""
+    mask_doubt: float | None = None
+    """Odds that the automatic mask is wrong by more than a tenth of its area."""
+    mask_doubt_why: str | None = None
+    intensities_found: dict[str, float] | None = None
+    """The lights' intensities over those of the calibration, where nobody measured them."""
+    images_exchanged: dict[str, str] | None = None
+    """Images that fit another light than their own, and which."""
+    pixels: int = 0
+    pixels_with_three_lights: int | None = None
+    median_lights_used: float | None = None
+    shadow_anchors: dict[int, Anchor] | None = None
+    """By the piece's label."""
+    gloss: GlossFound | None = field(default=None, metadata=ALWAYS)
+    reflectance: float | None = field(default=None, metadata=ALWAYS)
+    """Of the object, as light that it throws on itself shows it."""
+    residual_sigmas_rms: float | None = None
+    """Rms residual of the images in their own standard deviations: 1 where the noise model holds."""
+    normals_away_from_the_camera: float | None = None
+    """Share of a normal map's pixels that look away from the camera."""
+    ambient: AmbientFound | None = None
+    convention: ConventionFound | None = None
+    """How a normal map from elsewhere was read."""
