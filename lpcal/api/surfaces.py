@@ -21,14 +21,15 @@ from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
-from lpcal.records.observations import RawCapture
+from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
-from lpcal.records.sensor import StatedSensor
+from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.surface import convention
 from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
-from lpcal.surface.mask import Hints, Keep
+from lpcal.surface.crop import Crop
+from lpcal.surface.mask import NO_HINTS, Hints, Keep
 from lpcal.surface.mesh import Mesh
 from lpcal.surface.of_normals import check, surface_of_normals
 
@@ -140,25 +141,35 @@ def reconstruct(
     settled = settle_sensor(raw, calibration, saying)
     used = settled.used.sensor
     refuse_bright_ambient(raw, used)
-    plain = to_radiance(raw, used)
-    radiance = with_short_exposures(plain, raw, used)
-    notes = (*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, used))
-    own_mask = radiance.mask if mask_given is None and mask == "auto" else None
-    radiance = replace(radiance, notes=notes, mask=own_mask)
+    given_mask = None if mask_given is None else stacks.of_image_size(mask_given, raw.images.shape[1:3], "mask")
+    wanted = raw.mask if mask_given is None and mask == "auto" else given_mask
+    part = Crop.about(wanted) if wanted is not None and calibration.camera is None and hints == NO_HINTS else None
     options = solver.Options(
         near=method == "near",
         distance_m=distance_m or raw.distance_m,
-        mask=None if mask_given is None else stacks.of_image_size(mask_given, radiance.signal.shape[1:3], "mask"),
+        mask=given_mask if given_mask is None or part is None else part.of(given_mask),
         automatic_mask=mask_given is None and mask == "auto",
         hints=hints,
         keep=keep,
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
     )
+    said = (*settled.notes, *contradictions(saying))
+    radiance = _linear(raw, used, said, part, use_mask=options.automatic_mask)
     surface = solver.reconstruct(radiance, calibration, options, progress)
+    surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
     return replace(surface, warnings=notes_of(radiance.notes, surface), sensor=settled.used)
+
+
+def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
+    """The capture made linear, or the part of it that is asked for; notes hold what is said of it."""
+    plain = to_radiance(raw, sensor)
+    found = with_short_exposures(plain, raw, sensor)
+    notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor))
+    found = replace(found, notes=notes, mask=found.mask if use_mask else None)
+    return found if part is None else part.radiance(found)
 
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:

@@ -112,15 +112,15 @@ def search(maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about
 
 def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
     """Plain rounds from u (P,)."""
-    everywhere = np.arange(seen.pixels)
+    pixels = np.arange(seen.pixels)
 
-    def B_at(depth: Array) -> Array:
-        return table.at(np.log(depth), everywhere)[0]
+    def B_at(depth: Array, some: slice) -> Array:
+        return table.at(np.log(depth), pixels[some])[0]
 
     cost = np.inf
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
-        B = B_at(np.exp(u))
+        B = B_at(np.exp(u), slice(None))
         found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), normals.variances(seen))
         known = np.isfinite(found.b[:, 0])
         if not known.any():
@@ -132,7 +132,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
         cost = float(samples.mean() + strained.mean())
         if k == ROUNDS:
             break
-        own = distance.own_distance(B_at, np.exp(u), seen, found)
+        own = distance.own_distance(B, B_at, np.exp(u), seen, found)
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)

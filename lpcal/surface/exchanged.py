@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface.sight import Lit, vectors
 
 LIGHTS_NEEDED = 6
 """Lights from which two that are exchanged leave four that agree on a surface."""
@@ -26,13 +27,13 @@ NEEDED = 2.0
 the model lacks of a light's own image (gloss, shadows, light thrown) makes another light fit it as well, never twice as well."""
 
 
-def exchanged(signal: Array, B: Array, b: Array, usable: Mask) -> dict[int, int]:
+def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict[int, int]:
     """The light that each image fits, of those that fit another one than their own; empty where all fit their own, or it is not clear.
 
     Parameters
     ----------
     signal : (L, P), the gloss taken off
-    B : (L, P, 3)
+    light : the light, or its vectors (L, P, 3)
     b : (P, 3), NaN where it is not known
     usable : (L, P) where the signal is not saturated
     """
@@ -46,7 +47,8 @@ def exchanged(signal: Array, B: Array, b: Array, usable: Mask) -> dict[int, int]
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
     if any(half.sum() < FEWEST_PIXELS for half in halves):
         return {}
-    miss = np.stack([_misses(signal[:, some], B[:, some], b[some], usable[:, some], half) for half in halves])
+    B = vectors(light, some)
+    miss = np.stack([_misses(signal[:, some], B, b[some], usable[:, some], half) for half in halves])
     from scipy.optimize import linear_sum_assignment
 
     _, best = linear_sum_assignment(miss.sum(axis=0))

@@ -19,6 +19,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface import (
+    bands,
     basins,
     bend,
     gains,
@@ -134,7 +135,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, object]:
     """The images that fit another light than theirs, and which."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
-    found = exchanged(matte, state.lit.B, state.found.b, seen.usable)
+    found = exchanged(matte, state.lit, state.found.b, seen.usable)
     return {"images_exchanged": {names[image]: names[light] for image, light in found.items()}} if found else {}
 
 
@@ -259,16 +260,19 @@ def _model_std(state: State, inside: Mask) -> float:
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
     seen, lights = scene.seen, scene.lights
-    shading = lambert.predicted(state.lit.B, state.normals)
-    used = np.where(state.found.used >= normals.LEAST, state.found.inliers, seen.usable)
-    below = np.sum(used * shading**2, axis=0)
-    channels = radiance.signal[:, seen.mask].reshape(len(lights), seen.pixels, -1)
-    found = []
-    for channel in range(channels.shape[2]):
-        intensity = np.array([light.intensity[channel if light.intensity.size > 1 and channels.shape[2] > 1 else 0] for light in lights])
-        signal = channels[..., channel] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss)
-        found.append(np.sum(used * shading * signal, axis=0) / np.maximum(below, 1e-12))
-    return found[0] if len(found) == 1 else np.stack(found, axis=1)
+    inside = np.flatnonzero(seen.mask.ravel())
+    signal = radiance.signal.reshape(len(lights), seen.mask.size, -1)
+    channels = signal.shape[2]
+    intensity = np.stack([np.broadcast_to(light.intensity if channels > 1 else light.intensity[0], channels) for light in lights])
+
+    def of(at: slice) -> Array:
+        shading = lambert.predicted(state.lit.at(at).B, state.normals[at])
+        used = np.where(state.found.used[at] >= normals.LEAST, state.found.inliers[:, at], seen.usable[:, at])
+        matte = signal[:, inside[at]] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss[:, at, None])
+        return np.einsum("kp,kpc->pc", used * shading, matte) / np.maximum(np.sum(used * shading**2, axis=0), 1e-12)[:, None]
+
+    found = np.concatenate(bands.each(seen.pixels, len(lights), of))
+    return found[:, 0] if channels == 1 else found
 
 
 def _figures(state: State) -> dict[str, object]:
