@@ -20,7 +20,7 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import sha256
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
+from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.calibration import Calibration
@@ -28,6 +28,7 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
+from lpcal.surface.bands import cores
 from lpcal.surface.flatness import flatness
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
 
@@ -57,6 +58,10 @@ class Wishes:
     """Where the object is, by the user."""
     keep: Keep = "object"
     use: tuple[str, ...] | None = None
+    outputs: tuple[str, ...] = tuple(OUTPUTS)
+    """Which files beside summary.json, by formats.surface_files.OUTPUTS."""
+    jobs: int | None = None
+    """Threads that share a capture's bands of pixels; None: one a core."""
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What the command's words say of the sensor."""
     panel: StatedSensor = field(default_factory=StatedSensor)
@@ -163,12 +168,18 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         progress=progress,
     )
     read = time.perf_counter()
-    surface = made(mask=mask, method="near" if wishes.near else "distant")
+    with cores(wishes.jobs):
+        surface = made(mask=mask, method="near" if wishes.near else "distant")
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and calibration.lights[0].source_C is not None:
-        document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
-    write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
+        with cores(wishes.jobs):
+            document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+    progress(f"{task.name}: writing", 0, 1)
+    solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None
+    page = render(surface, calibration) if "page" in wishes.outputs else None
+    write_surface(task.target, surface, solid, document, page, wishes.outputs)
+    progress(f"{task.name}: writing", 1, 1)
     return document
 
 

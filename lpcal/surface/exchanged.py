@@ -20,6 +20,8 @@ LIGHTS_NEEDED = 6
 """Lights from which two that are exchanged leave four that agree on a surface."""
 MOST_PIXELS = 3000
 """Pixels that are looked at, spread over the object."""
+FEW_PIXELS, MOST_PAIRS = 800, 3_000_000
+"""Pixels that are looked at where the lights are many, and how many pairs of lights at pixels: each image is held against every light."""
 FEWEST_PIXELS = 50
 """Pixels of a half of the object from which its median is one."""
 NEEDED = 2.0
@@ -42,7 +44,8 @@ def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict
     known = np.flatnonzero(np.isfinite(b[:, 0]))
     if len(known) < 2 * FEWEST_PIXELS:
         return {}
-    some = known[np.unique(np.linspace(0, len(known) - 1, min(MOST_PIXELS, len(known))).astype(int))]
+    most = min(MOST_PIXELS, max(FEW_PIXELS, MOST_PAIRS // len(signal) ** 2), len(known))
+    some = known[np.unique(np.linspace(0, len(known) - 1, most).astype(int))]
     side = b[some] / np.maximum(np.linalg.norm(b[some], axis=1, keepdims=True), 1e-300)
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
     if any(half.sum() < FEWEST_PIXELS for half in halves):

@@ -74,11 +74,16 @@ class Estimate:
 
 def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
     """Samples (L, P) that a light seems to reach unhindered."""
-    lit = sight.usable & (E > 0)
-    shading = np.where(lit, sight.signal / np.maximum(E, 1e-300), 0.0)
-    bright = np.sort(shading, axis=0)[-2]
-    found = lit & (shading > SHADOW * bright) & (sight.signal > DARK_SIGMAS * sight.sigma)
-    return found if hidden is None else found & ~hidden
+
+    def of(at: slice) -> Mask:
+        signal, light = sight.signal[:, at], E[:, at]
+        lit = sight.usable[:, at] & (light > 0)
+        shading = np.where(lit, signal / np.maximum(light, 1e-300), 0.0)
+        bright = np.partition(shading, -2, axis=0)[-2]
+        found = lit & (shading > SHADOW * bright) & (signal > DARK_SIGMAS * sight.sigma[:, at])
+        return found if hidden is None else found & ~hidden[:, at]
+
+    return np.concatenate(bands.each(sight.pixels, len(E), of), axis=1)
 
 
 def variances(sight: Sight, gloss: Array | None = None) -> Array:

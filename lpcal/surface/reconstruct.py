@@ -120,6 +120,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     if near and options.distance_m is None:
         basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin))
         u = basins_found.start(object_mask) if basins_found is not None else u
+    del maps  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)

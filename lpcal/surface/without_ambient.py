@@ -57,6 +57,7 @@ def reconstruct(
         room, room_map[object_mask] = found
         surface = solve(without(radiance, room_map, lights), given if k == rounds - 1 else object_mask)
         object_mask, depth = surface.mask, surface.depth[surface.mask].astype(float)
+    del maps, seen  # the solves below hold their own
     if surface is None or room is None:
         plain = solve(radiance, given)
         return replace(plain, figures={**plain.figures, "ambient": {"estimated": False, "note": UNDECIDED}})
