@@ -103,7 +103,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
+    progress(f"{radiance.name}: which pixels are the object", 0, 1)
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints) if wanted or near else None
+    progress(f"{radiance.name}: which pixels are the object", 1, 1)
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
@@ -118,7 +120,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
-        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin))
+        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
         u = basins_found.start(object_mask) if basins_found is not None else u
     del maps  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
