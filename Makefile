@@ -1,5 +1,5 @@
 # The verbs: check (gates), test, bench, docs, demo.
-.PHONY: check test test-all bench docs demo
+.PHONY: check test test-all bench bench-check docs demo
 
 check:            ## format, lint, types, import rules, frame letters
 	uv run ruff format --check lpcal tests tools examples
@@ -16,6 +16,9 @@ test-all:         ## the slow ones too
 
 bench:            ## lpcal beside a peer on the same input
 	uv run python tools/bench.py
+
+bench-check:      ## speed and memory beside the committed table, docs/benchmarks.md
+	uv run python tools/bench_speed.py --check
 
 docs:             ## the README's tour, run and compared
 	uv run pytest tests/test_readme.py -m "slow or not slow"

@@ -12,10 +12,11 @@ import pytest
 from lpcal.geometry import camera, lambert, led_cluster, park, se3
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.surface import bounce, multigrid, normals
+from lpcal.surface import bounce, field, gloss, multigrid, normals
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.integrate import Grid, system
 from lpcal.surface.relief import Relief
+from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Patches
 
 PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
@@ -63,6 +64,27 @@ def weighted(rng):
 
 def best_three(rng):
     return np.concatenate([normals._best_three(*shading(rng, lights)).ravel() for lights in (3, 5, 8)])
+
+
+def gathered(rng):
+    signal, B, usable, variance = shading(rng, pixels=500)
+    d, E = lambert.unit(B)
+    b, v, dark = rng.normal(size=(500, 3)), lambert.unit(rng.normal(size=(500, 3)))[0], rng.random(signal.shape) < 0.2
+    seen = Sight(np.ones((20, 25), bool), -v, signal, np.sqrt(variance), usable, True)
+    plain, more = Lit(d, E), Lit(d, E, 0.1 * rng.normal(size=d.shape))
+    cases = [(plain, None, None, 1.0), (more, dark, None, 4.0), (plain, dark, gloss.Gloss(0.3, 0.2, 0.5), 1.0)]
+    cases += [(more, None, gloss.Gloss(0.1, 0.4, 0.5), 1.0)]
+    return np.concatenate([part.ravel() for case in cases for part in field._gathered(seen, case[0], b, v, *case[1:])])
+
+
+def lobe(rng):
+    d, n, v = (lambert.unit(rng.normal(size=(*shape, 3)))[0] for shape in ((5, 300), (300,), (300,)))
+    return np.concatenate([gloss.lobe(d, n, v, roughness).ravel() for roughness in (0.06, 0.5)])
+
+
+def many(rng):
+    found = [part for lights in (9, 24, 96) for part in normals._weighted_in_rounds(*shading(rng, lights, 200))]
+    return np.concatenate([part.ravel() for part in found])
 
 
 def cubic(rng):
@@ -119,6 +141,9 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     received: (1e-13, {"received"}),
     weighted: (1e-9, {"weighted"}),
     best_three: (1e-9, {"best_three"}),
+    lobe: (1e-12, {"lobe"}),
+    many: (1e-8, {"many", "weighted"}),
+    gathered: (1e-10, {"gathered"}),
     cubic: (1e-14, {"cubic"}),
     cluster: (1e-12, {"cluster"}),
     turns: (1e-10, {"turns"}),

@@ -248,6 +248,21 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
 
 
 @pytest.mark.parametrize(
+    ("words", "files"),
+    [
+        (("--no-pages",), FILES - {"relight.html"}),
+        (("--outputs", "normals, depth"), {"normals_gl.png", "depth.tif"}),
+        (("--outputs", "ply,page,maps", "--no-pages"), {"mesh.ply", "surface.npz"}),
+        (("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}),
+    ],
+)
+def test_only_the_files_that_are_asked_for_are_written(lpcal, rig, quick, words, files):
+    code, told, _ = lpcal("reconstruct", "--mask", str(quick), "--jobs", "2", *words, cwd=rig)
+    assert code == 0, told
+    assert {path.name for path in (rig / "surfaces/ball").iterdir()} == files | {"summary.json"}
+
+
+@pytest.mark.parametrize(
     ("words", "code", "message"),
     [
         (("--use", "L0,L1"), 4, "2 lights"),
@@ -262,6 +277,12 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
         (("--point", "400,20"), 6, "outside the images of 160x112"),
         (("--box", "0,0,40,40", "--point", "60,20"), 6, "outside the box"),
         (("objects/nothing",), 3, "no such folder"),
+        (("--outputs", "normals,dept"), 2, "no output is called dept"),
+        (("--outputs", ","), 2, "no word"),
+        (("--outputs", "summary"), 2, "some of maps,normals,depth"),
+        (("--jobs", "0"), 2, "'0' is no number of cores"),
+        (("--jobs", "two"), 2, "'two' is no number of cores"),
+        (("--jobs", "-3"), 2, "is no number of cores"),
     ],
 )
 def test_words_that_are_off(lpcal, rig, words, code, message):

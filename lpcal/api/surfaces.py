@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.api import compared, stacks
-from lpcal.api.curve import Settled, settle_sensor
+from lpcal.api.curve import settle_sensor
 from lpcal.api.light_check import contradicting
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
@@ -26,12 +26,13 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
-from lpcal.records.sensor import StatedSensor
+from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.surface import convention
 from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
-from lpcal.surface.mask import Hints, Keep
+from lpcal.surface.crop import Crop
+from lpcal.surface.mask import NO_HINTS, Hints, Keep
 from lpcal.surface.mesh import Mesh
 from lpcal.surface.of_normals import check
 
@@ -136,50 +137,51 @@ def reconstruct(
         lights = [light.name for light in calibration.lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
-    refuse_unknown_words(mask, method, integrator, keep)
-    if distance_m is not None and not 0 < distance_m < np.inf:
-        raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
+    refuse_unknown_words(mask, method, integrator, keep, distance_m)
     refuse_unknown_lights(raw, calibration)
     hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
     refuse_hints(hints, raw.images.shape[1:3], raw.name)
     calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
-    radiance, settled = _linear(raw, calibration, sensor)
-    own_mask = radiance.mask if mask_given is None and mask == "auto" else None
-    radiance = replace(radiance, mask=own_mask)
-    size = radiance.signal.shape[1:3]
-    given_mask = np.ones(size, bool) if isinstance(mask, str) and mask == "none" else own_mask
-    given_mask = given_mask if mask_given is None else stacks.of_image_size(mask_given, size, "mask")
+    saying = _saying(sensor, raw, calibration)
+    settled = settle_sensor(raw, calibration, saying)
+    used, said = settled.used.sensor, (*settled.notes, *contradictions(saying))
+    refuse_bright_ambient(raw, used)
+    automatic = mask_given is None and isinstance(mask, str) and mask == "auto"
+    given_mask = None if mask_given is None else stacks.of_image_size(mask_given, raw.images.shape[1:3], "mask")
+    wanted = raw.mask if automatic else given_mask
     if method not in WAYS:
+        inside = np.ones(raw.images.shape[1:3], bool) if given_mask is None and not automatic else wanted
+        radiance = _linear(raw, used, said, None, use_mask=automatic)
         begin_m = distance_m or raw.distance_m or calibration.d_object_m or DISTANCE_M
-        surface = compared.reconstruct(radiance, calibration, given_mask, hints, begin_m, method, integrator)
+        surface = compared.reconstruct(radiance, calibration, inside, hints, begin_m, method, integrator)
         return replace(surface, warnings=(*radiance.notes, *surface.warnings), sensor=settled.used)
+    part = Crop.about(wanted) if wanted is not None and calibration.camera is None and hints == NO_HINTS else None
     options = solver.Options(
         near=method == "near",
         distance_m=distance_m or raw.distance_m,
-        mask=None if mask_given is None else given_mask,
-        automatic_mask=mask_given is None and mask == "auto",
+        mask=given_mask if given_mask is None or part is None else part.of(given_mask),
+        automatic_mask=automatic,
         hints=hints,
         keep=keep,
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
     )
+    radiance = _linear(raw, used, said, part, use_mask=automatic)
     surface = solver.reconstruct(radiance, calibration, options, progress)
+    notes = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration))
+    surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
-    said = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration))
-    return replace(surface, warnings=said, sensor=settled.used)
+    return replace(surface, warnings=notes, sensor=settled.used)
 
 
-def _linear(raw: RawCapture, calibration: Calibration, sensor: StatedSensor | Statements) -> tuple[Radiance, Settled]:
-    """The capture in linear numbers, with what is to be said of it, and the sensor that it was made linear by."""
-    saying = _saying(sensor, raw, calibration)
-    settled = settle_sensor(raw, calibration, saying)
-    used = settled.used.sensor
-    refuse_bright_ambient(raw, used)
-    plain = to_radiance(raw, used)
-    radiance = with_short_exposures(plain, raw, used)
-    notes = (*radiance.notes, *settled.notes, *contradictions(saying), *ambient_notes(plain, raw, used))
-    return replace(radiance, notes=notes), settled
+def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
+    """The capture made linear, or the part of it that is asked for; notes hold what is said of it."""
+    plain = to_radiance(raw, sensor)
+    found = with_short_exposures(plain, raw, sensor)
+    notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor))
+    found = replace(found, notes=notes, mask=found.mask if use_mask else None)
+    return found if part is None else part.radiance(found)
 
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:

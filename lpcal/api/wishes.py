@@ -14,8 +14,10 @@ WAYS = ("near", "distant")
 """lpcal's own method, by how lights act."""
 
 
-def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str, keep: str) -> None:
-    """Refuse words that mean nothing."""
+def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str, keep: str, distance_m: float | None) -> None:
+    """Refuse words that mean nothing, and a distance that is none."""
+    if distance_m is not None and not 0 < distance_m < float("inf"):
+        raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
     if isinstance(mask, str) and mask not in {"auto", "none"}:
         raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
     own = compared.of_name(method, methods.NORMALS, "method", *WAYS) is None

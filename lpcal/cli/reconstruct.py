@@ -34,8 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
     parser.add_argument("--white-level", metavar="SHARE", help="the stored number at which the sensor saturates, of full scale")
     parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
+    parser.add_argument("--outputs", metavar="WORDS", help="which files beside summary.json, such as normals,depth,ply (default: all)")
+    parser.add_argument("--no-pages", action="store_true", help="no relight.html")
     parser.add_argument(
-        "--jobs", type=int, metavar="N", help="captures that are worked on at a time (default: 1; with --on, every processor)"
+        "--jobs",
+        metavar="N",
+        help="cores: of one capture those that share its work (default: all), of many the captures worked on at a time "
+        "(default: one after the other; with --on, every processor); the result is the same with any number",
     )
     parser.add_argument(
         "--on", metavar="ENGINE", help="where: processes, dask, dask://HOST:PORT, slurm or slurm-trial (default: processes)"
@@ -59,6 +64,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         hints=_hints(options),
         keep=options.keep,
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
+        outputs=_outputs(options.outputs, pages=not options.no_pages),
+        jobs=_jobs(options.jobs),
     )
     if not options.captures:
         rig: Workspace | None = open_workspace(options)
@@ -66,17 +73,38 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     else:
         rig = _rig_if_any(options)
         tasks = capture_tasks(options.captures, rig, options.output)
-    engine = _engine(options, tasks[0].target.parent) if len(tasks) > 1 else None
+    engine = _engine(options.on, wishes.jobs, tasks[0].target.parent) if len(tasks) > 1 else None
     return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress, rig, engine=engine, anew=options.anew)
 
 
-def _engine(options: argparse.Namespace, folder: Path) -> Engine | None:
+def _engine(where: str | None, jobs: int | None, folder: Path) -> Engine | None:
     """Where many captures are worked on; None: one after the other, here."""
-    if options.on is None and options.jobs in {None, 1}:
+    if where is None and jobs in {None, 1}:
         return None
     from lpcal.api.engines import engine_of
 
-    return engine_of(options.on or "processes", options.jobs, folder)
+    return engine_of(where or "processes", jobs, folder)
+
+
+def _outputs(text: str | None, *, pages: bool) -> tuple[str, ...]:
+    """The files that are asked for, by their words."""
+    from lpcal.formats.surface_files import OUTPUTS
+
+    found = list(OUTPUTS) if text is None else [word.strip() for word in text.split(",") if word.strip()]
+    strange = [word for word in found if word not in OUTPUTS]
+    if strange or not found:
+        what = f"no output is called {', '.join(strange)}" if strange else "no word"
+        raise UsageError(what, where="--outputs", needed=f"some of {','.join(OUTPUTS)}", todo="write for example normals,depth")
+    return tuple(word for word in OUTPUTS if word in found and (pages or word != "page"))
+
+
+def _jobs(text: str | None) -> int | None:
+    """How many cores share the work; None: all."""
+    if text is None:
+        return None
+    if not text.isascii() or not text.isdigit() or int(text) < 1:
+        raise UsageError(f"{text!r} is no number of cores", where="--jobs", needed="a whole number from 1, such as 4")
+    return int(text)
 
 
 def _sensor(options: argparse.Namespace) -> StatedSensor:

@@ -71,28 +71,29 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     piled = piled_level(raw.images, sensor.white_level, raw.step)
     if piled is not None:
         saturated |= over_white(raw.images, replace(sensor, white_level=piled), raw.step)
-    linear = sensor.linear(raw.images)
+    signal, sigma = np.empty(raw.images.shape, np.float32), np.empty(raw.images.shape, np.float32)
+    for image, stored in zip(signal, raw.images, strict=True):
+        image[...] = sensor.linear(stored)
     ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
-    noise = noise_model(linear, saturated, raw.step)
-    _refuse_black(raw, sensor, linear)
-    response = sensor.response(linear.shape)
-    exposure = raw.exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
-    ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
+    noise = noise_model(signal, saturated, raw.step)
+    _refuse_black(raw, sensor, signal)
+    response = sensor.response(signal.shape)
+    ambient = ambient_variance = np.zeros(signal.shape[1:], np.float32)
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
     notes += [] if piled is None else [piled_words(piled)]
     if ambient_linear is None:
         notes.append(NO_AMBIENT)
     else:
-        times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
+        times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (signal.ndim - 1))
         ambient = np.asarray(np.mean(ambient_linear / times, axis=0), np.float32)
         ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
-    signal = linear / exposure - ambient
-    sigma = np.asarray(np.sqrt(_variance(linear, noise) / exposure**2 + ambient_variance), np.float32)
+    for lit, std, exposure in zip(signal, sigma, raw.exposure_s.astype(np.float32), strict=True):
+        std[...] = np.sqrt(_variance(lit, noise) / exposure**2 + ambient_variance) / response
+        lit[...] = (lit / exposure - ambient) / response
     dark = _dark(raw, signal, sigma)
     short = {light: _short(sensor.linear(image), raw.short_exposure_s.get(light), ambient, response) for light, image in raw.short.items()}
     notes += [f"{light} lights nothing: is it off in its image?" for light in dark]
-    lit = signal / response
-    return Radiance(raw.name, raw.lights, lit, sigma / response, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
+    return Radiance(raw.name, raw.lights, signal, sigma, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
 
 
 def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
@@ -115,10 +116,13 @@ def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
 
 def _blocks(images: Image) -> tuple[Image, Image]:
     """Mean and standard deviation (L, h, w) of square blocks of images (L, H, W) or (L, H, W, 3), the channels joined."""
-    grey = images if images.ndim == 3 else images.mean(axis=3)
-    h, w = grey.shape[1] // BLACK_BLOCK, grey.shape[2] // BLACK_BLOCK
-    blocks = grey[:, : h * BLACK_BLOCK, : w * BLACK_BLOCK].reshape(len(grey), h, BLACK_BLOCK, w, BLACK_BLOCK)
-    return blocks.mean(axis=(2, 4)), blocks.std(axis=(2, 4))
+    h, w = images.shape[1] // BLACK_BLOCK, images.shape[2] // BLACK_BLOCK
+    mean, std = np.empty((len(images), h, w), np.float32), np.empty((len(images), h, w), np.float32)
+    for k, image in enumerate(images):
+        grey = image if image.ndim == 2 else image.mean(axis=2)
+        blocks = grey[: h * BLACK_BLOCK, : w * BLACK_BLOCK].reshape(h, BLACK_BLOCK, w, BLACK_BLOCK)
+        mean[k], std[k] = blocks.mean(axis=(1, 3)), blocks.std(axis=(1, 3))
+    return mean, std
 
 
 def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, float]:
@@ -127,14 +131,8 @@ def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, flo
     The second difference along both axes (kernel of Immerkaer 1996) leaves noise where an image is smooth. Of the blocks of one
     brightness those in the lower quarter of its variance count, so that texture and edges do not.
     """
-    stack = linear if linear.ndim == 3 else np.moveaxis(linear, 3, 1).reshape(-1, *linear.shape[1:3])
-    full = np.repeat(saturated, len(stack) // len(saturated), axis=0)
-    kernel_rows = stack[:, :-2] - 2 * stack[:, 1:-1] + stack[:, 2:]
-    detail = (kernel_rows[:, :, :-2] - 2 * kernel_rows[:, :, 1:-1] + kernel_rows[:, :, 2:]) / 6.0
-    level = _block_mean(stack[:, 1:-1, 1:-1]).ravel()
-    variance = _block_mean(detail**2).ravel()
-    fine = (_block_mean(full[:, 1:-1, 1:-1].astype(np.float32)) == 0).ravel()
-    level, variance = level[fine].astype(float), variance[fine].astype(float)
+    found = [_levels_of(image, full) for image, full in zip(linear, saturated, strict=True)]
+    level, variance = (np.concatenate(parts).astype(float) for parts in zip(*found, strict=True))
     quantisation = (step**2) / 12
     if level.size < 20 * NOISE_BINS:
         return quantisation, 0.0
@@ -143,6 +141,16 @@ def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, flo
     lower = np.array([max(np.quantile(variance[which == k], 0.25), 0.25 * quantisation) for k in range(NOISE_BINS)]) / LOWER_QUARTER
     c, a = _line_through_lower(middle, lower)
     return max(a, quantisation), max(c, 0.0)
+
+
+def _levels_of(linear: Image, saturated: Mask) -> tuple[Image, Image]:
+    """Levels and variances of the finest detail of the unsaturated blocks of an image (H, W) or (H, W, 3)."""
+    stack = linear[None] if linear.ndim == 2 else np.moveaxis(linear, 2, 0)
+    kernel_rows = stack[:, :-2] - 2 * stack[:, 1:-1] + stack[:, 2:]
+    detail = (kernel_rows[:, :, :-2] - 2 * kernel_rows[:, :, 1:-1] + kernel_rows[:, :, 2:]) / 6.0
+    level, variance = _block_mean(stack[:, 1:-1, 1:-1]), _block_mean(detail**2)
+    fine = np.broadcast_to(_block_mean(saturated[None, 1:-1, 1:-1].astype(np.float32)) == 0, level.shape)
+    return level[fine], variance[fine]
 
 
 def _block_mean(images: Image) -> Image:
@@ -226,8 +234,8 @@ def _line_through_lower(x: Array, y: Array) -> tuple[float, float]:
 
 def _dark(raw: RawCapture, signal: Image, sigma: Image) -> tuple[str, ...]:
     """Lights that lift only a few pixels well over their noise: they are off. All of them: the capture is dark, and refused."""
-    ratio = (signal / sigma).reshape(len(signal), -1)
-    dark = tuple(light for light, lit in zip(raw.lights, np.sum(ratio > DARK_SIGMAS, axis=1), strict=True) if lit < DARK_PIXELS)
+    reached = [np.sum(lit > DARK_SIGMAS * std) for lit, std in zip(signal, sigma, strict=True)]
+    dark = tuple(light for light, pixels in zip(raw.lights, reached, strict=True) if pixels < DARK_PIXELS)
     if len(dark) == len(raw.lights):
         raise DegenerateError(
             "all dark: no light lifts the image over its noise" + (" and the ambient light" if raw.ambient is not None else ""),

@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,19 @@ MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "li
 GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
 SUMMARY = "summary.json"
 PAGE = "relight.html"
-FILES = {"surface.npz", "normals_gl.png", "albedo.png", "mask.png", "depth.tif", "mesh.ply", "mesh.glb", SUMMARY, PAGE}
+MAPS_FILE = "surface.npz"
+OUTPUTS = {
+    "maps": MAPS_FILE,
+    "normals": "normals_gl.png",
+    "depth": "depth.tif",
+    "albedo": "albedo.png",
+    "mask": "mask.png",
+    "ply": "mesh.ply",
+    "glb": "mesh.glb",
+    "page": PAGE,
+}
+"""The files of a surface beside summary.json, by the word that asks for each."""
+FILES = {*OUTPUTS.values(), SUMMARY}
 
 
 def _is_ours(folder: Path) -> bool:
@@ -49,8 +61,15 @@ LINEAR = "_COLOR_0"
 """What trimesh calls an attribute of glTF that it does not know: so colours travel as floats, not in 8 bit, too few for linear ones."""
 
 
-def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[str, Any], page: str | None = None) -> None:
-    """Write all files of a surface; `page` is the relighting page.
+def write_surface(
+    folder: Path,
+    surface: Surface,
+    mesh: Mesh | None,
+    summary: Mapping[str, Any],
+    page: str | None = None,
+    outputs: Collection[str] = frozenset(OUTPUTS),
+) -> None:
+    """Write the files of a surface that `outputs` names, and summary.json; `page` is the relighting page, `mesh` what the meshes hold.
 
     Raises
     ------
@@ -59,16 +78,18 @@ def write_surface(folder: Path, surface: Surface, mesh: Mesh, summary: Mapping[s
     """
     with whole(folder, SURFACE) as draft:
         draft.mkdir()
-        np.savez_compressed(
-            draft / "surface.npz",
-            **{name: getattr(surface, name) for name in MAPS},
-            layer=surface.layer if surface.layer.size else surface.mask.astype(np.uint8),
-            rays=surface.rays_C,
-            breaks=surface.breaks,
-        )
-        _write_images(draft, surface)
-        _write_meshes(draft, mesh, str(summary.get("units", "metres")))
-        if page is not None:
+        if "maps" in outputs:
+            np.savez_compressed(
+                draft / MAPS_FILE,
+                **{name: getattr(surface, name) for name in MAPS},
+                layer=surface.layer if surface.layer.size else surface.mask.astype(np.uint8),
+                rays=surface.rays_C,
+                breaks=surface.breaks,
+            )
+        _write_images(draft, surface, outputs)
+        if mesh is not None:
+            _write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs)
+        if page is not None and "page" in outputs:
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
         (draft / SUMMARY).write_text(json.dumps(plain({**summary, "files": files}), indent=1) + "\n", encoding="utf-8")
@@ -162,14 +183,18 @@ def albedo_16(surface: Surface) -> npt.NDArray[np.uint16]:
     return np.asarray(np.rint(65535 * np.clip(np.nan_to_num(surface.albedo) / max(top, 1e-12), 0, 1)), np.uint16)
 
 
-def _write_images(draft: Path, surface: Surface) -> None:
+def _write_images(draft: Path, surface: Surface, outputs: Collection[str]) -> None:
     import tifffile
 
-    _write_png(draft / "normals_gl.png", normals_gl(surface))
-    _write_png(draft / "albedo.png", albedo_16(surface))
-    _write_png(draft / "mask.png", np.asarray(255 * surface.mask, np.uint8))
-    depth: Image = surface.depth
-    tifffile.imwrite(draft / "depth.tif", depth, compression="zlib")
+    if "normals" in outputs:
+        _write_png(draft / OUTPUTS["normals"], normals_gl(surface))
+    if "albedo" in outputs:
+        _write_png(draft / OUTPUTS["albedo"], albedo_16(surface))
+    if "mask" in outputs:
+        _write_png(draft / OUTPUTS["mask"], np.asarray(255 * surface.mask, np.uint8))
+    if "depth" in outputs:
+        depth: Image = surface.depth
+        tifffile.imwrite(draft / OUTPUTS["depth"], depth, compression="zlib")
 
 
 def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
@@ -182,7 +207,7 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def _write_meshes(draft: Path, mesh: Mesh, unit: str) -> None:
+def _write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str]) -> None:
     """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks."""
     import trimesh
 
@@ -199,10 +224,12 @@ def _write_meshes(draft: Path, mesh: Mesh, unit: str) -> None:
                 primitive["material"] = 0
                 primitive["attributes"]["COLOR_0"] = primitive["attributes"].pop(LINEAR)
 
-    opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
-    ply: bytes = solid(np.ones(3, np.float32), vertex_colors=opaque).export(file_type="ply", vertex_normal=True)
-    said = f"comment frame C: x right, y down, z forward, {unit}\nelement vertex".encode()
-    (draft / "mesh.ply").write_bytes(ply.replace(b"element vertex", said, 1))
-    linear = ((mesh.colours / 255) ** DISPLAY_GAMMA).astype(np.float32)
-    glb = solid(GLTF_FROM_C, vertex_attributes={LINEAR: linear})
-    (draft / "mesh.glb").write_bytes(glb.export(file_type="glb", include_normals=True, tree_postprocessor=finished))
+    if "ply" in outputs:
+        opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
+        ply: bytes = solid(np.ones(3, np.float32), vertex_colors=opaque).export(file_type="ply", vertex_normal=True)
+        said = f"comment frame C: x right, y down, z forward, {unit}\nelement vertex".encode()
+        (draft / OUTPUTS["ply"]).write_bytes(ply.replace(b"element vertex", said, 1))
+    if "glb" in outputs:
+        linear = ((mesh.colours / 255) ** DISPLAY_GAMMA).astype(np.float32)
+        glb = solid(GLTF_FROM_C, vertex_attributes={LINEAR: linear})
+        (draft / OUTPUTS["glb"]).write_bytes(glb.export(file_type="glb", include_normals=True, tree_postprocessor=finished))

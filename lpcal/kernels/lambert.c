@@ -3,27 +3,96 @@
 
 #include "kernel.h"
 
-/* b (P, 3) of least squares and the inverse (P, 3, 3) of its normal matrix; NaN where the weighted lights do not span space. */
+/* Normal equations in the making, and what solves them: NaN where the lights do not span space. */
+typedef struct {
+    double M[3][3], right[3];
+} Equations;
+
+static inline void add(Equations *to, const double *light, double signal, double weight) {
+    for (int i = 0; i < 3; i++) {
+        double wb = weight * light[i];
+        to->right[i] += wb * signal;
+        for (int j = 0; j < 3; j++) to->M[i][j] += wb * light[j];
+    }
+}
+
+static inline void solve(const Equations *of, double singular, double *b, double *inverse) {
+    double cofactor[3][3];
+    for (int i = 0; i < 3; i++) cross3(of->M[(i + 1) % 3], of->M[(i + 2) % 3], cofactor[i]);
+    double determinant = dot3(of->M[0], cofactor[0]), trace = of->M[0][0] + of->M[1][1] + of->M[2][2];
+    if (!(determinant > singular * (trace * trace * trace))) determinant = NAN;
+    for (int i = 0; i < 3; i++) {
+        double *row = inverse + 3 * i;
+        for (int j = 0; j < 3; j++) row[j] = cofactor[i][j] / determinant;
+        b[i] = dot3(row, of->right);
+    }
+}
+
+/* b (P, 3) of least squares and the inverse (P, 3, 3) of its normal matrix. */
 KERNEL void lpcal_weighted(int64_t L, int64_t P, const double *B, const double *signal, const double *weight, double singular, double *b,
                            double *inverse) {
     for (int64_t p = 0; p < P; p++) {
-        double M[3][3] = {{0.0}}, right[3] = {0.0}, cofactor[3][3];
-        for (int64_t k = 0; k < L; k++) {
-            const double *light = B + 3 * (k * P + p);
-            double w = weight[k * P + p], s = signal[k * P + p];
-            for (int i = 0; i < 3; i++) {
-                double wb = w * light[i];
-                right[i] += wb * s;
-                for (int j = 0; j < 3; j++) M[i][j] += wb * light[j];
+        Equations found = {{{0.0}}, {0.0}};
+        for (int64_t k = 0; k < L; k++) add(&found, B + 3 * (k * P + p), signal[k * P + p], weight[k * P + p]);
+        solve(&found, singular, b + 3 * p, inverse + 9 * p);
+    }
+}
+
+/* Sorts values, and the indices beside them, upwards; of equals the lower index comes first (Shell 1959). */
+static void sort(int64_t count, double *value, int64_t *index) {
+    static const int64_t gaps[] = {1750, 701, 301, 132, 57, 23, 10, 4, 1};
+    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
+        for (int64_t i = gaps[g]; i < count; i++) {
+            double v = value[i];
+            int64_t at = index[i], j = i;
+            for (; j >= gaps[g] && (value[j - gaps[g]] > v || (value[j - gaps[g]] == v && index[j - gaps[g]] > at)); j -= gaps[g]) {
+                value[j] = value[j - gaps[g]];
+                index[j] = index[j - gaps[g]];
             }
+            value[j] = v;
+            index[j] = at;
         }
-        for (int i = 0; i < 3; i++) cross3(M[(i + 1) % 3], M[(i + 2) % 3], cofactor[i]);
-        double determinant = dot3(M[0], cofactor[0]), trace = M[0][0] + M[1][1] + M[2][2];
-        if (!(determinant > singular * (trace * trace * trace))) determinant = NAN;
-        for (int i = 0; i < 3; i++) {
-            double *row = inverse + 9 * p + 3 * i;
-            for (int j = 0; j < 3; j++) row[j] = cofactor[i][j] / determinant;
-            b[3 * p + i] = dot3(row, right);
+}
+
+/* b (P, 3), the inverse (P, 3, 3) of its normal matrix and the spread (P) of the residuals of many lights: from the middle of their ranked
+   shadings, then by weights in rounds. `value` and `index` (L) are work space. */
+KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
+                       double darkest, double brightest, double mad, double scale, int64_t rounds, double singular, double *value,
+                       int64_t *index, double *b, double *inverse, double *spread) {
+    for (int64_t p = 0; p < P; p++) {
+        Equations start = {{{0.0}}, {0.0}};
+        int64_t count = 0;
+        for (int64_t k = 0; k < L; k++)
+            if (usable[k * P + p]) {
+                const double *light = B + 3 * (k * P + p);
+                value[count] = signal[k * P + p] / fmax(sqrt(dot3(light, light)), 1e-300);
+                index[count++] = k;
+            }
+        sort(count, value, index);
+        for (int64_t rank = (int64_t)floor(darkest * (double)count); rank < (int64_t)ceil((1.0 - brightest) * (double)count); rank++)
+            add(&start, B + 3 * (index[rank] * P + p), signal[index[rank] * P + p], 1.0);
+        solve(&start, singular, b + 3 * p, inverse + 9 * p);
+        for (int64_t round = 0; round < rounds; round++) {
+            Equations found = {{{0.0}}, {0.0}};
+            const double *now = b + 3 * p;
+            bool known = isfinite(now[0]) && isfinite(now[1]) && isfinite(now[2]);
+            count = 0;
+            if (known)
+                for (int64_t k = 0; k < L; k++)
+                    if (usable[k * P + p]) {
+                        value[count] = fabs(signal[k * P + p] - fmax(dot3(B + 3 * (k * P + p), now), 0.0));
+                        index[count++] = k;
+                    }
+            sort(count, value, index);
+            double middle = count ? mad * ((value[(count - 1) / 2] + value[count / 2 < L ? count / 2 : L - 1]) / 2.0) : 0.0;
+            for (int64_t k = 0; k < L; k++)
+                if (usable[k * P + p]) {
+                    double s = signal[k * P + p], residual = known ? fabs(s - fmax(dot3(B + 3 * (k * P + p), now), 0.0)) : 0.0;
+                    double own = fmax(variance[k * P + p], middle * middle), q = 1.0 + residual * residual / (scale * scale * own);
+                    add(&found, B + 3 * (k * P + p), s, 1.0 / (q * q) / own);
+                }
+            solve(&found, singular, b + 3 * p, inverse + 9 * p);
+            spread[p] = middle;
         }
     }
 }

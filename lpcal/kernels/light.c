@@ -5,23 +5,6 @@
 #include "kernel.h"
 
 #define BLOCK 64
-#define LN2 0.693147180559945309417
-#define LN2_HIGH 6.93147180369123816490e-01 /* its first 32 bits, so that whole multiples are exact (fdlibm) */
-#define LN2_LOW 1.90821492927058770002e-10
-#define WHOLE 6755399441055744.0 /* 1.5 * 2^52: the lowest bits of a number plus this are the number's nearest whole one */
-#define LEAST (-708.0)           /* under this an exponential is no normal number any more: 0 */
-
-static inline uint64_t bits_of(double x) {
-    uint64_t u;
-    memcpy(&u, &x, sizeof u);
-    return u;
-}
-
-static inline double of_bits(uint64_t u) {
-    double x;
-    memcpy(&x, &u, sizeof x);
-    return x;
-}
 
 /* Of a normal positive number: exponent times ln 2, and 2 atanh((f - 1) / (f + 1)) of its fraction f about 1. */
 static inline double logarithm(double x) {
@@ -42,27 +25,6 @@ static inline double logarithm(double x) {
     sum = sum * z + 1.0 / 5.0;
     sum = sum * z + 1.0 / 3.0;
     return exponent * LN2 + (2.0 * s + 2.0 * s * z * sum);
-}
-
-/* Of a number up to 0: a power of two times the Taylor series within half of ln 2. */
-static inline double exponential(double y) {
-    double within = y < LEAST ? LEAST : y, shifted = within * (1.0 / LN2) + WHOLE, whole = shifted - WHOLE;
-    double r = (within - whole * LN2_HIGH) - whole * LN2_LOW, sum = 1.0 / 6227020800.0;
-    sum = sum * r + 1.0 / 479001600.0;
-    sum = sum * r + 1.0 / 39916800.0;
-    sum = sum * r + 1.0 / 3628800.0;
-    sum = sum * r + 1.0 / 362880.0;
-    sum = sum * r + 1.0 / 40320.0;
-    sum = sum * r + 1.0 / 5040.0;
-    sum = sum * r + 1.0 / 720.0;
-    sum = sum * r + 1.0 / 120.0;
-    sum = sum * r + 1.0 / 24.0;
-    sum = sum * r + 1.0 / 6.0;
-    sum = sum * r + 0.5;
-    sum = sum * r + 1.0;
-    sum = sum * r + 1.0;
-    double scaled = of_bits(bits_of(sum) + (bits_of(shifted) << 52));
-    return y < LEAST ? 0.0 : scaled;
 }
 
 /* Directions d (count, 3) and irradiances E (count) of LEDs (leds) of place, axis and power at points x (count, 3). */

@@ -111,6 +111,8 @@ def reconstruct_all(
     if root is not None:
         COLLECTION.refuse(root)
     read_calibration(calibration_path)  # once here: what is wrong with it is wrong with every capture
+    if engine is not None and len(tasks) > 1:
+        wishes = replace(wishes, jobs=1)  # a core a capture
     jobs = [Job(task, calibration_path, replace(wishes, panel=panel_of(workspace, task, calibration_path)), anew) for task in tasks]
     done = _here(jobs, progress) if engine is None or len(jobs) == 1 else _there(jobs, engine, progress)
     if len(done) == 1 and done[0].error is not None:

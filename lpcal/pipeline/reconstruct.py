@@ -21,7 +21,7 @@ from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import plain, sha256
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import SUMMARY, SURFACE, summary_of, write_surface
+from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.formats.zarr_files import is_zarr
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
@@ -30,6 +30,7 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
+from lpcal.surface.bands import cores
 from lpcal.surface.flatness import flatness
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
 
@@ -62,6 +63,10 @@ class Wishes:
     """Where the object is, by the user."""
     keep: Keep = "object"
     use: tuple[str, ...] | None = None
+    outputs: tuple[str, ...] = tuple(OUTPUTS)
+    """Which files beside summary.json, by formats.surface_files.OUTPUTS."""
+    jobs: int | None = None
+    """Threads that share a capture's bands of pixels; None: one a core."""
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What the command's words say of the sensor."""
     panel: StatedSensor = field(default_factory=StatedSensor)
@@ -134,13 +139,19 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         progress=progress,
     )
     read = time.perf_counter()
-    surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
+    with cores(wishes.jobs):
+        surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     solved = time.perf_counter()
     document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and wishes.method is None and calibration.lights[0].source_C is not None:
-        document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+        with cores(wishes.jobs):
+            document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
     document["made_from"] = made_from
-    write_surface(task.target, surface, mesh(surface), document, render(surface, calibration))
+    progress(f"{task.name}: writing", 0, 1)
+    solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None
+    page = render(surface, calibration) if "page" in wishes.outputs else None
+    write_surface(task.target, surface, solid, document, page, wishes.outputs)
+    progress(f"{task.name}: writing", 1, 1)
     return document
 
 
@@ -160,7 +171,7 @@ def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wi
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
-        "options": asdict(replace(wishes, panel=StatedSensor())),
+        "options": {word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word != "jobs"},
         "inputs": hashes(task, calibration_path),
     }
 
@@ -194,7 +205,7 @@ def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
         __version__,
         task.name,
         [[_name_in(task.capture, path), sha256(path)] for path in files],
-        plain(asdict(replace(wishes, mask=""))),
+        plain(asdict(replace(wishes, mask="", jobs=None))),
     ]
     said += [wishes.mask] if wishes.mask in MASK_WORDS else []
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()

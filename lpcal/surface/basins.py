@@ -20,6 +20,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
+from lpcal.records.outcome import Progress, silent
 from lpcal.surface import coarse, distance, normals, pieces
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.integrate import Grid, integrate, settle, steps
@@ -88,8 +89,10 @@ class Basins:
         return [(ratio, odds / total) for ratio, odds in found if odds / total > STATED]
 
 
-def search(maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float) -> Basins | None:
-    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels."""
+def search(
+    maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
+) -> Basins | None:
+    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is what progress calls it."""
     factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
     rows, columns = image.shape
@@ -100,27 +103,29 @@ def search(maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about
     seen = look_at(image.maps, image.image(image.rays_C), inside, central=True)
     table, grid = LightTable.of(image, lights, about_m).at_pixels(np.flatnonzero(inside)), Grid.of(inside)
     ends: list[Basin] = []
-    for share_of_working in STARTS:
+    for done, share_of_working in enumerate(STARTS):
+        progress(f"{name}: distance", done, len(STARTS))
         end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
             ends.append(end)
         elif end.cost < ends[twin].cost:
             ends[twin] = end
+    progress(f"{name}: distance", len(STARTS), len(STARTS))
     return Basins(tuple(sorted(ends, key=lambda one: one.cost)), inside, factor, len(lights))
 
 
 def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
     """Plain rounds from u (P,)."""
-    everywhere = np.arange(seen.pixels)
+    pixels = np.arange(seen.pixels)
 
-    def B_at(depth: Array) -> Array:
-        return table.at(np.log(depth), everywhere)[0]
+    def B_at(depth: Array, some: slice) -> Array:
+        return table.at(np.log(depth), pixels[some])[0]
 
     cost = np.inf
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
-        B = B_at(np.exp(u))
+        B = B_at(np.exp(u), slice(None))
         found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), normals.variances(seen))
         known = np.isfinite(found.b[:, 0])
         if not known.any():
@@ -132,7 +137,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
         cost = float(samples.mean() + strained.mean())
         if k == ROUNDS:
             break
-        own = distance.own_distance(B_at, np.exp(u), seen, found)
+        own = distance.own_distance(B, B_at, np.exp(u), seen, found)
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)

@@ -17,9 +17,10 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.surface import bands
 from lpcal.surface.integrate import Own
 from lpcal.surface.normals import Estimate, thrown_share, variances
-from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.sight import Lit, Sight, vectors
 
 DELTA = 1e-3
 FURTHEST = 0.5
@@ -43,16 +44,29 @@ WEAK = 1e-6
 """Curvature for pixels that know nothing, so that every piece is held somewhere."""
 
 
-def own_distance(B_at: Callable[[Array], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
-    """Curvature and optimum of u (P,) about depths (P,); B_at gives light vectors (L, P, 3) at depths."""
+def own_distance(light: Lit | Array, B_at: Callable[[Array, slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
+    """Curvature and optimum of u (P,) about depths (P,) with their light, or its vectors (L, P, 3).
+
+    B_at gives light vectors (L, Q, 3) at depths (Q,) of a slice of the pixels.
+    """
+
+    def of(at: slice) -> Own:
+        slope = (B_at(depth[at] * (1 + DELTA), at) - B_at(depth[at] * (1 - DELTA), at)) / (2 * DELTA)
+        return _own(vectors(light, at), slope, depth[at], seen.at(at), found.at(at))
+
+    parts = bands.each(seen.pixels, len(seen.signal), of)
+    return Own(np.concatenate([part.curvature for part in parts]), np.concatenate([part.optimum for part in parts]))
+
+
+def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> Own:
+    """The same by light vectors B (L, P, 3) and their slope by u."""
     variance = variances(seen)
     signal = seen.signal
     if found.gloss is not None:
         variance, signal = variance + (GLOSS_DOUBT * found.gloss) ** 2, signal - found.gloss
     weight = np.where(found.inliers & np.isfinite(found.b[:, 0]), 1 / np.sqrt(variance), 0.0)
     b = np.nan_to_num(found.b)
-    A = weight[..., None] * B_at(depth)
-    slope = (B_at(depth * (1 + DELTA)) - B_at(depth * (1 - DELTA))) / (2 * DELTA)
+    A = weight[..., None] * B
     J = -weight * np.einsum("kpi,pi->kp", slope, b)
     r = weight * signal - np.einsum("kpi,pi->kp", A, b)
     inverse = lambert.inverse_3x3(np.einsum("kpi,kpj->pij", A, A))

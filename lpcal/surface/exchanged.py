@@ -14,11 +14,14 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.surface.sight import Lit, vectors
 
 LIGHTS_NEEDED = 6
 """Lights from which two that are exchanged leave four that agree on a surface."""
 MOST_PIXELS = 3000
 """Pixels that are looked at, spread over the object."""
+FEW_PIXELS, MOST_PAIRS = 800, 3_000_000
+"""Pixels that are looked at where the lights are many, and how many pairs of lights at pixels: each image is held against every light."""
 FEWEST_PIXELS = 50
 """Pixels of a half of the object from which its median is one."""
 NEEDED = 2.0
@@ -26,13 +29,13 @@ NEEDED = 2.0
 the model lacks of a light's own image (gloss, shadows, light thrown) makes another light fit it as well, never twice as well."""
 
 
-def exchanged(signal: Array, B: Array, b: Array, usable: Mask) -> dict[int, int]:
+def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict[int, int]:
     """The light that each image fits, of those that fit another one than their own; empty where all fit their own, or it is not clear.
 
     Parameters
     ----------
     signal : (L, P), the gloss taken off
-    B : (L, P, 3)
+    light : the light, or its vectors (L, P, 3)
     b : (P, 3), NaN where it is not known
     usable : (L, P) where the signal is not saturated
     """
@@ -41,12 +44,14 @@ def exchanged(signal: Array, B: Array, b: Array, usable: Mask) -> dict[int, int]
     known = np.flatnonzero(np.isfinite(b[:, 0]))
     if len(known) < 2 * FEWEST_PIXELS:
         return {}
-    some = known[np.unique(np.linspace(0, len(known) - 1, min(MOST_PIXELS, len(known))).astype(int))]
+    most = min(MOST_PIXELS, max(FEW_PIXELS, MOST_PAIRS // len(signal) ** 2), len(known))
+    some = known[np.unique(np.linspace(0, len(known) - 1, most).astype(int))]
     side = b[some] / np.maximum(np.linalg.norm(b[some], axis=1, keepdims=True), 1e-300)
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
     if any(half.sum() < FEWEST_PIXELS for half in halves):
         return {}
-    miss = np.stack([_misses(signal[:, some], B[:, some], b[some], usable[:, some], half) for half in halves])
+    B = vectors(light, some)
+    miss = np.stack([_misses(signal[:, some], B, b[some], usable[:, some], half) for half in halves])
     from scipy.optimize import linear_sum_assignment
 
     _, best = linear_sum_assignment(miss.sum(axis=0))

@@ -22,9 +22,10 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface import gloss, pieces
+from lpcal.kernels.library import kernel
+from lpcal.surface import bands, gloss, pieces
 from lpcal.surface.integrate import Grid
-from lpcal.surface.normals import Estimate
+from lpcal.surface.normals import Estimate, joined
 from lpcal.surface.sight import Lit, Sight
 
 TURN = 0.15
@@ -79,21 +80,23 @@ def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimat
     v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
     b = _begin(seen, grid, start.b) if before is None else before.b
     shine = None if before is None else before.gloss
-    J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
-    direct = lit.d * lit.E[..., None]
     rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * glossy
+    some = gloss.sample(*seen.signal.shape[::-1])
+    few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
     for k in range(rounds):
-        shown = _shown(lit, b, v, shine)
         if glossy and (k > 1 or before is not None):
-            state = _states(seen, direct, J, b, hidden, None, 1.0)
-            shine = gloss.fit(state.lit, np.where(state.chance > 0.5, 1.0, 0.0) * seen.usable, state.spread2, lit, lambert.unit(b)[0], v)
-            shown = _shown(lit, b, v, shine)
-        state = _states(seen, direct, J, b, hidden, shown, WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0)
-        b = _solved(seen, grid, direct, J, b, state, shown)
+            state = _states(few, few_lit, b[some], few_hidden, None, 1.0)
+            counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
+            shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some])
+        warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
+        b = _solved(grid, b, *_all_gathered(seen, lit, b, v, hidden, shine, warmth))
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
         b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
-    shown = _shown(lit, b, v, shine)
-    return Field(b, _by_pixels(seen, direct, J, b, hidden, shown), shine)
+
+    def own(at: slice) -> Estimate:
+        return _by_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
+
+    return Field(b, joined(bands.each(seen.pixels, len(seen.signal), own)), shine)
 
 
 def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
@@ -114,10 +117,10 @@ def _shown(lit: Lit, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | N
     return None if shine is None else shine.ks * lit.E * gloss.lobe(lit.d, lambert.unit(b)[0], v, shine.roughness)
 
 
-def _states(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> _States:
+def _states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> _States:
     """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
-    bright = np.maximum(lambert.dot(direct, b), 0.0)
-    thrown = np.maximum(lambert.dot(J, b), 0.0)
+    bright = np.maximum(lambert.dot(lit.direct, b), 0.0)
+    thrown = 0.0 if lit.thrown is None else np.maximum(lambert.dot(lit.thrown, b), 0.0)
     top = seen.signal.max(axis=0)
     left = seen.signal - thrown if shown is None else seen.signal - thrown - shown
     noise2 = seen.sigma**2 + (THROWN_DOUBT * thrown) ** 2
@@ -132,25 +135,58 @@ def _states(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | None,
     return _States(left - bright, spread2, dark, dark2, chance)
 
 
-def _solved(seen: Sight, grid: Grid, direct: Array, J: Array, b: Array, state: _States, shown: Array | None) -> Array:
-    """b (P, 3) of least energy for fixed states and weights."""
-    from scipy import sparse
-    from scipy.sparse import linalg
+def _all_gathered(
+    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
+) -> tuple[Array, Array]:
+    """`_gathered` of all pixels, band by band."""
+
+    def of(at: slice) -> tuple[Array, Array]:
+        return _gathered(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine, warmth)
+
+    parts = bands.each(seen.pixels, len(seen.signal), of)
+    return np.concatenate([own for own, _ in parts]), np.concatenate([right for _, right in parts])
+
+
+def _gathered(
+    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
+) -> tuple[Array, Array]:
+    """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrix (P, 3, 3) and right side (P, 3)."""
+    if run := kernel("gathered"):
+        ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
+        constants = np.array([MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, gloss.DOUBT, gloss.WIDTH2, ks, roughness, warmth])
+        d, E, signal, sigma, at, view = (np.ascontiguousarray(one, float) for one in (lit.d, lit.E, seen.signal, seen.sigma, b, v))
+        J = np.zeros(0) if lit.thrown is None else np.ascontiguousarray(lit.thrown, float)
+        unlit = np.zeros(0, bool) if hidden is None else np.ascontiguousarray(hidden)
+        own, right = np.empty((seen.pixels, 3, 3)), np.empty((seen.pixels, 3))
+        usable = np.ascontiguousarray(seen.usable)
+        run(*signal.shape, d, E, J.size > 0, J, signal, sigma, usable, unlit.size > 0, unlit, at, view, constants, own, right)
+        return own, right
+    shown = _shown(lit, b, v, shine)
+    state = _states(seen, lit, b, hidden, shown, warmth)
 
     def weights(chance: Array, residual: Array, spread2: Array) -> Array:
         return np.where(seen.usable, chance / (1 + residual**2 / spread2 / gloss.WIDTH2) ** 2 / spread2, 0.0)
 
     as_lit = weights(state.chance, state.lit, state.spread2)
     in_shadow = weights(1 - state.chance, state.shadow, state.shadow_spread2)
-    B = np.where((lambert.dot(direct, b) > 0)[..., None], direct + J, J)
+    J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
+    B = np.where((lambert.dot(lit.direct, b) > 0)[..., None], lit.direct + J, J)
     signal = seen.signal if shown is None else seen.signal - shown
     own = np.einsum("kp,kpi,kpj->pij", as_lit, B, B) + np.einsum("kp,kpi,kpj->pij", in_shadow, J, J)
     right = np.einsum("kp,kpi->pi", as_lit * signal, B) + np.einsum("kp,kpi->pi", in_shadow * seen.signal, J)
+    return own, right
+
+
+def _solved(grid: Grid, b: Array, own: Array, right: Array) -> Array:
+    """b (P, 3) of least energy: of the pixels' normal equations, and of the links between them with their weights at b."""
+    from scipy import sparse
+    from scipy.sparse import linalg
+
+    P = len(b)
     albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
     both = albedo[grid.a] * albedo[grid.b]
     apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
     link = 1 / (both * TURN**2) / (1 + apart / 4) ** 2
-    P = seen.pixels
     links = sparse.coo_array((link, (grid.a, grid.b)), shape=(P, P)).tocsr()
     links = links + links.T
     block = own + np.asarray(links.sum(axis=1)).reshape(-1, 1, 1) * np.eye(3)
@@ -169,14 +205,15 @@ def _solved(seen: Sight, grid: Grid, direct: Array, J: Array, b: Array, state: _
     return np.asarray(found.reshape(P, 3))
 
 
-def _by_pixels(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | None, shown: Array | None) -> Estimate:
+def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
     """What each pixel's own samples say, of those that are lit by the field and agree with it."""
-    state = _states(seen, direct, J, b, hidden, shown, 1.0)
+    shown = _shown(lit, b, v, shine)
+    state = _states(seen, lit, b, hidden, shown, 1.0)
     square = state.lit**2 / state.spread2
-    lit = seen.usable & (lambert.dot(direct, b) > 0)
-    inliers = lit & (state.chance > 0.5) & (square < gloss.WIDTH2)
+    reached = seen.usable & (lambert.dot(lit.direct, b) > 0)
+    inliers = reached & (state.chance > 0.5) & (square < gloss.WIDTH2)
     signal = seen.signal if shown is None else seen.signal - shown
-    B = direct + J
+    B = lit.B
     own, covariance = lambert.weighted(B, signal, inliers / state.spread2)
     square = (signal - lambert.predicted(B, np.nan_to_num(own))) ** 2 / state.spread2
     far = lambert.dot(np.nan_to_num(own), b) < 0
@@ -186,6 +223,6 @@ def _by_pixels(seen: Sight, direct: Array, J: Array, b: Array, hidden: Mask | No
         inliers,
         covariance,
         np.sum(np.where(inliers, square, 0.0), axis=0),
-        np.sum(np.where(lit, np.minimum(square, gloss.WIDTH2), 0.0), axis=0),
+        np.sum(np.where(reached, np.minimum(square, gloss.WIDTH2), 0.0), axis=0),
         shown,
     )

@@ -16,10 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Lit
 
-SAMPLE = 4000
-"""Pixels of an object that its gloss is fitted to, spread over it."""
+MOST_PIXELS, FEWEST_PIXELS = 4000, 1000
+"""Pixels of an object that its gloss is fitted to, spread over it, with few lights and with many."""
+SAMPLES = 100_000
+"""Samples, lights times pixels, that the gloss is fitted to where the lights are many: what is fitted are two numbers."""
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
 """Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
 DOUBT = 0.2
@@ -48,6 +51,10 @@ class Gloss:
 
 def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     """D G / (4 n.v) (L, P) of light directions d (L, P, 3), normals n (P, 3), directions v (P, 3) to the viewer."""
+    if run := kernel("lobe"):
+        found = np.empty(d.shape[:2])
+        run(*found.shape, *(np.ascontiguousarray(one, float) for one in (d, n, v)), roughness, found)
+        return found
     h = d + v
     h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
     a2 = roughness**2
@@ -61,18 +68,22 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     return np.asarray(np.where(nd > 0, D * smith(np.maximum(nd, 0)) * smith(nv) / (4 * nv), 0.0))
 
 
+def sample(pixels: int, lights: int) -> slice:
+    """The pixels that a gloss is fitted to, of so many."""
+    return slice(None, None, max(1, pixels // min(MOST_PIXELS, max(FEWEST_PIXELS, SAMPLES // lights))))
+
+
 def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array) -> Gloss | None:
     """The lobe that explains residuals (L, P) of variances `spread2` best, by normals n and directions v to the viewer (P, 3).
 
     `weight` (L, P) is 1 for samples that count. For each roughness the strength is the robust regression of the residuals on the lobe; the
     least cost wins, None where no gloss costs as little.
     """
-    some = slice(None, None, max(1, len(n) // SAMPLE))
-    r, w, s2 = residual[:, some], weight[:, some], spread2[:, some]
+    r, w, s2 = residual, weight, spread2
     best, least = None, _cost(r, w, s2)
     plain = _misfit(r, w, s2)
     for roughness in ROUGHNESSES:
-        shape = lit.E[:, some] * lobe(lit.d[:, some], n[some], v[some], roughness)
+        shape = lit.E * lobe(lit.d, n, v, roughness)
         ks = 0.0
         for _ in range(ROUNDS):
             pull = w / (1 + (r - ks * shape) ** 2 / s2 / WIDTH2) ** 2 / s2

@@ -20,7 +20,8 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
-from lpcal.surface.sight import Lit, Sight
+from lpcal.surface import bands
+from lpcal.surface.sight import Indices, Lit, Sight, vectors
 
 MODEL = 0.015
 SHADOW = 0.15
@@ -35,7 +36,6 @@ DARKEST, BRIGHTEST = 0.3, 0.3
 WEIGHT_ROUNDS = 6
 SCALE = 1.5
 MAD = 1.4826
-BLOCK = 16384
 FACING = -0.02
 """n . v of a pixel that the camera can see (v the unit ray) is under this."""
 
@@ -62,6 +62,11 @@ class Estimate:
         """Number of inliers (P,)."""
         return np.asarray(self.inliers.sum(axis=0))
 
+    def at(self, some: Indices | slice) -> Estimate:
+        """At some of the pixels."""
+        gloss = None if self.gloss is None else self.gloss[:, some]
+        return Estimate(self.b[some], self.inliers[:, some], self.covariance[some], self.chi2[some], self.cost[some], gloss)
+
     def diffuse(self, sight: Sight) -> Array:
         """Signals (L, P) without gloss."""
         return sight.signal if self.gloss is None else np.maximum(sight.signal - self.gloss, 0.0)
@@ -69,11 +74,16 @@ class Estimate:
 
 def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
     """Samples (L, P) that a light seems to reach unhindered."""
-    lit = sight.usable & (E > 0)
-    shading = np.where(lit, sight.signal / np.maximum(E, 1e-300), 0.0)
-    bright = np.sort(shading, axis=0)[-2]
-    found = lit & (shading > SHADOW * bright) & (sight.signal > DARK_SIGMAS * sight.sigma)
-    return found if hidden is None else found & ~hidden
+
+    def of(at: slice) -> Mask:
+        signal, light = sight.signal[:, at], E[:, at]
+        lit = sight.usable[:, at] & (light > 0)
+        shading = np.where(lit, signal / np.maximum(light, 1e-300), 0.0)
+        bright = np.partition(shading, -2, axis=0)[-2]
+        found = lit & (shading > SHADOW * bright) & (signal > DARK_SIGMAS * sight.sigma[:, at])
+        return found if hidden is None else found & ~hidden[:, at]
+
+    return np.concatenate(bands.each(sight.pixels, len(E), of), axis=1)
 
 
 def variances(sight: Sight, gloss: Array | None = None) -> Array:
@@ -82,18 +92,27 @@ def variances(sight: Sight, gloss: Array | None = None) -> Array:
     return variance if gloss is None else variance + (DOUBT * gloss) ** 2
 
 
-def estimate(sight: Sight, B: Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:
-    """b of each pixel from the samples `usable` (L, P), by light vectors B (L, P, 3); `gloss` (L, P) is taken off the signal."""
-    way = _few if len(B) <= FEW_LIGHTS else _many
-    signal = sight.signal if gloss is None else sight.signal - gloss
-    blocks = [slice(first, first + BLOCK) for first in range(0, sight.pixels, BLOCK)]
-    parts = [way(signal[:, at], B[:, at], usable[:, at], variance[:, at], sight.rays_C[at]) for at in blocks]
+def estimate(sight: Sight, light: Lit | Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:
+    """b of each pixel from the samples `usable` (L, P), by light or its vectors (L, P, 3); `gloss` (L, P) is taken off the signal."""
+    way = _few if len(sight.signal) <= FEW_LIGHTS else _many
+
+    def of(at: slice) -> Estimate:
+        signal = sight.signal[:, at] if gloss is None else sight.signal[:, at] - gloss[:, at]
+        return way(signal, vectors(light, at), usable[:, at], variance[:, at], sight.rays_C[at])
+
+    return joined(bands.each(sight.pixels, len(sight.signal), of))
+
+
+def joined(parts: list[Estimate]) -> Estimate:
+    """The estimates of bands of pixels as one."""
+    gloss = [part.gloss for part in parts if part.gloss is not None]
     return Estimate(
         np.concatenate([part.b for part in parts]),
         np.concatenate([part.inliers for part in parts], axis=1),
         np.concatenate([part.covariance for part in parts]),
         np.concatenate([part.chi2 for part in parts]),
         np.concatenate([part.cost for part in parts]),
+        np.concatenate(gloss, axis=1) if gloss else None,
     )
 
 
@@ -108,9 +127,14 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
     """Light (P,) that is thrown on a pixel by its surroundings, by that which comes straight from the lights that agree."""
     if lit.thrown is None:
         return np.zeros(len(found.b))
-    b = np.nan_to_num(found.b)
-    direct, thrown = (np.sum(np.where(found.inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (lit.d * lit.E[..., None], lit.thrown))
-    return np.asarray(thrown / np.maximum(direct, 1e-12))
+
+    def of(at: slice) -> Array:
+        here, b, inliers = lit.at(at), np.nan_to_num(found.b[at]), found.inliers[:, at]
+        assert here.thrown is not None
+        direct, thrown = (np.sum(np.where(inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (here.direct, here.thrown))
+        return np.asarray(thrown / np.maximum(direct, 1e-12))
+
+    return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
 
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
@@ -125,6 +149,19 @@ def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) 
 
 def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
+    b, covariance, spread = _weighted_in_rounds(signal, B, usable, variance)
+    return _judged(signal, B, usable, np.maximum(variance, spread**2), rays_C, b, covariance)
+
+
+def _weighted_in_rounds(signal: Array, B: Array, usable: Mask, variance: Array) -> tuple[Array, Array, Array]:
+    """b (P, 3), its covariance (P, 3, 3) and the spread (P,) of many lights' residuals."""
+    if run := kernel("many"):
+        L, P = signal.shape
+        b, covariance, spread = np.empty((P, 3)), np.empty((P, 3, 3)), np.empty(P)
+        given = (np.ascontiguousarray(one, float) for one in (B, signal))
+        fixed = (DARKEST, BRIGHTEST, MAD, SCALE, WEIGHT_ROUNDS, lambert.SINGULAR, np.empty(L), np.empty(L, np.int64))
+        run(L, P, *given, np.ascontiguousarray(usable), np.ascontiguousarray(variance, float), *fixed, b, covariance, spread)
+        return b, covariance, spread
     b = _middle_of_the_ranks(signal, B, usable)
     for _ in range(WEIGHT_ROUNDS):
         residual = np.where(usable, np.abs(signal - lambert.predicted(B, b)), np.nan)
@@ -132,7 +169,7 @@ def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array)
         own = np.maximum(variance, spread**2)
         square = np.nan_to_num(residual) ** 2 / (SCALE**2 * own)
         b, covariance = lambert.weighted(B, signal, usable / (1 + square) ** 2 / own)
-    return _judged(signal, B, usable, own, rays_C, b, covariance)
+    return b, covariance, spread
 
 
 def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array, b: Array, covariance: Array) -> Estimate:
@@ -175,7 +212,7 @@ def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array
 def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask) -> Array:
     """b (P, 3) by least squares on the candidates without the darkest and the brightest of them."""
     shading = np.where(usable, signal / np.maximum(np.linalg.norm(B, axis=2), 1e-300), np.inf)
-    rank = np.argsort(np.argsort(shading, axis=0), axis=0)
+    rank = np.argsort(np.argsort(shading, axis=0, kind="stable"), axis=0)
     count = usable.sum(axis=0)
     kept = usable & (rank >= np.floor(DARKEST * count)) & (rank < np.ceil((1 - BRIGHTEST) * count))
     return lambert.weighted(B, signal, kept.astype(float))[0]

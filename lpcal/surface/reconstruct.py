@@ -20,6 +20,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface import (
+    bands,
     basins,
     bend,
     gains,
@@ -106,7 +107,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
     room = sight.room(radiance) if options.ambient_pictured else None
+    progress(f"{radiance.name}: which pixels are the object", 0, 1)
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints, room) if wanted or near else None
+    progress(f"{radiance.name}: which pixels are the object", 1, 1)
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
     gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
@@ -121,8 +124,9 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
-        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin))
+        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
         u = basins_found.start(object_mask) if basins_found is not None else u
+    del maps  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
@@ -144,7 +148,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
     """The images that fit another light than theirs, and which."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
-    found = exchanged(matte, state.lit.B, state.found.b, seen.usable)
+    found = exchanged(matte, state.lit, state.found.b, seen.usable)
     return {names[image]: names[light] for image, light in found.items()}
 
 
@@ -269,16 +273,19 @@ def _model_std(state: State, inside: Mask) -> float:
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
     seen, lights = scene.seen, scene.lights
-    shading = lambert.predicted(state.lit.B, state.normals)
-    used = np.where(state.found.used >= normals.LEAST, state.found.inliers, seen.usable)
-    below = np.sum(used * shading**2, axis=0)
-    channels = radiance.signal[:, seen.mask].reshape(len(lights), seen.pixels, -1)
-    found = []
-    for channel in range(channels.shape[2]):
-        intensity = np.array([light.intensity[channel if light.intensity.size > 1 and channels.shape[2] > 1 else 0] for light in lights])
-        signal = channels[..., channel] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss)
-        found.append(np.sum(used * shading * signal, axis=0) / np.maximum(below, 1e-12))
-    return found[0] if len(found) == 1 else np.stack(found, axis=1)
+    inside = np.flatnonzero(seen.mask.ravel())
+    signal = radiance.signal.reshape(len(lights), seen.mask.size, -1)
+    channels = signal.shape[2]
+    intensity = np.stack([np.broadcast_to(light.intensity if channels > 1 else light.intensity[0], channels) for light in lights])
+
+    def of(at: slice) -> Array:
+        shading = lambert.predicted(state.lit.at(at).B, state.normals[at])
+        used = np.where(state.found.used[at] >= normals.LEAST, state.found.inliers[:, at], seen.usable[:, at])
+        matte = signal[:, inside[at]] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss[:, at, None])
+        return np.einsum("kp,kpc->pc", used * shading, matte) / np.maximum(np.sum(used * shading**2, axis=0), 1e-12)[:, None]
+
+    found = np.concatenate(bands.each(seen.pixels, len(lights), of))
+    return found[:, 0] if channels == 1 else found
 
 
 def _figures(state: State) -> SurfaceFigures:

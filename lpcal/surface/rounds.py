@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -80,6 +81,11 @@ class Scene:
         """The light at depths (P,)."""
         return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
 
+    def B_at(self, thrown: Array | None, depth: Array, some: slice) -> Array:
+        """Light vectors (L, Q, 3) at depths (Q,) of some of the pixels, with what is thrown on all (L, P, 3)."""
+        light = sight.light_vectors(self.lights, self.seen.at(some).points_C(depth), self.focus_C)
+        return Lit(*light, None if thrown is None else thrown[:, some]).B
+
 
 def run(scene: Scene, begin: Array, progress: Progress) -> State:
     """All rounds, from log depths `begin` (P,)."""
@@ -115,7 +121,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
-        own = distance.own_distance(lambda z: scene.lit_at(z, lit.thrown).B, depth, seen, found)
+        own = distance.own_distance(lit, partial(scene.B_at, lit.thrown), depth, seen, found)
         own = distance.doubted(own, lit, seen, found)
         own = own if shaped is None else distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
@@ -150,7 +156,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
 def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, k: int) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
-    start = normals.estimate(seen, lit.B, usable, normals.variances(seen))
+    start = normals.estimate(seen, lit, usable, normals.variances(seen))
     lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:
         raise DegenerateError(

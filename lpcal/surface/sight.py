@@ -16,6 +16,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
+from lpcal.surface import bands
 
 type Indices = npt.NDArray[np.int64]
 
@@ -60,7 +61,7 @@ class Sight:
         found[self.mask] = values
         return found
 
-    def at(self, some: Indices) -> Sight:
+    def at(self, some: Indices | slice) -> Sight:
         """Some of the pixels; the mask stays that of all."""
         return replace(self, rays_C=self.rays_C[some], signal=self.signal[:, some], sigma=self.sigma[:, some], usable=self.usable[:, some])
 
@@ -92,13 +93,22 @@ class Lit:
     @property
     def B(self) -> Array:
         """Light vectors (L, P, 3), all light counted."""
-        own = self.d * self.E[..., None]
-        return own if self.thrown is None else own + self.thrown
+        return self.direct if self.thrown is None else self.direct + self.thrown
 
-    def at(self, some: Indices) -> Lit:
+    @property
+    def direct(self) -> Array:
+        """Light vectors (L, P, 3) of the lights alone."""
+        return self.d * self.E[..., None]
+
+    def at(self, some: Indices | slice) -> Lit:
         """At some of the pixels."""
         thrown = None if self.thrown is None else self.thrown[:, some]
         return Lit(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
+
+
+def vectors(light: Lit | Array, some: Indices | slice) -> Array:
+    """Light vectors (L, Q, 3) at some of the pixels, of vectors (L, P, 3) or of light."""
+    return light.at(some).B if isinstance(light, Lit) else light[:, some]
 
 
 def strength(maps: Grey) -> Image:
@@ -156,12 +166,18 @@ def grey(radiance: Radiance, lights: Sequence[Light]) -> Grey:
     intensity = np.stack([light.intensity if colour else light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)
     intensity = np.broadcast_to(intensity, (len(lights), 3)) if colour else intensity
     factor = 1 / (intensity[:, None, None, :] if colour else intensity.reshape(-1, *extra))
-    signal, sigma = radiance.signal * factor, radiance.sigma * factor
-    if colour:
-        weight = 1 / np.maximum(np.mean(sigma**2, axis=(0, 1, 2)), 1e-20)
-        weight = (weight / weight.sum()).astype(np.float32)
-        signal, sigma = signal @ weight, np.sqrt(sigma**2 @ weight**2)
-    return Grey(np.asarray(signal, np.float32), np.asarray(sigma, np.float32), ~radiance.saturated)
+    shape = radiance.signal.shape[:3]
+    if not colour:
+        by = np.asarray(factor, np.float32)
+        return Grey(radiance.signal * by, radiance.sigma * by, ~radiance.saturated)
+    variance = np.mean([np.mean((std * by) ** 2, axis=(0, 1), dtype=float) for std, by in zip(radiance.sigma, factor, strict=True)], axis=0)
+    weight = 1 / np.maximum(variance, 1e-20)
+    weight = (weight / weight.sum()).astype(np.float32)
+    signal, sigma = np.empty(shape, np.float32), np.empty(shape, np.float32)
+    for k, by in enumerate(factor):
+        signal[k] = (radiance.signal[k] * by) @ weight
+        sigma[k] = np.sqrt((radiance.sigma[k] * by) ** 2 @ weight**2)
+    return Grey(signal, sigma, ~radiance.saturated)
 
 
 def room(radiance: Radiance) -> Image | None:
@@ -198,10 +214,19 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
 
     Where `focus_C` (3,) is given every light is taken as a distant one: everywhere as it is there.
     """
-    d, E = np.empty((len(lights), *x_C.shape)), np.empty((len(lights), len(x_C)))
-    for k, light in enumerate(lights):
-        direction, irradiance = light.field(x_C if focus_C is None else focus_C)
-        d[k], E[k] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
+    shape = (len(lights), len(x_C))
+    if focus_C is not None:
+        found = [light.field(focus_C) for light in lights]
+        E = np.array([irradiance.mean(axis=-1) / light.intensity.mean() for light, (_, irradiance) in zip(lights, found, strict=True)])
+        return np.broadcast_to(np.stack([d for d, _ in found])[:, None], (*shape, 3)), np.broadcast_to(E[:, None], shape)
+    d, E = np.empty((*shape, 3)), np.empty(shape)
+
+    def fill(place: tuple[int, slice]) -> None:
+        light = lights[place[0]]
+        direction, irradiance = light.field(x_C[place[1]])
+        d[place], E[place] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
+
+    bands.shared(fill, [(k, at) for k in range(len(lights)) for at in bands.bands(len(x_C), 1)])
     return d, E
 
 

@@ -57,6 +57,7 @@ def reconstruct(
         room, room_map[object_mask] = found
         surface = solve(without(radiance, room_map, lights), given if k == rounds - 1 else object_mask)
         object_mask, depth = surface.mask, surface.depth[surface.mask].astype(float)
+    del maps, seen  # the solves below hold their own
     if surface is None or room is None:
         plain = solve(radiance, given)
         return replace(plain, figures=replace(plain.figures, ambient=AmbientFound(estimated=False, note=UNDECIDED)))
@@ -67,12 +68,12 @@ def reconstruct(
 def without(radiance: Radiance, room_map: Image, lights: tuple[Light, ...]) -> Radiance:
     """The radiance with room light (H, W) taken away; of colours each in proportion to what the lamps bring back."""
     if radiance.signal.ndim == 3:
-        ambient = np.asarray(room_map, float)
+        ambient = np.asarray(room_map, np.float32)
     else:
         middle = np.median(radiance.signal, axis=0)
         grey = np.median(sight.grey(radiance, lights).signal, axis=0)
-        ambient = room_map[..., None] * np.clip(middle / np.maximum(grey, 1e-12)[..., None], 0, 3)
-    return replace(radiance, signal=np.asarray(radiance.signal - ambient, np.float32), ambient=np.asarray(ambient, np.float32))
+        ambient = np.asarray(room_map[..., None] * np.clip(middle / np.maximum(grey, 1e-12)[..., None], 0, 3), np.float32)
+    return replace(radiance, signal=radiance.signal - ambient, ambient=ambient)
 
 
 def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surface:

@@ -1,0 +1,51 @@
+"""Work on bands of pixels: what belongs to samples is never held for all pixels at once, and cores share the bands.
+
+Bands are the same with any number of cores, and each writes what is its own: so are the bytes of a result.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from contextvars import ContextVar
+
+SAMPLES = 1 << 15
+"""Samples, lights times pixels, of a band: a vector a sample is then 0.8 MB, which a core's own cache holds."""
+
+_cores: ContextVar[int | None] = ContextVar("cores", default=None)
+
+
+@contextmanager
+def cores(count: int | None) -> Iterator[None]:
+    """Within this, bands are shared by so many threads; None stands for one a core."""
+    token = _cores.set(count)
+    try:
+        yield
+    finally:
+        _cores.reset(token)
+
+
+def bands(pixels: int, lights: int) -> list[slice]:
+    """Slices of all pixels, one a band."""
+    some = max(1, SAMPLES // max(lights, 1))
+    return [slice(first, min(first + some, pixels)) for first in range(0, pixels, some)] or [slice(0, 0)]
+
+
+def each[T](pixels: int, lights: int, work: Callable[[slice], T]) -> list[T]:
+    """What the work makes of each band, in their order."""
+    return shared(work, bands(pixels, lights))
+
+
+def shared[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:
+    """What the work makes of each item, in their order, by as many threads as there are cores.
+
+    Work that shares its own in turn does that alone.
+    """
+    items = list(items)
+    count = min(_cores.get() or os.cpu_count() or 1, len(items))
+    if count <= 1:
+        return [work(item) for item in items]
+    with ThreadPoolExecutor(count, initializer=_cores.set, initargs=(1,)) as pool:
+        return list(pool.map(work, items))

@@ -1,0 +1,61 @@
+"""The part of a capture that a mask leaves to be solved, and the surface of the part put back into the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry.arrays import Mask
+from lpcal.records.observations import Radiance
+from lpcal.records.surface import Surface
+
+MARGIN_PX = 8
+"""Pixels about the mask that stay: what looks at a pixel's neighbours looks no further."""
+MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component", "layer")
+
+
+@dataclass(frozen=True)
+class Crop:
+    """Rows and columns of a picture of a shape (H, W)."""
+
+    rows: slice
+    columns: slice
+    shape: tuple[int, int]
+
+    @staticmethod
+    def about(mask: Mask) -> Crop:
+        """The box of a mask (H, W) with its margin; all of the picture where the mask is empty."""
+        sides = []
+        for axis, size in ((1, mask.shape[0]), (0, mask.shape[1])):
+            held = np.flatnonzero(mask.any(axis=axis))
+            sides.append(slice(max(held[0] - MARGIN_PX, 0), min(held[-1] + MARGIN_PX + 1, size)) if held.size else slice(0, size))
+        return Crop(sides[0], sides[1], (mask.shape[0], mask.shape[1]))
+
+    def of[T: np.generic](self, maps: npt.NDArray[T]) -> npt.NDArray[T]:
+        """The part of a map (H, W, ...)."""
+        return maps[self.rows, self.columns]
+
+    def radiance(self, whole: Radiance) -> Radiance:
+        """The part of a capture: copies, so that nothing holds the rest."""
+        signal, sigma, saturated = (np.stack([self.of(image) for image in maps]) for maps in (whole.signal, whole.sigma, whole.saturated))
+        short = {light: self.of(image).copy() for light, image in whole.short.items()}
+        mask = None if whole.mask is None else self.of(whole.mask)
+        return replace(
+            whole, signal=signal, sigma=sigma, saturated=saturated, ambient=self.of(whole.ambient).copy(), short=short, mask=mask
+        )
+
+    def put_back(self, part: Surface) -> Surface:
+        """The surface of the part in the whole picture; its rays must all be alike."""
+        maps: dict[str, Any] = {name: self._whole(getattr(part, name)) for name in MAPS}
+        breaks = np.ones((2, *self.shape), bool)
+        breaks[:, self.rows, self.columns] = part.breaks
+        rays = np.broadcast_to(part.rays_C[0, 0], (*self.shape, 3)).copy()
+        return replace(part, **maps, breaks=breaks, rays_C=rays)
+
+    def _whole(self, part: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        found = np.full((*self.shape, *part.shape[2:]), np.nan if part.dtype.kind == "f" else 0, part.dtype)
+        found[self.rows, self.columns] = part
+        return found
