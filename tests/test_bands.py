@@ -43,11 +43,11 @@ def test_any_number_of_cores_gives_the_same_bytes(scene, monkeypatch):
     lights = calibration()
     mask = truth(scene)[0]
     found = []
-    for count in (1, 2, 5):
+    for count in (1, 3):
         with bands.cores(count):
             surface = lpcal.reconstruct(draw(scene, lights), lights, mask=mask)
         found.append([getattr(surface, name).tobytes() for name in ("normals", "depth", "albedo", "normal_std_deg", "depth_std", "breaks")])
-    assert found[0] == found[1] == found[2]
+    assert found[0] == found[1]
 
 
 def ball(size: int, middle: tuple[int, int], radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -77,7 +77,14 @@ def annotations(tree: ast.Module) -> Iterator[ast.expr]:
 
 UNTYPED = re.compile(r"(dict|Mapping)\[str, (object|Any)\]")
 TYPED_ROOMS = ("chain", "surface", "report", "records")
-PAGE_DATA = {"report/scene.py": 2, "report/relight_pack.py": 1, "records/outcome.py": 1, "records/provenance.py": 1, "records/sensor.py": 3}
+PAGE_DATA = {
+    "report/scene.py": 2,
+    "report/relight_pack.py": 1,
+    "report/watch_page.py": 1,
+    "records/outcome.py": 1,
+    "records/provenance.py": 1,
+    "records/sensor.py": 3,
+}
 """Where a record becomes JSON for a page's script or a document, and how often; nothing else may hold an untyped mapping."""
 
 

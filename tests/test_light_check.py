@@ -51,7 +51,7 @@ def test_a_lamp_of_another_power_shows_on_the_true_surface(k: int, factor: float
 def test_what_is_spoken_for_already_is_not_said_again() -> None:
     radiance = to_radiance(with_light(draw(Scene(), calibration()), 1, 1.3), Sensor())
     for figures in (
-        SurfaceFigures(gloss=GlossFound(0.1, 0.2, 0.9)),
+        SurfaceFigures(gloss=GlossFound(ks=0.1, roughness=0.2, gain=0.9)),
         SurfaceFigures(images_exchanged={"L1": "L2"}),
         SurfaceFigures(intensities_found={"L1": 1.2}),
     ):

@@ -251,9 +251,9 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
     ("words", "files"),
     [
         (("--no-pages",), FILES - {"relight.html"}),
-        (("--outputs", "normals, depth"), {"normals_gl.png", "depth.tif"}),
+        pytest.param(("--outputs", "normals, depth"), {"normals_gl.png", "depth.tif"}, marks=pytest.mark.slow),
         (("--outputs", "ply,page,maps", "--no-pages"), {"mesh.ply", "surface.npz"}),
-        (("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}),
+        pytest.param(("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}, marks=pytest.mark.slow),
     ],
 )
 def test_only_the_files_that_are_asked_for_are_written(lpcal, rig, quick, words, files):

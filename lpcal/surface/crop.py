@@ -49,11 +49,12 @@ class Crop:
 
     def put_back(self, part: Surface) -> Surface:
         """The surface of the part in the whole picture; its rays must all be alike."""
-        maps: dict[str, Any] = {name: self._whole(getattr(part, name)) for name in MAPS}
+        maps = {name: self._whole(getattr(part, name)) for name in MAPS}
         breaks = np.ones((2, *self.shape), bool)
         breaks[:, self.rows, self.columns] = part.breaks
         rays = np.broadcast_to(part.rays_C[0, 0], (*self.shape, 3)).copy()
-        return replace(part, **maps, breaks=breaks, rays_C=rays)
+        changed: Any = {**maps, "breaks": breaks, "rays_C": rays}
+        return replace(part, **changed)
 
     def _whole(self, part: npt.NDArray[Any]) -> npt.NDArray[Any]:
         found = np.full((*self.shape, *part.shape[2:]), np.nan if part.dtype.kind == "f" else 0, part.dtype)
