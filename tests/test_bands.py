@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import lpcal
 from lit_scene import Scene, calibration, draw, truth
+from lpcal.records.calibration import LedCluster, Lobe
 from lpcal.surface import bands
 from lpcal.surface.crop import MARGIN_PX, Crop
+from lpcal.surface.sight import light_vectors
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.3, 0.3, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)
@@ -48,6 +51,28 @@ def test_any_number_of_cores_gives_the_same_bytes(scene, monkeypatch):
             surface = lpcal.reconstruct(draw(scene, lights), lights, mask=mask)
         found.append([getattr(surface, name).tobytes() for name in ("normals", "depth", "albedo", "normal_std_deg", "depth_std", "breaks")])
     assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("kind", ["point", "cluster", "distant"])
+def test_a_light_taken_as_distant_is_everywhere_as_it_is_at_the_focus(kind):
+    light = calibration().lights[0]
+    if kind == "cluster":
+        H_CL = np.eye(4)
+        H_CL[:3, 2], H_CL[:3, 3] = light.axis_C, light.source_C
+        H_CL[:3, 0] = np.cross([0, 1.0, 0], light.axis_C) / np.linalg.norm(np.cross([0, 1.0, 0], light.axis_C))
+        H_CL[:3, 1] = np.cross(H_CL[:3, 2], H_CL[:3, 0])
+        place = np.array([[0.004, 0, 0], [-0.004, 0, 0], [0, 0.004, 0]])
+        cluster = LedCluster(place, np.tile([0, 0, 1.0], (3, 1)), np.full(3, 1 / 3), 4.0)
+        light = replace(light, H_CL=H_CL, lobe=Lobe("leds", leds=cluster))
+    if kind == "distant":
+        light = DOME.lights[0]
+    focus_C, places = np.array([0.0, 0.01, 0.35]), np.random.default_rng(0).normal([0, 0, 0.4], 0.02, (7, 3))
+    d, E = light_vectors([light, light], places, focus_C)
+    there, strength = light_vectors([light], focus_C[None])
+    assert d.shape == (2, 7, 3)
+    assert E.shape == (2, 7)
+    np.testing.assert_allclose(d, np.broadcast_to(there, d.shape))
+    np.testing.assert_allclose(E, np.broadcast_to(strength, E.shape))
 
 
 def ball(size: int, middle: tuple[int, int], radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

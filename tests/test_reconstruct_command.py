@@ -251,13 +251,13 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
     ("words", "files"),
     [
         (("--no-pages",), FILES - {"relight.html"}),
-        pytest.param(("--outputs", "normals, depth"), {"normals_gl.png", "depth.tif"}, marks=pytest.mark.slow),
+        (("--outputs", "normals, depth"), {"normals_gl.png", "depth.tif"}),
         (("--outputs", "ply,page,maps", "--no-pages"), {"mesh.ply", "surface.npz"}),
-        pytest.param(("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}, marks=pytest.mark.slow),
+        (("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}),
     ],
 )
 def test_only_the_files_that_are_asked_for_are_written(lpcal, rig, quick, words, files):
-    code, told, _ = lpcal("reconstruct", "--mask", str(quick), "--jobs", "2", *words, cwd=rig)
+    code, told, _ = lpcal("reconstruct", "--mask", str(quick), "--lights", "distant", "--jobs", "2", *words, cwd=rig)
     assert code == 0, told
     assert {path.name for path in (rig / "surfaces/ball").iterdir()} == files | {"summary.json"}
 

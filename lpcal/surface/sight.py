@@ -217,8 +217,8 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
     shape = (len(lights), len(x_C))
     if focus_C is not None:
         found = [light.field(focus_C) for light in lights]
-        E = np.array([irradiance.mean(axis=-1) / light.intensity.mean() for light, (_, irradiance) in zip(lights, found, strict=True)])
-        return np.broadcast_to(np.stack([d for d, _ in found])[:, None], (*shape, 3)), np.broadcast_to(E[:, None], shape)
+        E = np.array([irradiance.mean() / light.intensity.mean() for light, (_, irradiance) in zip(lights, found, strict=True)])
+        return np.broadcast_to(np.stack([d.reshape(1, 3) for d, _ in found]), (*shape, 3)), np.broadcast_to(E[:, None], shape)
     d, E = np.empty((*shape, 3)), np.empty(shape)
 
     def fill(place: tuple[int, slice]) -> None:
