@@ -298,13 +298,13 @@ def wait_for(condition, seconds: float = 90.0) -> bool:
 @pytest.mark.parametrize("after", range(10))
 def test_a_worker_killed_by_its_id_costs_nothing_but_time(tmp_path, after):
     """At ten moments: before it has begun, and after so many surfaces stand."""
-    captures = collection(tmp_path, 12)
+    captures = collection(tmp_path, after + 8)  # some are left when it is killed
     with started(tmp_path, captures) as run:
         wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= after and children_of(run.pid))
         os.kill(children_of(run.pid)[0], signal.SIGKILL)
         told, warned = run.communicate()
     assert run.returncode == 0, warned
-    assert "12 captures: 12 done" in told
+    assert f"{len(captures)} captures: {len(captures)} done" in told
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [*(one.name for one in captures), "surfaces.csv", "surfaces.html"]
 
 
@@ -314,7 +314,7 @@ def test_a_worker_killed_by_its_id_costs_nothing_but_time(tmp_path, after):
 def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(lpcal, tmp_path, number):
     captures = collection(tmp_path, 12)
     with started(tmp_path, captures) as run:
-        assert wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= 3)
+        assert wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= 1)
         workers = children_of(run.pid)
         run.send_signal(number)
         run.communicate()

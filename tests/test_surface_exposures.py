@@ -12,6 +12,8 @@ from lit_scene import SIZE, Scene, calibration, draw, truth
 from lpcal.detect.ambient import ambient_notes
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
+from lpcal.formats.documents import plain
+from lpcal.pipeline.reconstruct import _flat_said
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
@@ -134,10 +136,15 @@ def test_a_cards_flatness_is_told_and_a_balls_is_not():
     middle = np.zeros(SIZE[::-1], bool)
     middle[30:82, 50:110] = True
     near, distant = (flatness(reconstruct(card, calibration(), Options(mask=middle, near=way))) for way in (True, False))
-    assert near["plane_rms_mm"] < 0.3
-    assert near["bowl_mm"] < 0.3
-    assert distant["bowl_mm"] > 3.0
-    assert near["extent_mm"] > 100
+    assert near is not None
+    assert distant is not None
+    assert near.plane_rms_mm < 0.3
+    assert near.bowl_mm < 0.3
+    assert distant.bowl_mm > 3.0
+    assert near.extent_mm > 100
+    document = {"flatness": near, "flatness_distant": distant}
+    assert _flat_said(document) == _flat_said(json.loads(json.dumps(plain(document)))), "of a surface that is up to date"
+    assert "a bowl of" in _flat_said(document)
     ball = reconstruct(to_radiance(draw(Scene(), calibration()), Sensor()), calibration(), Options(mask=truth(Scene())[0]))
     assert flatness(ball) is None
     assert json.dumps(near)

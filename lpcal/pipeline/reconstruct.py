@@ -242,12 +242,12 @@ def line_of(document: dict[str, Any], target: Path) -> str:
 
 def _flat_said(document: dict[str, Any]) -> str:
     """How flat a nearly flat piece came out, by lights where they are and by distant ones."""
-    near, distant = document["flatness"], document.get("flatness_distant")
+    near, distant = plain(document["flatness"]), plain(document.get("flatness_distant"))  # as read again
     if not near:
         return ""
-    said = f"\n  nearly flat: {near.plane_rms_mm:.2f} mm rms from a plane, {near.plane_peak_to_valley_mm:.2f} mm from peak to valley"
-    said += f" over {near.extent_mm:.0f} mm, a bowl of {near.bowl_mm:.2f} mm"
-    return said + (f"; with distant lights it would be one of {distant.bowl_mm:.1f} mm" if distant else "")
+    said = f"\n  nearly flat: {near['plane_rms_mm']:.2f} mm rms from a plane, {near['plane_peak_to_valley_mm']:.2f} mm from peak to valley"
+    said += f" over {near['extent_mm']:.0f} mm, a bowl of {near['bowl_mm']:.2f} mm"
+    return said + (f"; with distant lights it would be one of {distant['bowl_mm']:.1f} mm" if distant else "")
 
 
 def from_here(target: Path) -> Path:
