@@ -147,4 +147,3 @@ def test_a_cards_flatness_is_told_and_a_balls_is_not():
     assert "a bowl of" in _flat_said(document)
     ball = reconstruct(to_radiance(draw(Scene(), calibration()), Sensor()), calibration(), Options(mask=truth(Scene())[0]))
     assert flatness(ball) is None
-    assert json.dumps(near)
