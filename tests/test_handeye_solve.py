@@ -70,7 +70,7 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("off", [0.0, 0.005, 0.015, -0.02])
+@pytest.mark.parametrize("off", [0.0, 0.015, -0.02])
 def test_the_covariance_holds_whatever_the_square_is_stated(off):
     sessions = [static_session(np.random.default_rng(seed), 30) for seed in range(60)]
     found = [_static(with_square_stated(session, 1 / (1 + off))) for session in sessions]
