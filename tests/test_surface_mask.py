@@ -180,6 +180,15 @@ def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_b
     assert found.mean(labels)[by[30]] == 2
 
 
+def test_every_clue_has_its_weight_and_every_weight_its_clue() -> None:
+    labels = np.full((20, 30), 1)
+    labels[5:12, 8:20] = 0
+    pictures = regions.Pictures.of(view_of(labels.shape), labels, [WALL], costs(labels, 1))
+    found = regions.Regions.of(labels)
+    assert set(background.OWN) == {"", *regions.own(pictures, found)}
+    assert set(background.BESIDE) == {"", *regions.beside(pictures, found, np.zeros(len(found.label)))}
+
+
 def test_what_holds_the_frame_is_background_and_what_lies_in_the_middle_the_object() -> None:
     labels = np.full((40, 60), 1)
     labels[10:28, 20:40] = 0

@@ -28,7 +28,7 @@ from lpcal.surface.regions import Pictures, Regions, View
 
 FOLDS, INNER = 6, 5
 RIDGE = 0.3
-"""Penalty on the square of a weight of a clue of standard deviation 1: chosen by the loss of scenes left out, flat from .1 to 1."""
+"""Penalty on the square of a weight of a clue of standard deviation 1, by the loss of scenes left out, which is flat from .1 to .3."""
 CROPS = 2
 """Crops of a scene that are fitted to beside the whole, so that the object lies anywhere in the picture."""
 WRONG = 0.9

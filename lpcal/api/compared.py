@@ -64,7 +64,7 @@ def reconstruct(
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     near = calibration.camera is not None and any(light.source_C is not None for light in lights)
     if object_mask is None:
-        object_mask = masks.automatic(maps, rays_C, lights, distance_m if near else None, hints).mask
+        object_mask = masks.automatic(maps, rays_C, lights, distance_m if near else None, hints, sight.room(radiance)).mask
     seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
     focus_C = None if near else np.array([0.0, 0.0, distance_m])
     d, E = sight.light_vectors(lights, seen.rays_C * distance_m, focus_C)
@@ -73,19 +73,19 @@ def reconstruct(
     b = np.asarray(function(methods.Shading(seen.signal, seen.sigma, seen.usable, d * E[..., None])), dtype=float)
     if b.shape != (seen.pixels, 3):
         raise InputError(f"{b.shape} from the method {method}", where="method", needed=f"({seen.pixels}, 3)")
-    told = np.isfinite(b).all(axis=1) & (np.einsum("pi,pi->p", b, seen.rays_C) < 0)
-    if not told.any():
+    known = np.isfinite(b).all(axis=1) & (np.einsum("pi,pi->p", b, seen.rays_C) < 0)
+    if not known.any():
         raise DegenerateError(f"the method {method} tells no normal", where=radiance.name, needed="three lights that reach a pixel")
     inside = object_mask.copy()
-    inside[object_mask] = told
-    normals, length = lambert.unit(b[told])
+    inside[object_mask] = known
+    normals, length = lambert.unit(b[known])
     normals_C = np.full((*inside.shape, 3), np.nan, np.float32)
     normals_C[inside] = normals
     surface = integrated(radiance.name, normals_C, inside, calibration.camera, distance_m, integrator)
     albedo = np.full(inside.shape, np.nan, np.float32)
     albedo[inside] = np.ravel(length)
     used = np.zeros(inside.shape, np.uint8)
-    used[inside] = seen.usable.sum(axis=0)[told]
+    used[inside] = seen.usable.sum(axis=0)[known]
     return replace(surface, albedo=albedo, lights_used=used, warnings=(NO_SIGMAS.format(method=method),))
 
 

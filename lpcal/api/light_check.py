@@ -5,7 +5,7 @@ Symbols: s_l signal of light l, rho albedo, E_l its irradiance at the point x, d
     q_l = median over pixels of  log(s_l / (rho E_l n . d_l))
 
 The surface is fitted to all lights, so one that is off pulls it and shows about half of what it is off by; the others hardly move. What
-is the object's (light thrown back) lies in few pixels and does not move a median; where gloss was found nothing is said.
+is the object's (interreflection) lies in few pixels and does not move a median; where gloss was found nothing is said.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ FEWEST_PIXELS = 200
 """Pixels that a light must be seen by: a median of so many is known to a percent where each is off by a tenth."""
 CONTRADICTS = 0.04
 """Deviation from which a light is named: a lamp that is off by a tenth shows six per cent, drawn captures of right lights none, rendered
-ones with light thrown back two."""
+ones with interreflection two."""
 SIGMAS = 5.0
 """Stated standard deviations of the intensity that a deviation must exceed as well."""
 

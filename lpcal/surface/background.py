@@ -90,14 +90,16 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
 
     Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
     """
+    from scipy import ndimage
+
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels)
     probable = odds_of(pictures, found)
     odds = np.zeros(labels.shape)
     odds[view.window] = probable[found.number]
-    whole = Regions.of(labels)
     for at in view.points:
-        odds[whole.number == whole.number[at]] = 1.0
+        shown, _ = ndimage.label(labels == labels[at])
+        odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points))

@@ -22,7 +22,7 @@ BEFORE = 0.02
 FEWEST = 6
 """Coarse pixels from which matter of any normal has a depth of its own: that at which its pixels together cost least."""
 ALIKE_ROOM, ALIKE_BRIGHT = 0.1, 0.15
-"""Natural logarithms of a step of the room's light and of the lights' that halve, or nearly so, how alike two regions are."""
+"""Natural logarithms of a step of the room's light and of the lights' at which the likeness of two regions falls to 1/e."""
 ABOUT = (0.05, 0.125)
 """Standard deviations, in picture widths, of the neighbourhoods that a region is compared with."""
 
