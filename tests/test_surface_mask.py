@@ -211,6 +211,23 @@ def test_the_odds_turn_as_a_region_takes_more_of_the_frame() -> None:
     assert odds[0] > 0.2 > odds[-1]
 
 
+@pytest.mark.parametrize(("hole", "seen"), [(1.0, True), (0.88, False)])
+def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(hole: float, seen: bool) -> None:
+    """A slanting card with a hole, and behind it the wall, or a patch of the wall's direction nearer than the wall is."""
+    parts = scene(card=None)
+    on_card, inside = np.zeros((112, 160), bool), np.zeros((112, 160), bool)
+    on_card[20:92, 30:130], inside[40:72, 60:100] = True, True
+    parts.append((np.array([0.9, 0.3, 1 / 0.36]), np.full(on_card.shape, 0.7), on_card & ~inside))
+    parts.append((WALL / hole, np.full(on_card.shape, 0.35), inside))
+    maps, rays = picture(parts)
+    image = coarse_of(maps, rays, 2)
+    table = LightTable.of(image, calibration().lights, WORKING_M)
+    labels = np.where(on_card, 0, 1)
+    labels[inside] = 1
+    found = object_of(labels[::2, ::2], [WALL], View(image, table, flats.sweep(image, table, WORKING_M)))
+    assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
+
+
 def test_what_lies_beyond_the_box_is_not_the_object_and_its_edge_is_the_frame() -> None:
     labels = np.full((40, 60), 1)
     labels[8:28, 6:26], labels[8:28, 34:54] = 0, 0

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
-from lpcal.surface import regions
+from lpcal.surface import flats, regions
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
@@ -53,6 +53,12 @@ SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
+LEAST_SEEN_THROUGH = 6
+"""Coarse pixels of a piece of a wall from which it is asked whether it is seen through the object."""
+SEEN_THROUGH = 2.5
+"""Cost a light of such a piece at most."""
+NEARER = (0.85, 0.7)
+"""Distances, by that of the wall, from which a plane of the piece's own is looked for."""
 LIKELY = (0.01, 0.99)
 """Odds beyond which a region says no more to its neighbours."""
 CARRIED = 5
@@ -97,12 +103,41 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
     probable = odds_of(pictures, found)
     odds = np.zeros(labels.shape)
     odds[view.window] = probable[found.number]
+    odds[_holes(view, labels, planes, odds)] = 0.0
     for at in view.points:
         shown, _ = ndimage.label(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points))
+
+
+def _holes(view: View, labels: Labels, planes: list[Array], odds: Array) -> Mask:
+    """Pieces (rows, columns) of a wall that are seen through the object: in the hindmost plane there, of which other pieces are background."""
+    from scipy import ndimage
+
+    found = np.zeros(labels.shape, bool)
+    behind = odds <= 0.5
+    walls = [k for k in range(len(planes)) if np.any(behind & (labels == k + 1))]
+    for k in walls:
+        piece, _ = ndimage.label((labels == k + 1) & ~behind)
+        for one in np.setdiff1d(np.flatnonzero(np.bincount(piece.ravel()) >= LEAST_SEEN_THROUGH), [0]):
+            if _seen_through(view, planes[k], (piece == one).ravel(), [planes[wall] for wall in walls]):
+                found |= piece == one
+    return found
+
+
+def _seen_through(view: View, q: Array, inside: Mask, walls: list[Array]) -> bool:
+    """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
+    image, table = view.image, view.table
+    own = np.flatnonzero(inside)
+    cost = float(flats.explained(image, table, q, own)[0].mean())
+    if cost > SEEN_THROUGH * len(image.signal) or any(
+        np.median(image.rays_C[own] @ (wall - q)) < 0 < np.median(image.rays_C[own] @ wall) for wall in walls
+    ):
+        return False
+    trials = [flats.fitted(image, table, q / share, inside, rounds=3) for share in (1.0, *NEARER)]
+    return bool(cost - min(float(flats.explained(image, table, one, own)[0].mean()) for one in trials) < flats.CLEARLY_EACH)
 
 
 def odds_of(pictures: Pictures, found: Regions) -> Array:
