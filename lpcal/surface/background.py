@@ -113,7 +113,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
 
 
 def _holes(view: View, labels: Labels, planes: list[Array], odds: Array) -> Mask:
-    """Pieces (rows, columns) of a wall that are seen through the object: in the hindmost plane there, of which other pieces are background."""
+    """Pieces (rows, columns) of a wall that are seen through the object: they lie in the hindmost wall there."""
     from scipy import ndimage
 
     found = np.zeros(labels.shape, bool)
