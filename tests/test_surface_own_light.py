@@ -138,35 +138,46 @@ def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind():
     assert not J[1].any()  # the left light does not reach it
 
 
-def bowl_under_lights(reflectance: float) -> tuple[Sight, Lit, Array, Array]:
-    """The bowl under six near lights, all bounces in it counted: what bounces inside a sphere is the same everywhere."""
-    seen, depth, n, share = bowl()
+def bowl_under_lights(reflectance: float) -> tuple[Sight, Lit, Array, Array, Mask]:
+    """The bowl under six low lights, all bounces in it counted, and the samples that its rim hides: what bounces inside a sphere is the
+    same everywhere."""
+    seen, depth, n, share = bowl(75.0)
     x_C, angle = seen.points_C(depth), np.arange(6) * np.pi / 3
-    sources = np.stack([0.1 * np.cos(angle), 0.1 * np.sin(angle), np.full(6, 0.05)], axis=1)
+    sources = np.stack([0.16 * np.cos(angle), 0.16 * np.sin(angle), np.full(6, 0.24)], axis=1)
     to = sources[:, None] - x_C
     r = np.linalg.norm(to, axis=2)
     lit = Lit(to / r[..., None], 0.07 / r**2)
-    direct = reflectance * lambert.predicted(lit.B, n)
-    bounced = reflectance * share * direct.mean(axis=1, keepdims=True) / (1 - reflectance * share)
+    at_rim = x_C + ((x_C[:, 2] - x_C[:, 2].min()) / (x_C[:, 2] - 0.24))[None, :, None] * to
+    hidden = np.hypot(at_rim[..., 0], at_rim[..., 1]) > 0.06 * np.sin(np.radians(75.0))
+    direct = np.where(hidden, 0.0, reflectance * lambert.predicted(lit.B, n))
+    received = np.average(direct, axis=1, weights=bounce._areas(seen, depth, n))[:, None]
+    bounced = reflectance * share * received / (1 - reflectance * share)
     rng = np.random.default_rng(3)
-    return sight_of(seen.mask, direct + bounced + 2e-3 * rng.standard_normal(direct.shape)), lit, depth, n
+    return sight_of(seen.mask, direct + bounced + 2e-3 * rng.standard_normal(direct.shape)), lit, depth, n, hidden
 
 
 def error_deg(b: Array, n: Array) -> float:
     return float(np.degrees(np.nanmedian(np.linalg.norm(lambert.unit(b)[0] - n, axis=1))))
 
 
-def test_light_that_bounces_no_longer_flattens_a_bowl():
-    seen, lit, depth, n = bowl_under_lights(0.8)
-    usable, variance = normals.candidates(seen, lit.E), normals.variances(seen)
+@pytest.mark.parametrize("reflectance", [0.25, 0.5, 0.8])
+def test_shadows_tell_the_reflectance_and_a_bowl_is_no_longer_flattened(reflectance: float):
+    seen, lit, depth, n, hidden = bowl_under_lights(reflectance)
+    usable, variance = normals.candidates(seen, lit.E) & ~hidden, normals.variances(seen)
     plain = normals.estimate(seen, lit.B, usable, variance)
     by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
-    found, albedo, beyond = bounce.reflectance(seen, lit, by, usable, plain)
-    assert 0.5 <= found <= 0.9
-    assert beyond == 0
-    better = normals.estimate(seen, lit.B + found / albedo * by.seen, usable, variance)
-    assert error_deg(plain.b, n) > 1.5
-    assert error_deg(better.b, n) < 0.5 * error_deg(plain.b, n)
+    found = bounce.reflectance(seen, by, np.nan_to_num(plain.b), bounce.in_shadow(seen, lit, n, hidden))
+    assert abs(found.median - reflectance) < 0.1
+    better = normals.estimate(seen, lit.B + found.per_unit * by.seen, usable, variance)
+    assert error_deg(better.b, n) < 0.6 * error_deg(plain.b, n)
+
+
+def test_without_shadows_the_reflectance_is_that_of_common_matter():
+    seen, lit, depth, n, _ = bowl_under_lights(0.8)
+    plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
+    by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
+    found = bounce.reflectance(seen, by, np.nan_to_num(plain.b), np.zeros(seen.signal.shape, bool))
+    assert abs(found.median - bounce.COMMON) < 0.05
 
 
 def test_a_step_hides_a_light_where_its_shadow_falls():

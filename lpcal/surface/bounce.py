@@ -8,15 +8,16 @@ p to j at the distance r. A patch of reflectance a emits its signal, so point p 
 with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
-camera does not see are guessed (surface.sides). The signals do not state s, nor how much goes on out of sight: both are means over a grid,
-weighted by the robust misfit and by the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer
-Vision 6; Cohen and Greenberg 1985 (form factors).
+camera does not see are guessed (surface.sides). s, and what shares of the guessed are there, are told by the samples in shadow, which
+show nothing but thrown light: posterior means over a grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and
+Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg 1985 (form factors).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -24,11 +25,11 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.surface import normals, sides
+from lpcal.surface import sides
 from lpcal.surface import relief as body
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
-from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.sight import Indices, Lit, Sight
 from lpcal.surface.surroundings import Around, Patches
 
 PATCHES = 2000
@@ -42,13 +43,20 @@ STEEPEST = 0.1
 """Least cosine to the viewer by which a pixel's area is told."""
 REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 """Of the object's median pixel."""
-BEYOND = (0.0, 0.5, 1.0)
-"""Shares of what is taken to go on around the object out of sight that are tried."""
-COMMON, COMMON_SIGMA = 0.6, 0.3
+SHARES = (0.0, 0.5, 1.0)
+"""Shares of what is guessed that are tried: of the light of sides that are not seen, and of what goes on around out of sight."""
+COMMON, COMMON_SIGMA = 0.5, 0.25
 """Reflectance of objects as prior."""
-SAMPLE = 900
-INDEPENDENT = 25.0
-"""Pixels that an object's are worth in the choice of the reflectance: what the model lacks hangs together."""
+SAMPLE = 4000
+"""Samples in shadow that are asked for the reflectance at most."""
+INDEPENDENT, NEIGHBOURS = 25.0, 9.0
+"""Samples that all in shadow are worth at most, and how many neighbours are worth one: what the model lacks they have in common."""
+DOUBT, DARK = 0.3, 0.01
+"""Standard deviation of thrown light as a share of itself, and of other light in a shadow as a share of the pixel's brightest sample."""
+ELSE = 0.1
+"""Share of the samples taken for shadows that are none: the shape hides a light that in truth arrives, or the rim is near."""
+AWAY, RIM = 0.05, 2
+"""Cosine by which a normal is turned away from a light, and pixels off a shadow's rim, from which a sample counts as in shadow."""
 
 
 @dataclass(frozen=True)
@@ -57,14 +65,36 @@ class Thrown:
 
     seen: Array
     """J (L, P, 3) of the object's own parts and of what is seen around it."""
+    sides: Array
+    """J (L, P, 3) of the object's sides that the camera does not see, by a guess that none of them turns away from its lights."""
     beyond: Array | None
     """J (L, P, 3) of what is taken to go on around it where the camera sees nothing of it."""
     unseen: Array
     """Share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see."""
 
-    def J(self, beyond: float) -> Array:
-        """All of it (L, P, 3), with a share of what lies beyond."""
-        return self.seen if self.beyond is None or not beyond else self.seen + beyond * self.beyond
+    def J(self, sides: float = 1.0, beyond: float = 1.0) -> Array:
+        """All of it (L, P, 3), with shares of what is guessed."""
+        J = self.seen + sides * self.sides
+        return J if self.beyond is None else J + beyond * self.beyond
+
+    def on(self, b: Array, light: Indices, pixel: Indices) -> tuple[Array, Array, Array]:
+        """What the seen parts, the sides and what lies beyond give (N,) to samples, by b (P, 3) and their lights and pixels."""
+        beyond = np.zeros_like(self.seen) if self.beyond is None else self.beyond
+        seen, sides, further = (lambert.dot(J[light, pixel], b[pixel]) for J in (self.seen, self.sides, beyond))
+        return seen, sides, further
+
+
+@dataclass(frozen=True)
+class Reflectance:
+    """How much of the light that is thrown goes on from the object, and what of the guessed is there."""
+
+    median: float
+    """Of the object's median pixel."""
+    per_unit: float
+    """The same by its albedo in the units of the signals: what makes J light."""
+    sides: float
+    beyond: float
+    """Shares of what the unseen sides and what goes on out of sight throw by the guess of it."""
 
 
 def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
@@ -86,7 +116,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     albedo = np.zeros(seen.mask.shape)
     albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
     by_unseen, unseen = sides.thrown(own.x_C, own.n, relief, albedo, lights)
-    at_patches = _received(own, own, relief) + by_unseen
+    at_patches = _received(own, own, relief)
     beyond = None
     if around is not None:
         at_patches = at_patches + _received(own, around.seen, relief)
@@ -102,35 +132,50 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     def at_pixels(values: Array) -> Array:
         return np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in values])
 
-    return Thrown(at_pixels(at_patches), None if beyond is None else at_pixels(_received(own, beyond, relief)), spread(unseen))
+    out_of_sight = None if beyond is None else at_pixels(_received(own, beyond, relief))
+    return Thrown(at_pixels(at_patches), at_pixels(by_unseen), out_of_sight, spread(unseen))
 
 
-def reflectance(seen: Sight, lit: Lit, by: Thrown, usable: Mask, found: Estimate) -> tuple[float, float, float]:
-    """Reflectance of the object's median pixel, its albedo in the signals' units, and the share of what lies beyond that is there.
+def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask) -> Reflectance:
+    """The reflectance that the shadows show.
 
-    J acts by the ratio of the first two; `lit` is the light without it. A table may end where the picture does. Both choices are posterior
-    means: the samples often constrain them weakly, and the place of the least cost would jump.
+    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is thrown, ``s J_k . b``. Lit samples say
+    next to nothing: b takes up most of what is thrown on them, and what is left is less than the lights' own errors. What is found are
+    posterior means: the shadows often constrain it weakly, and the place of the least cost would jump.
     """
-    known = np.flatnonzero(np.isfinite(found.b[:, 0]))
-    some = known[:: max(1, len(known) // SAMPLE)]
-    sample, light, usable = seen.at(some), lit.at(some), usable[:, some]
-    shine = None if found.gloss is None else found.gloss[:, some]
-    albedo = np.linalg.norm(found.b[some], axis=1)
+    albedo = np.linalg.norm(b, axis=1)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
-    possible = [one for one in REFLECTANCES if one * bright <= middle]
+    light, pixel = np.nonzero(dark & seen.usable)
+    worth = min(1 / NEIGHBOURS, INDEPENDENT / max(len(pixel), 1)) * len(pixel)
+    some = slice(None, None, max(1, len(pixel) // SAMPLE))
+    light, pixel = light[some], pixel[some]
+    signal, top = seen.signal[light, pixel], np.maximum(seen.signal[:, pixel].max(axis=0), 1e-12)
+    noise2 = seen.sigma[light, pixel] ** 2 + (DARK * top) ** 2
+    by_seen, by_sides, by_beyond = by.on(b, light, pixel)
 
-    def misfit(both: tuple[float, float]) -> float:
-        one, beyond = both
-        B = light.B + one / middle * by.J(beyond)[:, some]
-        trial = normals.estimate(sample, B, usable, normals.variances(sample, shine), shine)
-        return INDEPENDENT * len(B) * normals.misfit(sample, B, usable, trial, shine) + ((one - COMMON) / COMMON_SIGMA) ** 2
+    def cost(one: float, sides: float, beyond: float) -> float:
+        thrown = one / middle * (by_seen + sides * by_sides + beyond * by_beyond)
+        variance = noise2 + (DOUBT * thrown) ** 2
+        density = np.exp(-((signal - thrown) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
+        fit = np.log((1 - ELSE) * density + ELSE / top)
+        return float(-2 * worth / max(len(pixel), 1) * fit.sum() + ((one - COMMON) / COMMON_SIGMA) ** 2)
 
-    trials = [(one, beyond) for beyond in ((0.0,) if by.beyond is None else BEYOND) for one in possible]
-    cost = np.array([misfit(both) for both in trials])
-    odds = np.exp(-(cost - cost.min()) / 2)
-    one, beyond = np.array(trials).T
-    mean = float(np.average(one, weights=odds))
-    return mean, float(middle), float(np.average(one * beyond, weights=odds)) / max(mean, 1e-9)
+    trials = np.array(list(product([one for one in REFLECTANCES if one * bright <= middle], SHARES, SHARES)))
+    costs = np.array([cost(*trial) for trial in trials])
+    odds = np.exp(-(costs - costs.min()) / 2)
+    one, sides, beyond = np.average(trials * np.stack([np.ones(len(trials)), trials[:, 0], trials[:, 0]], axis=1), axis=0, weights=odds)
+    return Reflectance(float(one), float(one / middle), float(sides / max(one, 1e-9)), float(beyond / max(one, 1e-9)))
+
+
+def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
+    """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
+    from scipy import ndimage
+
+    dark = hidden | (np.einsum("kpi,pi->kp", lit.d, n) < -AWAY)
+    found = np.zeros_like(dark)
+    for k, one in enumerate(dark):
+        found[k] = ndimage.binary_erosion(np.asarray(seen.map(one, False), bool), iterations=RIM)[seen.mask]
+    return found
 
 
 def _areas(seen: Sight, depth: Array, n: Array) -> Array:

@@ -112,11 +112,12 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     shaped = before if k >= SHAPE_ROUND else None
     hidden = None if shaped is None else hidden_lights(scene, depth, shaped, lit)
     usable = normals.candidates(seen, lit.E, hidden)
-    reflectance = None
-    if shaped is not None:
+    reflects = None
+    if shaped is not None and hidden is not None:
         by = bounce.thrown(seen, depth, replace(shaped.found, b=shaped.field.b), shaped.normals, scene.lights, scene.around)
-        reflectance, albedo, beyond = bounce.reflectance(seen, lit, by, usable, shaped.found)
-        lit = replace(lit, thrown=reflectance / albedo * by.J(beyond), unseen=by.unseen)
+        dark = bounce.in_shadow(seen, lit, shaped.normals, hidden)
+        reflects = bounce.reflectance(seen, by, shaped.field.b, dark)
+        lit = replace(lit, thrown=reflects.per_unit * by.J(reflects.sides, reflects.beyond), unseen=by.unseen)
     whole = _estimated(scene, lit, usable, hidden, before, k)
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
@@ -134,7 +135,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
-    return State(u, weight, n, found, own, lit, whole, reflectance)
+    return State(u, weight, n, found, own, lit, whole, None if reflects is None else reflects.median)
 
 
 def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
