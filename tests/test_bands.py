@@ -11,9 +11,11 @@ import pytest
 import lpcal
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.calibration import LedCluster, Lobe
-from lpcal.surface import bands
+from lpcal.records.outcome import silent
+from lpcal.surface import bands, rounds
 from lpcal.surface.crop import MARGIN_PX, Crop
-from lpcal.surface.sight import light_vectors
+from lpcal.surface.integrate import Grid
+from lpcal.surface.sight import Sight, light_vectors, ray_map
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.3, 0.3, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)
@@ -106,3 +108,23 @@ def test_a_part_has_its_margin_within_the_picture(at):
     assert (rows[0], columns[0]) == (min(at[0], MARGIN_PX), min(at[1], MARGIN_PX))
     assert part.of(mask).sum() == 1
     assert Crop.about(np.zeros((4, 5), bool)).of(np.ones((4, 5))).shape == (4, 5)
+
+
+def test_the_rounds_give_the_same_however_much_is_empty_about_the_object(monkeypatch):
+    lights, about = calibration(), Scene(radius=0.018)
+    mask = truth(about)[0]
+    raw = draw(about, lights)
+    signal = (raw.images - raw.ambient.mean(axis=0))[:, mask].astype(float)
+    rays = ray_map(mask.shape, lights.camera)[mask]
+    far = np.pad(mask, [(37, 21), (50, 11)])
+    found = []
+    for closely in (rounds.Scene.closely, lambda scene: scene):
+        monkeypatch.setattr(rounds.Scene, "closely", closely)
+        seen = Sight(far, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True)
+        scene = rounds.Scene("ball", seen, Grid.of(far), lights.lights, None)
+        found.append(rounds.run(scene, np.full(seen.pixels, np.log(0.35)), silent))
+    cropped, whole = found
+    assert rounds.Scene.closely(scene).seen.mask.shape == far.shape  # the second was not cropped
+    np.testing.assert_allclose(cropped.u, whole.u, rtol=0, atol=1e-7)
+    np.testing.assert_allclose(cropped.field.b, whole.field.b, rtol=0, atol=1e-7)
+    assert np.array_equal(cropped.weight > 0.02, whole.weight > 0.02)

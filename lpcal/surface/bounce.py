@@ -25,8 +25,8 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.surface import sides
 from lpcal.surface import relief as body
+from lpcal.surface import sides
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Indices, Lit, Sight
@@ -102,7 +102,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     from scipy import ndimage
 
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
-    rows, columns = np.nonzero(seen.mask)
+    rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches hang on the object, not on the picture about it
     _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
     x_C, area = seen.points_C(depth), _areas(seen, depth, n)
 
@@ -121,13 +121,13 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     if around is not None:
         at_patches = at_patches + _received(own, around.seen, relief)
         beyond = around.beyond(relief, lights)
-    inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2)[seen.mask]
+    inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2, mode="constant")[seen.mask]
     blank = np.zeros(seen.mask.shape, np.float32)
 
     def spread(values: Array) -> Array:
         """Values (P,) of the patches' values (Q,)."""
         blank[seen.mask] = values[of_pixel]
-        return np.asarray(ndimage.gaussian_filter(blank, size / 2)[seen.mask] / np.maximum(inside, 1e-6))
+        return np.asarray(ndimage.gaussian_filter(blank, size / 2, mode="constant")[seen.mask] / np.maximum(inside, 1e-6))
 
     def at_pixels(values: Array) -> Array:
         return np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in values])

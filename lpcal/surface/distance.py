@@ -101,7 +101,7 @@ def of_one_mind(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
     def blurred(values: Array) -> Array:
         image = np.zeros(mask.shape)
         image[mask] = values
-        return np.asarray(ndimage.gaussian_filter(image, size)[mask])
+        return np.asarray(ndimage.gaussian_filter(image, size, mode="constant")[mask])
 
     H = own.curvature
     move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), WEAK)

@@ -108,7 +108,7 @@ def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
     reach = np.sqrt(seen.pixels) / ACROSS
     picture = np.zeros(seen.mask.shape)
     picture[seen.mask] = albedo
-    square, plain = (np.asarray(ndimage.gaussian_filter(one, reach))[seen.mask] for one in (picture**2, picture))
+    square, plain = (np.asarray(ndimage.gaussian_filter(one, reach, mode="constant"))[seen.mask] for one in (picture**2, picture))
     return pieces.fill(grid, b, known & (albedo > JUNK * square / np.maximum(plain, 1e-12)))
 
 

@@ -38,8 +38,10 @@ class Relief:
         front = np.full(seen.mask.shape, np.inf)
         front[seen.mask] = depth
         some = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
-        rows, columns = (index[some] for index in np.nonzero(seen.mask))
-        pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), np.stack([columns, rows], axis=1).astype(float), rcond=None)[0]
+        places = np.stack(np.nonzero(seen.mask)[::-1], axis=1)
+        first = places.min(axis=0)
+        pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), (places[some] - first).astype(float), rcond=None)[0]
+        pixel_of_ray[0] += first
         return Relief(ndimage.maximum_filter(front, 3, mode="constant", cval=np.inf), pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:

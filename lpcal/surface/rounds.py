@@ -18,6 +18,7 @@ from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
 from lpcal.surface import bounce, distance, field, normals, pieces, sight
+from lpcal.surface.crop import Crop
 from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
@@ -77,6 +78,10 @@ class Scene:
         """Whether the light tells the distance."""
         return self.focus_C is None
 
+    def closely(self) -> Scene:
+        """The same with maps of the object's part of the picture alone: no round depends on what is empty about it."""
+        return replace(self, seen=replace(self.seen, mask=Crop.about(self.seen.mask).of(self.seen.mask)))
+
     def lit_at(self, depth: Array, thrown: Array | None = None) -> Lit:
         """The light at depths (P,)."""
         return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
@@ -106,6 +111,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     DegenerateError
         Too few pixels are lit by three lights.
     """
+    scene = scene.closely()
     seen, grid = scene.seen, scene.grid
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)

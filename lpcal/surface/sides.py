@@ -38,17 +38,14 @@ def thrown(x_C: Array, n: Array, relief: Relief, albedo: Array, lights: Sequence
 
     `albedo` (H, W) is in the units of the signals.
     """
-    J, share = np.zeros((len(lights), *x_C.shape)), np.zeros(len(x_C))
-    for way in _directions(n):
-        at, y_C = _entries(x_C, way, relief)
-        if not at.size:
-            continue
-        share[at] += 1 / DIRECTIONS
-        column, row, _ = relief.pixels(y_C)
-        shown = albedo[row, column] * _shading(y_C, way[at], relief, lights)
-        weight = way[at] / np.maximum(lambert.dot(way[at], n[at]), GRAZING)[:, None]
-        J[:, at] += shown[..., None] * weight / DIRECTIONS
-    return J, share
+    ways, count = _directions(n), len(x_C)
+    of, y_C = _entries(np.tile(x_C, (DIRECTIONS, 1)), ways.reshape(-1, 3), relief)
+    at, way = of % count, ways.reshape(-1, 3)[of]
+    column, row, _ = relief.pixels(y_C)
+    shown = albedo[row, column] * _shading(y_C, way, relief, lights)
+    weight = way / np.maximum(lambert.dot(way, n[at]), GRAZING)[:, None]
+    J = np.stack([np.stack([np.bincount(at, of_light * axis, count) for axis in weight.T], axis=-1) for of_light in shown])
+    return J / DIRECTIONS, np.bincount(at, minlength=count) / DIRECTIONS
 
 
 def _directions(n: Array) -> Array:
@@ -62,14 +59,15 @@ def _directions(n: Array) -> Array:
 
 
 def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
-    """Patches whose direction `way` (Q, 3) enters the body by an unseen side, and where (N, 3)."""
+    """Which of places and directions (Q, 3) enter the body by an unseen side, and where (N, 3)."""
     low, high = np.zeros(len(x_C)), np.zeros(len(x_C))
     met: Mask = np.zeros(len(x_C), bool)
     for reach in REACHES:
-        r = reach * x_C[:, 2]
-        here = ~met & relief.holds(x_C + r[:, None] * way)
-        high[here], met = r[here], met | here
-        low[~met] = r[~met]
+        free = np.flatnonzero(~met)
+        r = reach * x_C[free, 2]
+        here = relief.holds(x_C[free] + r[:, None] * way[free])
+        high[free[here]], met[free[here]] = r[here], True
+        low[free[~here]] = r[~here]
     at = np.flatnonzero(met)
     low, high = low[at], high[at]
     for _ in range(HALVINGS):
@@ -87,9 +85,10 @@ def _shading(y_C: Array, way: Array, relief: Relief, lights: Sequence[Light]) ->
     m = -way
     m = lambert.unit(m - lambert.dot(m, ray)[:, None] * ray)[0]
     before_C = y_C - OFF * y_C[:, 2:] * way
-    d, E = light_vectors(lights, y_C)
-    shading = E * np.maximum(np.einsum("kni,ni->kn", d, m), 0.0)
+    shading = np.empty((len(lights), len(y_C)))
     for k, light in enumerate(lights):
+        d, E = light_vectors([light], y_C)
+        shading[k] = E[0] * np.maximum(lambert.dot(d[0], m), 0.0)
         lit = np.flatnonzero(shading[k] > 0)
         if light.source_C is not None and lit.size:
             shading[k, lit] *= ~relief.hidden_from(before_C[lit], light.source_C, SHADOW_STEPS)
