@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from lpcal.api.boards import locate_boards as locate_boards
     from lpcal.api.comparison import compare_calibrations as compare_calibrations
     from lpcal.api.evaluation import evaluate as evaluate
+    from lpcal.api.exchange import export_calibration as export_calibration
+    from lpcal.api.exchange import register_format as register_format
     from lpcal.api.files import read_calibration as read_calibration
     from lpcal.api.files import read_camera as read_camera
     from lpcal.api.files import read_capture as read_capture
@@ -44,6 +46,7 @@ if TYPE_CHECKING:
     from lpcal.api.surfaces import mesh as mesh
     from lpcal.api.surfaces import reconstruct as reconstruct
     from lpcal.api.wing_settings import wing_settings as wing_settings
+    from lpcal.formats.exchange import ExchangeFormat as ExchangeFormat
     from lpcal.records.calibration import Calibration as Calibration
     from lpcal.records.calibration import Camera as Camera
     from lpcal.records.calibration import HandEye as HandEye
@@ -58,6 +61,7 @@ _HOME = {
     "api.boards": ("calibrate_camera", "find_boards", "locate_boards"),
     "api.comparison": ("compare_calibrations",),
     "api.evaluation": ("evaluate",),
+    "api.exchange": ("export_calibration", "register_format"),
     "api.files": (
         "read_calibration",
         "read_camera",
@@ -79,6 +83,7 @@ _HOME = {
     "api.studies": ("study",),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
     "api.wing_settings": ("wing_settings",),
+    "formats.exchange": ("ExchangeFormat",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),
     "records.sensor": ("StatedSensor",),

@@ -20,7 +20,8 @@ from lpcal.formats.bundled import folder, rig_file
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.cameramodel import MARK, MODEL_FILE, cameramodel_text
 from lpcal.formats.documents import document_kind
-from lpcal.formats.import_lights import import_lights, named_after
+from lpcal.formats.import_lights import named_after
+from lpcal.formats.import_other import import_other, is_own
 from lpcal.formats.outputs import refuse_place, write_text
 from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.formats.panel_yaml import read_rig as read_panel
@@ -171,7 +172,8 @@ def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: 
     Parameters
     ----------
     path : str or path
-        calibration.yaml; an .lp file; a folder of DiLiGenT; led_params of LUCES; light.mat of near_ps; a table of directions.
+        calibration.yaml; an .lp file; a folder of DiLiGenT; led_params of LUCES; light.mat of near_ps; a table of directions; RelightLab's
+        dome; Meshroom's lights or SfMData; a camera file of OpenCV, ROS, Kalibr, COLMAP, mrcal, Metashape; tf, URDF, easy_handeye.
     vectors : str, optional
         What the vectors of an .lp file or a table are, "directions" or "positions", where their lengths do not tell.
     images : str or path, optional
@@ -198,9 +200,9 @@ def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: 
     ['L0', 'L1']
     """
     place = Path(path)
-    if place.suffix.lower() in {".yaml", ".yml"}:
+    if place.suffix.lower() in {".yaml", ".yml"} and is_own(place):
         return calibration_yaml.read_calibration(place)
-    found = import_lights(place, vectors)
+    found = import_other(place, vectors)
     calibration = named_after(found.calibration, Path(images)) if images is not None else found.calibration
     return replace(calibration, origin=found.format, warnings=(*found.notes, *_lacking(calibration)))
 

@@ -134,7 +134,7 @@ def reconstruct(
     True
     """
     if lights is None and not isinstance(images, RawCapture):
-        lights = [light.name for light in calibration.lights]
+        lights = [light.name for light in calibration.with_lights().lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     refuse_unknown_words(mask, method, integrator, keep, distance_m)

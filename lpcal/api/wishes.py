@@ -34,7 +34,7 @@ def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str
 
 def refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:
     """Refuse images of lights that the calibration does not hold, or two of one light."""
-    known = {light.name for light in calibration.lights}
+    known = {light.name for light in calibration.with_lights().lights}
     strange = [name for k, name in enumerate(raw.lights) if name not in known or name in raw.lights[:k]]
     if strange:
         raise DisagreementError(

@@ -25,7 +25,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     from lpcal.formats.outputs import refuse_place
 
     refuse_place(options.output, FIELD, (options.calibration, options.points))
-    calibration = read_calibration(options.calibration)
+    calibration = read_calibration(options.calibration).with_lights()
     x_C = read_points(options.points)
     progress("lights", 0, 1)
     found = light_field(calibration, x_C)

@@ -11,7 +11,10 @@ from lpcal.records.outcome import Outcome, Progress
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument(
-        "source", type=Path, metavar="FILE_OR_FOLDER", help=".lp, DiLiGenT folder, LUCES led_params, near_ps light.mat, directions"
+        "source",
+        type=Path,
+        metavar="FILE_OR_FOLDER",
+        help="lights, a camera or its place from a file of another system's; lpcal export --list names those that are read",
     )
     parser.add_argument("--images", type=Path, metavar="FOLDER", help="name the lights after these images, in their order")
     parser.add_argument(
@@ -26,6 +29,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     from lpcal.formats.calibration_yaml import KIND, write_calibration
     from lpcal.formats.documents import document_kind, sha256
     from lpcal.formats.outputs import refuse_place
+    from lpcal.records.calibration import NAMES
     from lpcal.records.provenance import Provenance
 
     refuse_place(options.output, document_kind(KIND), [options.source])
@@ -35,17 +39,20 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     write_calibration(options.output, found, Provenance({path.name: sha256(path) for path in files}, {"format": found.origin}))
     progress("reading", 1, 1)
     near = sum(light.source_C is not None for light in found.lights)
-    camera = "a camera" if found.camera else "no camera: parallel rays"
+    held = [f"{len(found.lights)} {'near' if near else 'distant'} lights"] if found.lights else ["no lights"]
+    held += ["a camera" if found.camera else "no camera: parallel rays"] if found.lights or found.camera else []
+    held += [f"{NAMES[found.carries][0]}"] * (found.H_PC is not None)
     return Outcome(
-        [f"{found.origin or KIND}: {len(found.lights)} {'near' if near else 'distant'} lights, {camera} -> {options.output}"],
+        [f"{found.origin or KIND}: {', '.join(held)} -> {options.output}"],
         {
             "format": found.origin,
             "lights": len(found.lights),
             "near": near,
             "camera": found.camera is not None,
+            "hand-eye": found.H_PC is not None,
             "file": options.output,
             "notes": list(found.warnings),
         },
         list(found.warnings),
-        next_command=f"lpcal reconstruct CAPTURE -c {options.output}",
+        next_command=f"lpcal reconstruct CAPTURE -c {options.output}" if found.lights else f"lpcal export {options.output} --format all",
     )

@@ -2,7 +2,8 @@
 
 Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
 see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
-black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. A lobe is one of
+black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
+or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. A lobe is one of
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `geometry.light_field.FORMULAS`
@@ -34,7 +35,7 @@ from lpcal.formats.reading import reader
 from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_document
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import TABLED
-from lpcal.records.calibration import Calibration, Camera, LedCluster, Light, Lobe
+from lpcal.records.calibration import NAMES, Calibration, Camera, Carries, LedCluster, Light, Lobe
 from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 
@@ -49,7 +50,7 @@ def write_calibration(path: Path, calibration: Calibration, provenance: Provenan
     elif calibration.sensor.said:
         body["camera"] = sensor_document(calibration.sensor)
     if calibration.H_PC is not None:
-        body["H_PC"] = calibration.H_PC
+        body[NAMES[calibration.carries][0]] = calibration.H_PC
     body |= {
         "d_object_m": calibration.d_object_m,
         "focus_m": calibration.focus_C,
@@ -81,7 +82,8 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
     try:
         camera, sensor = _camera(document.get("camera"), path)
         lights = tuple(_light(path, entry) for entry in document["lights"])
-        H_PC = rigid(document, "H_PC") if document.get("H_PC") else None
+        carries: Carries = "board" if "H_OC" in document else "camera"
+        H_PC = rigid(document, NAMES[carries][0]) if document.get(NAMES[carries][0]) else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
@@ -90,7 +92,10 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
     distance_m = document.get("d_object_m")
     if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
         raise InputError(f"d_object_m: {distance_m}", where=str(path), needed="metres above zero", todo="correct it, or write null")
-    found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C, sensor)
+    found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C, sensor, carries=carries)
+    alone = document["lights"] == [] and focus_C is None and distance_m is None
+    if alone and (camera is not None or H_PC is not None):
+        return found
     return sane_lights(found, str(path))
 
 

@@ -18,16 +18,21 @@ from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine import summary_of
 from lpcal.pipeline.sensor import flat_field_path, has_lens, stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
-from lpcal.records.calibration import LightsSolution
+from lpcal.records.calibration import NAMES, Calibration, LightsSolution
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 
 FILE = "calibration.yaml"
 
 
-def wanted(workspace: Workspace) -> bool:
+def lights_known(workspace: Workspace) -> bool:
     """Whether the rig's lights can be known."""
     return refine_stage.wanted(workspace) or wings_stage.wanted(workspace)
+
+
+def wanted(workspace: Workspace) -> bool:
+    """Whether the rig's lights can be known, or it states none and has a camera to be placed in a tracked body or the room."""
+    return lights_known(workspace) or (not workspace.rig_file.rig.lights and wings_stage.tracks_panel(workspace))
 
 
 def inputs(workspace: Workspace) -> list[Path]:
@@ -36,7 +41,8 @@ def inputs(workspace: Workspace) -> list[Path]:
     found += [workspace.calib("handeye.yaml")] if wings_stage.tracks_panel(workspace) else []
     flat = None if has_lens(workspace) else flat_field_path(workspace)
     found += [flat] if flat is not None else []
-    found.append(workspace.calib(refine_stage.FILE if refine_stage.wanted(workspace) else wings_stage.FILE))
+    if lights_known(workspace):
+        found.append(workspace.calib(refine_stage.FILE if refine_stage.wanted(workspace) else wings_stage.FILE))
     return found
 
 
@@ -59,7 +65,14 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
             todo="add one of them to panel.yaml",
         )
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
-    H_PC = read_handeye(workspace.calib("handeye.yaml")).H_PC if wings_stage.tracks_panel(workspace) else None
+    handeye = read_handeye(workspace.calib("handeye.yaml")) if wings_stage.tracks_panel(workspace) else None
+    H_PC = None if handeye is None else handeye.H_PC
+    if not lights_known(workspace):
+        alone = Calibration(rig.name, (), camera, H_PC, carries="camera" if handeye is None else handeye.carries)
+        write_calibration(workspace.calib(FILE), alone, STAGE.provenance(workspace))
+        progress("export", 1, 1)
+        said = f"{workspace.relative(workspace.calib(FILE))}: {NAMES[alone.carries][0]}{' and the camera' if camera else ''}, no lights"
+        return Outcome([said], {"file": str(workspace.calib(FILE))}, next_command="lpcal export --format all")
     solution = _lights(workspace)
     sensor = StatedSensor() if camera is not None else stated_in_panel(workspace)
     calibration = assemble_calibration(solution, camera, H_PC=H_PC, sensor=sensor, name=rig.name)

@@ -110,7 +110,7 @@ def reconstruct_all(
     root = tasks[0].target.parent if len(tasks) > 1 else None
     if root is not None:
         COLLECTION.refuse(root)
-    read_calibration(calibration_path)  # once here: what is wrong with it is wrong with every capture
+    read_calibration(calibration_path).with_lights()  # once here: what is wrong with it is wrong with every capture
     if engine is not None and len(tasks) > 1:
         wishes = replace(wishes, jobs=1)  # a core a capture
     jobs = [Job(task, calibration_path, replace(wishes, panel=panel_of(workspace, task, calibration_path)), anew) for task in tasks]

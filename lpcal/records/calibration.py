@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from lpcal.errors import InputError
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
@@ -327,6 +328,8 @@ class LightsSolution(Shown):
 class Calibration(Shown):
     """All that a reconstructor needs. Without a camera the images are orthographic and all lights distant.
 
+    One without lights holds a camera, its place in the tracked body, or both: it is exported and compared, and reconstructs nothing.
+
     Parameters
     ----------
     name : str
@@ -360,6 +363,22 @@ class Calibration(Shown):
     """What is to be said of the file that it comes from, in words."""
     origin: str = ""
     """The format of another system that it was read from."""
+    carries: Carries = "camera"
+    """What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room."""
+
+    def with_lights(self) -> Calibration:
+        """The calibration, which holds lights.
+
+        Raises
+        ------
+        InputError
+            It holds a camera or its place alone.
+        """
+        if not self.lights:
+            held = " and ".join(["the camera"] * (self.camera is not None) + ["its place"] * (self.H_PC is not None)) or "nothing"
+            todo = "calibrate the lights too, or import them"
+            raise InputError(f"holds no lights, but {held}", where=f"calibration {self.name}", needed="lights", todo=todo)
+        return self
 
     def of_images(self, size: tuple[int, int]) -> Calibration:
         """The calibration with its camera of the images' (width, height), where the camera's own is guessed; see `Camera.of_images`."""

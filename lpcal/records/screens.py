@@ -15,7 +15,7 @@ import numpy as np
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records import pictures
-from lpcal.records.calibration import Calibration, Camera, CameraSolution, HandEye, Light, LightsSolution, ViewVerdict, Wings
+from lpcal.records.calibration import NAMES, Calibration, Camera, CameraSolution, HandEye, Light, LightsSolution, ViewVerdict, Wings
 from lpcal.records.digits import fine, fine_each
 from lpcal.records.evaluation import Evaluation
 from lpcal.records.light_field import LightField
@@ -193,6 +193,9 @@ def _calibration(found: Calibration) -> RecordScreen:
     )
     rows = [("camera", camera)]
     rows += [("distance", f"{1e3 * found.d_object_m:.1f} mm, where the lights' axes meet")] if found.d_object_m is not None else []
+    if not found.lights:
+        rows += [] if found.H_PC is None else [(NAMES[found.carries][0], f"origin at {_numbers(1e3 * found.H_PC[:3, 3], 2)} mm")]
+        return RecordScreen(f"Calibration {found.name}: no lights", rows, found.warnings)
     rows += _lights(found.lights)
     title = f"Calibration {found.name}: {len(found.lights)} lights (source in mm, direction, intensity)"
     return RecordScreen(title, rows, found.warnings, lambda: pictures.lights(_places(found.lights)))

@@ -1,0 +1,207 @@
+"""The formats that lpcal writes, one entry each: what each holds and what it has no place for."""
+
+from __future__ import annotations
+
+from lpcal.formats import (
+    export_cameras,
+    export_lights,
+    export_matlab,
+    export_meshroom,
+    export_poses,
+    import_diligent,
+    import_directions,
+    import_luces,
+    import_near_ps,
+)
+from lpcal.formats.exchange import ExchangeFormat
+
+SENSOR = "black and white level, gamma, flat field"
+LENS = "lens model, image size, K and distortion to the last digit"
+NO_LIGHT = f"lights, {SENSOR}, standard deviations"
+DISTANT = f"places, lobes, camera, {SENSOR}, standard deviations"
+
+CAMERAS = (
+    ExchangeFormat(
+        "opencv",
+        "OpenCV FileStorage, camera.opencv.yml",
+        ("camera",),
+        LENS,
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_opencv,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "ros",
+        "ROS camera_info, camera.ros.yaml",
+        ("camera",),
+        f"{LENS}; R = 1, P = [K 0]",
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_ros,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "kalibr",
+        "Kalibr camchain.yaml, pinhole-radtan",
+        ("camera",),
+        "image size, K, k1 k2 p1 p2",
+        f"{NO_LIGHT}, H_PC; k3 to k6 and a splined lens (fitted)",
+        export_cameras.write_kalibr,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "colmap",
+        "COLMAP model, colmap/cameras.txt, rigs.txt",
+        ("camera",),
+        f"{LENS}, half a pixel added",
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_colmap,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "mrcal",
+        "mrcal camera.cameramodel",
+        ("camera",),
+        f"{LENS}, splined lenses too; H_PC as rt_cam_ref",
+        NO_LIGHT,
+        export_cameras.write_mrcal,
+        export_cameras.read_mrcal,
+        export_cameras.is_mrcal,
+    ),
+    ExchangeFormat(
+        "metashape",
+        "Metashape camera.metashape.xml",
+        ("camera",),
+        "image size, f cx cy b1 k1 k2 k3 p1 p2, half a pixel added",
+        f"{NO_LIGHT}, H_PC; k4 to k6 and a splined lens (fitted)",
+        export_cameras.write_metashape,
+        export_cameras.read_metashape,
+        export_cameras.is_metashape,
+    ),
+    ExchangeFormat(
+        "meshroom",
+        "Meshroom SfMData, meshroom.sfm",
+        ("camera",),
+        "image size, K, k1 k2 k3 p1 p2, a view a light",
+        f"{NO_LIGHT}, H_PC; k4 to k6 and a splined lens (fitted)",
+        export_meshroom.write_meshroom,
+        export_meshroom.read_meshroom,
+        export_meshroom.is_meshroom,
+    ),
+)
+POSES = (
+    ExchangeFormat(
+        "tf",
+        "ROS tf, tf_static.sh and tf_static.yaml",
+        ("hand-eye",),
+        "H_PC",
+        "camera, lights, the covariance",
+        export_poses.write_tf,
+        export_poses.read_tf,
+        export_poses.is_tf,
+    ),
+    ExchangeFormat(
+        "urdf",
+        "URDF, rig.urdf",
+        ("hand-eye",),
+        "H_PC, H_CL of every light",
+        "lens, sources, lobes, intensities, the covariance",
+        export_poses.write_urdf,
+        export_poses.read_urdf,
+        export_poses.is_urdf,
+    ),
+    ExchangeFormat(
+        "easy_handeye",
+        "easy_handeye.yaml",
+        ("hand-eye",),
+        "H_PC",
+        "camera, lights, the covariance",
+        export_poses.write_handeye_yaml,
+        export_poses.read_easy_handeye,
+        export_poses.is_easy_handeye,
+    ),
+)
+LIGHTS = (
+    ExchangeFormat(
+        "lp",
+        "RTI light file, lights.lp: directions",
+        ("lights",),
+        "directions at the working point",
+        f"{DISTANT}, intensities",
+        export_lights.write_lp,
+        lambda path: import_directions.read_lp(path)[0],
+        import_directions.is_lp,
+    ),
+    ExchangeFormat(
+        "lp-positions",
+        "RTI light file, lights_positions.lp: mm",
+        ("near lights",),
+        "places about the working point",
+        f"where that point is, lobes, intensities, camera, {SENSOR}, standard deviations",
+        export_lights.write_lp_positions,
+        lambda path: import_directions.read_lp(path, "positions")[0],
+    ),
+    ExchangeFormat(
+        "dome",
+        "RelightLab rig.dome",
+        ("lights",),
+        "places about the working point, directions, colours",
+        f"lobes, camera, {SENSOR}, standard deviations",
+        export_lights.write_dome,
+        export_lights.read_dome,
+        export_lights.is_dome,
+    ),
+    ExchangeFormat(
+        "diligent",
+        "DiLiGenT folder, diligent/",
+        ("lights",),
+        "directions, intensities as they arrive; images of a capture",
+        DISTANT,
+        export_lights.write_diligent,
+        import_diligent.read,
+        import_diligent.is_one,
+    ),
+    ExchangeFormat(
+        "luces",
+        "LUCES folder, luces/led_params.txt",
+        ("camera", "near lights"),
+        "places, axes, intensities, pinhole camera; images of a capture",
+        f"lobes (a cosine fitted), fy, distortion (images are made free of it), {SENSOR}, standard deviations",
+        export_lights.write_luces,
+        import_luces.read,
+        import_luces.is_one,
+    ),
+    ExchangeFormat(
+        "near_ps",
+        "near_ps folder, near_ps/light.mat, camera.mat",
+        ("camera", "near lights"),
+        "places, axes, intensities, K; images of a capture",
+        f"lobes (a cosine fitted), image size, distortion (images are made free of it), {SENSOR}, standard deviations",
+        export_lights.write_near_ps,
+        import_near_ps.read,
+        import_near_ps.is_one,
+    ),
+    ExchangeFormat(
+        "meshroom-lights",
+        "Meshroom lights, meshroom_lights.json",
+        ("lights",),
+        "directions at the working point, intensities",
+        DISTANT,
+        export_lights.write_meshroom_lights,
+        export_lights.read_meshroom_lights,
+        export_lights.is_meshroom_lights,
+    ),
+)
+WHOLE = (
+    ExchangeFormat(
+        "matlab",
+        "MATLAB, Octave, calibration.mat",
+        (),
+        "camera, H_PC, lights with frames, sources, lobes (over the angle), intensities, standard deviations",
+        f"names of the lights, lobes that are not round, {SENSOR}, the covariance; a splined lens (fitted)",
+        export_matlab.write_matlab,
+        export_matlab.read_matlab,
+        export_matlab.is_matlab,
+    ),
+)
+OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE)
+"""lpcal's own formats, in the order of `lpcal export --list`."""

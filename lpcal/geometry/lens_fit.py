@@ -1,0 +1,58 @@
+"""A lens in another model: the parameters of OpenCV's that come nearest to given projections over the image.
+
+Symbols: rays x_C (N, 3) through pixels u (N, 2) of the lens as it is; K and k1 k2 p1 p2 [k3 [k4 k5 k6]] with ``u = project(x_C, K, k)``
+in least squares of pixels. Source: mrcal's documentation, "lens model conversion"; the fit is without uncertainty, as there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from lpcal.geometry import camera as central
+from lpcal.geometry.arrays import Array
+
+COLUMNS = 41
+"""Rays across the image: more change no parameter, the lens being smooth."""
+WIDEST = 1.4
+"""Radians from the axis beyond which a ray is left out: a pinhole cannot hold it."""
+
+
+@dataclass(frozen=True)
+class FittedLens:
+    """A lens in another model, and how far the two lie apart over the image."""
+
+    K: Array
+    distortion: Array
+    rms_px: float
+    largest_px: float
+
+
+def fit_lens(unproject: Callable[[Array], Array], K: Array, image_size: tuple[int, int], count: int, start: Array) -> FittedLens:
+    """The lens of `count` distortion coefficients nearest to one that takes pixels (..., 2) to rays (..., 3).
+
+    `K` (3, 3) and `start` (the first coefficients, up to count) are where the search begins.
+    """
+    width, height = image_size
+    rows = max(2, round(COLUMNS * height / width))
+    across, down = np.meshgrid(np.linspace(0, width - 1, COLUMNS), np.linspace(0, height - 1, rows))
+    pixels = np.stack([across.ravel(), down.ravel()], axis=1)
+    rays = unproject(pixels)
+    ahead = np.arctan2(np.linalg.norm(rays[:, :2], axis=1), rays[:, 2]) < WIDEST
+    pixels, rays = pixels[ahead], rays[ahead]
+
+    def misses(unknowns: Array) -> Array:
+        fx, fy, cx, cy = unknowns[:4] * np.array([K[0, 0], K[1, 1], width, height])
+        found = central.project(rays, np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]]), unknowns[4:])
+        return np.asarray((found - pixels).ravel())
+
+    first = np.zeros(4 + count)
+    first[:4] = 1, 1, K[0, 2] / width, K[1, 2] / height
+    first[4 : 4 + min(count, start.size)] = start[:count]
+    found = least_squares(misses, first, x_scale="jac", xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    fx, fy, cx, cy = found.x[:4] * np.array([K[0, 0], K[1, 1], width, height])
+    apart = np.linalg.norm(misses(found.x).reshape(-1, 2), axis=1)
+    return FittedLens(np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]]), found.x[4:], float(np.sqrt(np.mean(apart**2))), float(apart.max()))
