@@ -36,9 +36,9 @@ def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None
     return Sight(mask, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True), lit, n, clean
 
 
-def found(seen: Sight, lit: Lit, *, hidden: Mask | None = None, glossy: bool = False) -> tuple[field.Field, normals.Estimate]:
+def found(seen: Sight, lit: Lit, *, hidden: Mask | None = None, glossy: float | None = None) -> tuple[field.Field, normals.Estimate]:
     alone = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
-    return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, None, glossy=glossy), alone
+    return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, None, glossy), alone
 
 
 def errors_deg(b: Array, n: Array) -> Array:
@@ -82,15 +82,24 @@ def test_a_shadow_lit_from_around_is_no_dark_matter():
 
 def test_gloss_is_found_and_taken_off():
     seen, lit, n, _ = ball(6, shine=(0.15, 0.19))
-    whole, alone = found(seen, lit, glossy=True)
+    whole, alone = found(seen, lit, glossy=0.5)
     assert whole.gloss is not None
     assert whole.gloss.clear
     assert np.mean(errors_deg(whole.b, n)) < 0.8 * np.mean(errors_deg(alone.b, n))
 
 
+@pytest.mark.parametrize(("lights", "F0", "roughness"), [(6, 0.03, 0.12), (6, 0.06, 0.3), (8, 0.045, 0.2), (12, 0.045, 0.35)])
+def test_strength_and_roughness_of_the_gloss_are_those_drawn(lights, F0, roughness):
+    seen, lit, _, _ = ball(lights, shine=(F0 * np.pi * ALBEDO / 0.5, roughness))
+    whole, _ = found(seen, lit, glossy=0.5)
+    assert whole.gloss is not None
+    assert abs(np.log(whole.gloss.ks / (F0 * np.pi * ALBEDO / 0.5))) < 0.35
+    assert abs(np.log(whole.gloss.roughness / roughness)) < 0.2
+
+
 def test_where_there_is_no_gloss_next_to_none_is_taken_off():
     seen, lit, _, _ = ball(6)
-    whole, _ = found(seen, lit, glossy=True)
+    whole, _ = found(seen, lit, glossy=0.5)
     assert whole.gloss is None or not whole.gloss.clear
     assert whole.estimate.gloss is None or np.abs(whole.estimate.gloss).max() < 0.02 * ALBEDO
 

@@ -72,22 +72,24 @@ class _States:
     chance: Array
 
 
-def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimate, before: Field | None, *, glossy: bool) -> Field:
+def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimate, before: Field | None, glossy: float | None) -> Field:
     """The field from estimates of single pixels, or from a field found before at a depth nearby.
 
-    `hidden` (L, P) are samples whose light the depth hides; `glossy` says whether a gloss is looked for.
+    `hidden` (L, P) are samples whose light the depth hides; `glossy` is the reflectance of
+    the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not.
     """
     v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
     b = _begin(seen, grid, start.b) if before is None else before.b
     shine = None if before is None else before.gloss
-    rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * glossy
+    rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * (glossy is not None)
     some = gloss.sample(*seen.signal.shape[::-1])
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
+    albedo = np.linalg.norm(b, axis=1)
     for k in range(rounds):
-        if glossy and (k > 1 or before is not None):
+        if glossy is not None and (k > 1 or before is not None):
             state = _states(few, few_lit, b[some], few_hidden, None, 1.0)
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
-            shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some])
+            shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / np.median(albedo))
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
         b = _solved(grid, b, *_all_gathered(seen, lit, b, v, hidden, shine, warmth))
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)

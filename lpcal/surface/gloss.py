@@ -4,9 +4,14 @@ Symbols: normal n, light d, viewer v, half vector h between d and v, roughness a
 
     ks E (D G) / (4 n.v)        D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),   G = Smith's shadowing of both sides
 
-ks is the robust regression of what the Lambertian part leaves on the lobe, at each of a few roughnesses; the normals are those of the field
-(surface.field), which fits it anew in every round: a highlight that would bend one pixel's normal contradicts its neighbours.
-Source: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX).
+The Lambertian part takes up most of a wide lobe, so what b leaves says too little of it: residuals and lobe are both projected on what no b
+explains (variable projection, Golub and Pereyra 1973), pixel by pixel and with robust weights. Matter of reflectance R whose albedo is b
+in the signals' unit mirrors the share ``F0 = ks R / (pi b)`` of the light that meets it squarely. Common matter has F0 near .045, which is
+the prior; strength and roughness are means over a grid of both, together with the odds that there is no gloss. The normals are those of
+the field (surface.field), which fits it anew in every round.
+
+Sources: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX); Akenine-Moeller et al.
+2018, Real-Time Rendering, 9.5 (F0 of common matter).
 """
 
 from __future__ import annotations
@@ -25,11 +30,23 @@ SAMPLES = 100_000
 """Samples, lights times pixels, that the gloss is fitted to where the lights are many: what is fitted are two numbers."""
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
 """Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
+MIRRORED = tuple(np.geomspace(0.01, 1.0, 21))
+"""F0 that are tried: a quarter apart, from less than any matter's to a mirror's."""
+COMMON_F0, COMMON_SPREAD = 0.045, 0.5
+"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08."""
+METAL = 0.1
+"""Share of glossy objects taken to have any F0 with equal odds, metals among them."""
+MATTE = 0.5
+"""Share of objects taken to have no gloss."""
+FAINT = 0.01
+"""Odds of a gloss under which none is taken off."""
+NEIGHBOURS = 25.0
+"""How many samples are worth one: what the model lacks they have in common with those around."""
 DOUBT = 0.2
 """Standard deviation of a lobe, as a share of itself."""
 WIDTH2 = 9.0
 """Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
-ROUNDS = 6
+ROUNDS = 3
 """Rounds of the robust regression."""
 CLEAR = 0.95
 """Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
@@ -73,25 +90,55 @@ def sample(pixels: int, lights: int) -> slice:
     return slice(None, None, max(1, pixels // min(MOST_PIXELS, max(FEWEST_PIXELS, SAMPLES // lights))))
 
 
-def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array) -> Gloss | None:
-    """The lobe that explains residuals (L, P) of variances `spread2` best, by normals n and directions v to the viewer (P, 3).
+def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array, per_unit: float) -> Gloss | None:
+    """The lobe that residuals (L, P) of variances `spread2` show, by normals n and directions v to the viewer (P, 3).
 
-    `weight` (L, P) is 1 for samples that count. For each roughness the strength is the robust regression of the residuals on the lobe; the
-    least cost wins, None where no gloss costs as little.
+    `weight` (L, P) is 1 for samples that count; `per_unit` is the reflectance by albedo in the signals' unit. None where the
+    odds of a gloss are under FAINT.
     """
-    r, w, s2 = residual, weight, spread2
-    best, least = None, _cost(r, w, s2)
-    plain = _misfit(r, w, s2)
-    for roughness in ROUGHNESSES:
+    F0 = np.array(MIRRORED)
+    ks = F0 * np.pi / per_unit
+    plain = _unexplained(residual, np.zeros_like(residual), weight, spread2, lit.B)[0]
+    matte = _cost(plain, weight, spread2)
+    cost, misfit = np.empty((2, len(ROUGHNESSES), len(ks)))
+    for row, roughness in enumerate(ROUGHNESSES):
         shape = lit.E * lobe(lit.d, n, v, roughness)
-        ks = 0.0
-        for _ in range(ROUNDS):
-            pull = w / (1 + (r - ks * shape) ** 2 / s2 / WIDTH2) ** 2 / s2
-            ks = max(float(np.sum(pull * r * shape) / max(np.sum(pull * shape**2), 1e-300)), 0.0)
-        cost = _cost(r - ks * shape, w, s2 + (DOUBT * ks * shape) ** 2)
-        if cost < least:
-            best, least = Gloss(ks, float(roughness), _misfit(r - ks * shape, w, s2) / max(plain, 1e-12)), cost
-    return best
+        left, own = _unexplained(residual, shape, weight, spread2, lit.B)
+        for column, one in enumerate(ks):
+            cost[row, column] = _cost(left - one * own, weight, spread2 + (DOUBT * one * own) ** 2)
+            misfit[row, column] = _misfit(left - one * own, weight, spread2)
+    common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
+    prior = (1 - MATTE) * ((1 - METAL) * common / common.sum() + METAL / len(F0)) / len(ROUGHNESSES)
+    evidence = (matte - cost) / (2 * NEIGHBOURS)
+    most = max(float(evidence.max()), 0.0)
+    odds = prior * np.exp(evidence - most)
+    glossy = float(odds.sum() / (odds.sum() + MATTE * np.exp(-most)))
+    if glossy < FAINT:
+        return None
+    odds = odds / odds.sum()
+    strength = glossy * float(np.exp(np.sum(odds * np.log(ks))))
+    width = float(np.exp(np.sum(odds * np.log(ROUGHNESSES)[:, None])))
+    return Gloss(strength, width, float(np.sum(odds * misfit)) / max(_misfit(plain, weight, spread2), 1e-12))
+
+
+def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B: Array) -> tuple[Array, Array]:
+    """Residual and lobe (L, P) without what b explains of them, by the weights of a robust regression of the one on the other."""
+    pull = weight / spread2
+    for k in range(ROUNDS + 1):
+        left, own = _free_of_b(np.stack([residual, shape]), pull, B)
+        if k < ROUNDS:
+            best = max(float(np.sum(pull * left * own) / max(np.sum(pull * own**2), 1e-300)), 0.0)
+            pull = weight / (1 + (left - best * own) ** 2 / spread2 / WIDTH2) ** 2 / spread2
+    return left, own
+
+
+def _free_of_b(values: Array, weight: Array, B: Array) -> Array:
+    """Values (..., L, P) without what a b of each pixel explains of them, by weights (L, P) and light vectors B (L, P, 3)."""
+    A = np.einsum("kp,kpi,kpj->pij", weight, B, B)
+    A += 1e-9 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 1e-300 * np.eye(3)
+    right = np.einsum("kp,kpi,...kp->...pi", weight, B, values)
+    b = np.linalg.solve(A, right[..., None])[..., 0]
+    return np.asarray(values - np.einsum("kpi,...pi->...kp", B, b))
 
 
 def _misfit(residual: Array, weight: Array, spread2: Array) -> float:

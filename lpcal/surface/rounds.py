@@ -124,7 +124,8 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
         dark = bounce.in_shadow(seen, lit, shaped.normals, hidden)
         reflects = bounce.reflectance(seen, by, shaped.field.b, dark)
         lit = replace(lit, thrown=reflects.per_unit * by.J(reflects.sides, reflects.beyond), unseen=by.unseen)
-    whole = _estimated(scene, lit, usable, hidden, before, k)
+    glossy = bounce.COMMON if reflects is None else reflects.median
+    whole = _estimated(scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None)
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
@@ -160,7 +161,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
     return dark
 
 
-def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, k: int) -> Field:
+def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
     start = normals.estimate(seen, lit, usable, normals.variances(seen))
@@ -172,5 +173,4 @@ def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before
             needed=f"{FEWEST_PIXELS} at least",
             todo="check the mask, the exposure and the ambient image",
         )
-    glossy = k >= GLOSS_ROUND or not scene.near
-    return field.solve(seen, scene.grid, lit, hidden, start, None if before is None else before.field, glossy=glossy)
+    return field.solve(seen, scene.grid, lit, hidden, start, None if before is None else before.field, glossy)
