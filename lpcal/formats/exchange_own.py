@@ -8,6 +8,8 @@ from lpcal.formats import (
     export_matlab,
     export_meshroom,
     export_poses,
+    export_rig_glb,
+    export_surfaces,
     import_diligent,
     import_directions,
     import_luces,
@@ -202,6 +204,59 @@ WHOLE = (
         export_matlab.read_matlab,
         export_matlab.is_matlab,
     ),
+    ExchangeFormat(
+        "rig-glb",
+        "glTF scene of the rig, rig.glb",
+        ("camera",),
+        "camera, H_PC, lights as spots (KHR_lights_punctual) with place, axis, colour; the lens whole, in extras",
+        f"principal point and distortion in the view, lobes (a soft cone fitted), {SENSOR}, standard deviations",
+        export_rig_glb.write_rig_glb,
+    ),
 )
-OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE)
+SURFACE_LOST = "standard deviations, pieces, alternatives"
+SURFACES = (
+    ExchangeFormat(
+        "ply", "mesh.ply", ("surface",), "vertices, measured normals, colours, faces; C, m", SURFACE_LOST, export_surfaces.write_ply
+    ),
+    ExchangeFormat("glb", "glTF mesh, mesh.glb", ("surface",), "the same; y up, m", SURFACE_LOST, export_surfaces.write_glb),
+    ExchangeFormat(
+        "obj", "Wavefront OBJ, obj/mesh.obj", ("surface",), "the same, albedo as texture; y up, m", SURFACE_LOST, export_surfaces.write_obj
+    ),
+    ExchangeFormat(
+        "stl", "STL, mesh.stl", ("surface",), "faces; y up, mm", f"measured normals, colours, {SURFACE_LOST}", export_surfaces.write_stl
+    ),
+    ExchangeFormat(
+        "depth-tiff",
+        "TIFF float32, depth_m.tif",
+        ("surface",),
+        "depth and its standard deviation, unit in the description",
+        "normals, albedo, mask but for NaN",
+        export_surfaces.write_depth_tiff,
+    ),
+    ExchangeFormat(
+        "depth-exr",
+        "OpenEXR float32, depth_m.exr",
+        ("surface",),
+        "depth, normals, albedo, standard deviations, unit in the comments",
+        "pieces but for their sigma",
+        export_surfaces.write_depth_exr,
+    ),
+    ExchangeFormat(
+        "points",
+        "point cloud, points.ply",
+        ("surface",),
+        "a point a pixel with normal, colour, sigma, piece; C, m",
+        "faces",
+        export_surfaces.write_points,
+    ),
+    ExchangeFormat(
+        "normals",
+        "normal maps, normals_gl.png, normals_dx.png",
+        ("surface",),
+        "normals in 16 bit, green up (glTF, Blender) and down (DirectX)",
+        "all else",
+        export_surfaces.write_normals,
+    ),
+)
+OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE, *SURFACES)
 """lpcal's own formats, in the order of `lpcal export --list`."""

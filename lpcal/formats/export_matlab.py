@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import central_camera
 from lpcal.formats.export_lens import with_room_for
 from lpcal.formats.export_lobe import round_lobe
@@ -49,6 +50,8 @@ def write_matlab(content: ExchangeContent, folder: Path) -> list[str]:
         stored["focus_C"] = calibration.focus_C[None]
     if calibration.d_object_m is not None:
         stored["d_object_m"] = np.array([[calibration.d_object_m]])
+    if not stored:
+        raise InputError("nothing of a calibration", where="--format matlab", needed="a camera, its place or lights")
     savemat(folder / FILE, stored, format="5")
     names = ", ".join(light.name for light in calibration.lights)
     return [*said, f"rows are the lights {names}"] if names else said

@@ -88,7 +88,7 @@ def write_surface(
             )
         _write_images(draft, surface, outputs)
         if mesh is not None:
-            _write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs)
+            write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs)
         if page is not None and "page" in outputs:
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
@@ -207,7 +207,7 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def _write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str]) -> None:
+def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str]) -> None:
     """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks."""
     import trimesh
 

@@ -6,7 +6,7 @@ Winding is such that a face looks at the camera.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,8 @@ class Mesh(Shown):
     """(V, 3) albedo, display-encoded."""
     faces: npt.NDArray[np.int64]
     """(F, 3)."""
+    pixels: npt.NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 2), np.int32))
+    """(V, 2) column and row of each vertex."""
 
 
 def build(surface: Surface) -> Mesh:
@@ -48,6 +50,7 @@ def build(surface: Surface) -> Mesh:
         surface.normals[mask][used].astype(np.float32),
         colours(surface)[mask][used],
         renumber[faces],
+        np.argwhere(mask)[used][:, ::-1].astype(np.int32),
     )
 
 

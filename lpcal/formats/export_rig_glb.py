@@ -1,0 +1,140 @@
+"""rig.glb: the calibrated rig as a glTF scene, camera and spot lights, as Blender and viewers open it.
+
+glTF has x right, y up, z to the viewer; its cameras look along their -z, its spots shine along their -z; so C is turned half about x at the
+root, and half about x again in each camera and spot. A spot's light falls from the inner to the outer angle of its cone as
+``((cos t - cos outer) / (cos inner - cos outer))^2``, cut to 0..1; both angles are fitted to the lobe. Metres; candela are relative: 1 is
+the mean of all lights. The lens, whole, stands in the camera's extras. Source: glTF 2.0, and its extension KHR_lights_punctual.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from lpcal import __version__
+from lpcal.formats.documents import plain
+from lpcal.formats.export_cameras import camera_of
+from lpcal.formats.export_lights import rgb
+from lpcal.formats.export_lobe import round_lobe
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Light
+from lpcal.records.exchange import ExchangeContent
+
+HALF_TURN = se3.transform(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
+"""Half a turn about x: C to glTF's axes, and a light's or camera's z forward to z backward."""
+LIGHTS = "KHR_lights_punctual"
+MAGIC, VERSION, JSON_CHUNK = 0x46546C67, 2, 0x4E4F534A
+"""What a GLB begins with, by the format: its sign, its version, and the sign of the part that is JSON."""
+WIDEST = np.pi / 2
+"""Largest outer angle of a spot, by the format."""
+
+
+def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
+    """Write rig.glb."""
+    calibration = content.calibration
+    nodes: list[dict[str, Any]] = [
+        {"name": "C: x right, y down, z forward", **_placed(HALF_TURN), "children": []},
+        {"name": "camera", **_placed(HALF_TURN), "camera": 0},
+    ]
+    inside = nodes[0]["children"]
+    inside.append(1)
+    if calibration.H_PC is not None:
+        name = "P: the tracked body" if calibration.carries == "camera" else "O: the room"
+        inside.append(len(nodes))
+        nodes.append({"name": name, **_placed(se3.inv(calibration.H_PC))})
+    spots: list[dict[str, Any]] = []
+    worst = 0.0
+    for light in calibration.lights:
+        cone, off = spot_of(light)
+        worst = max(worst, off)
+        inside.append(len(nodes))
+        nodes.append({"name": light.name, **_placed(_of_light(light) @ HALF_TURN), "extensions": {LIGHTS: {"light": len(spots)}}})
+        spots.append(_light(light, cone))
+    document: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": f"lpcal {__version__}", "extras": {"unit": "metre", "name": calibration.name}},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": nodes,
+        "cameras": [_camera(content)],
+    }
+    if spots:
+        document |= {"extensionsUsed": [LIGHTS], "extensions": {LIGHTS: {"lights": spots}}}
+    _write_glb(folder / "rig.glb", document)
+    said = ["the principal point and the distortion stand in the camera's extras: glTF's cameras have neither"]
+    said += [f"lobes become cones with a soft edge: up to {100 * worst:.2g} % of the axis's light off"] * (worst > 1e-6)
+    return said
+
+
+def _placed(H: Array) -> dict[str, Any]:
+    """A node's place; glTF has the quaternion as x y z w."""
+    return {"translation": plain(H[:3, 3]), "rotation": plain(se3.quaternion(H[:3, :3]))}
+
+
+def _of_light(light: Light) -> Array:
+    """H (4, 4) of a light with its source as origin and its axis as z; of a distant one at 1 m in its direction."""
+    axis = -light.direction_C if light.axis_C is None else light.axis_C
+    z = axis / np.linalg.norm(axis)
+    across = light.H_CL[:3, 0] if light.H_CL is not None else np.eye(3)[int(np.argmin(np.abs(z)))]
+    y = np.cross(z, across)
+    y /= np.linalg.norm(y)
+    place = light.direction_C if light.source_C is None else light.source_C
+    return se3.transform(np.stack([np.cross(y, z), y, z], axis=1), place)
+
+
+def spot_of(light: Light) -> tuple[tuple[float, float] | None, float]:
+    """Inner and outer angle, rad, of the cone nearest to a light's lobe, and how far it is off; None: the same to all sides."""
+    if light.source_C is None or light.lobe.kind == "isotropic":
+        return None, 0.0
+    angle = np.linspace(0, WIDEST * 0.999, 181)
+    wanted = round_lobe(light, angle)
+    weight = np.sqrt(np.sin(angle) + 1e-3)
+
+    def cone(unknowns: Array) -> Array:
+        inner, outer = unknowns[0] * unknowns[1], unknowns[1]
+        return np.clip((np.cos(angle) - np.cos(outer)) / max(np.cos(inner) - np.cos(outer), 1e-3), 0, 1) ** 2
+
+    def misses(unknowns: Array) -> Array:
+        return np.asarray(weight * (cone(unknowns) - wanted))
+
+    found = least_squares(misses, [0.1, 0.7], bounds=([0.0, 0.02], [0.999, WIDEST]))
+    return (float(found.x[0] * found.x[1]), float(found.x[1])), float(np.abs(cone(found.x) - wanted).max())
+
+
+def _light(light: Light, cone: tuple[float, float] | None) -> dict[str, Any]:
+    colour = rgb(light)
+    strongest = float(colour.max())
+    stored: dict[str, Any] = {"name": light.name, "color": plain(colour / strongest), "intensity": strongest}
+    if light.source_C is None:
+        return stored | {"type": "directional"}
+    if cone is None:
+        return stored | {"type": "point"}
+    return stored | {"type": "spot", "spot": {"innerConeAngle": cone[0], "outerConeAngle": cone[1]}}
+
+
+def _camera(content: ExchangeContent) -> dict[str, Any]:
+    camera = camera_of(content)
+    (width, height), K = camera.image_size, camera.K
+    lens = {"image_size": camera.image_size, "model": camera.model, "K": K, "distortion": camera.distortion}
+    return {
+        "type": "perspective",
+        "name": "camera",
+        "perspective": {
+            "yfov": float(2 * np.arctan(height / 2 / K[1, 1])),
+            "aspectRatio": float(width / K[0, 0] / (height / K[1, 1])),
+            "znear": 0.01,
+            "zfar": 100.0,
+        },
+        "extras": plain({**lens, "pixel centres": "whole numbers"}),
+    }
+
+
+def _write_glb(path: Path, document: dict[str, Any]) -> None:
+    text = json.dumps(plain(document)).encode()
+    text += b" " * (-len(text) % 4)
+    path.write_bytes(struct.pack("<IIIII", MAGIC, VERSION, 20 + len(text), len(text), JSON_CHUNK) + text)
