@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.chain.h_pc_handeye import observability
-from lpcal.chain.h_pc_handeye.likelihood import misfit
+from lpcal.chain.h_pc_handeye.likelihood import PoseUnknown, misfit
 from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
@@ -25,7 +25,7 @@ def held_out(state: SolveState) -> tuple[Array, Array]:
     rows = np.flatnonzero(state.inliers)
     angle, distance = np.full(len(state.inliers), np.nan), np.full(len(state.inliers), np.nan)
     found, views = state.estimate(), state.views()
-    at = found.solution.columns("H_PC", "H_OB")
+    at = found.solution.columns(PoseUnknown.H_PC, PoseUnknown.H_OB)
     folds = len(rows) if len(rows) <= ONE_BY_ONE else FOLDS
     for fold in range(folds):
         out = np.arange(len(rows)) % folds == fold

@@ -1,6 +1,6 @@
 r"""The maximum-likelihood hand-eye problem at given noise: corners, mocap poses and the camera's prior, all with their own errors.
 
-Unknown: H_PC, H_OB, the camera's parameters, the clock offset, and a latent panel pose H_OP,k a view, which is eliminated. With the
+PoseUnknown: H_PC, H_OB, the camera's parameters, the clock offset, and a latent panel pose H_OP,k a view, which is eliminated. With the
 measured pose H~_k, the velocity (w, v) of the panel and d = offset - offset_0::
 
     corner m of view k:   ( project( inv(H_OP,k H_PC) H_OB x_B,m ) - seen ) / sigma_px
@@ -23,6 +23,7 @@ errors in both sensors, for example Koide & Menegatti, General hand-eye calibrat
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cache
 from typing import Any
 
@@ -48,10 +49,44 @@ from lpcal.geometry.least_squares import (
 SCALE_SIGMA = 0.002
 """One standard deviation of the board's size by the mocap over its stated size, where the data show no more than that: a square measured
 over many with a ruler, and a mocap's metre by its wand, are each right to a tenth or two of a percent."""
-PRIORS = ("camera", "scale")
-"""Kinds of terms that no view has a part in."""
 CAMERA_SIZE = 12
 """fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6."""
+
+
+class PoseUnknown(StrEnum):
+    """A block of parameters that is solved for."""
+
+    H_PC = "H_PC"
+    """(1, 4, 4)."""
+    H_OB = "H_OB"
+    """(1, 4, 4)."""
+    H_OP = "H_OP"
+    """(N, 4, 4), a view each."""
+    CLOCK = "clock"
+    """(1, 1) what the clock offset is off by, seconds."""
+    SCALE = "scale"
+    """(1, 1) log of the board's size by the mocap over its stated size."""
+    CAMERA = "camera"
+    """(1, 12) the camera's parameters, as `CAMERA_SIZE` names them."""
+
+
+class Observed(StrEnum):
+    """A kind of observations, a term each."""
+
+    BOARD = "board"
+    """Board poses, where there are no corners."""
+    MOCAP = "mocap"
+    """The body's measured poses."""
+    CORNERS = "corners"
+    """The board's corners in the images."""
+    SCALE = "scale"
+    """The prior of the board's size."""
+    CAMERA = "camera"
+    """The prior of the camera's parameters."""
+
+
+PRIORS = (Observed.CAMERA, Observed.SCALE)
+"""Kinds of terms that no view has a part in."""
 
 
 @dataclass(frozen=True)
@@ -144,19 +179,19 @@ class HandEyeEstimate:
     scale: float
     """The board's size by the mocap over its stated size."""
     solution: Solution
-    order: tuple[str, ...]
+    order: tuple[Observed, ...]
     """Kinds of the solution's terms: corners | board, mocap, camera, scale."""
     sigmas: Sigmas
     """Those that it was weighted by."""
 
-    def term(self, kind: str) -> int:
+    def term(self, kind: Observed) -> int:
         """Place of a kind of term; -1 where there is none."""
         return self.order.index(kind) if kind in self.order else -1
 
-    def views_of(self, kind: str) -> npt.NDArray[np.intp]:
+    def views_of(self, kind: Observed) -> npt.NDArray[np.intp]:
         """The view (K,) of each observation of a kind of term that is no prior."""
         term = self.solution.terms[self.term(kind)]
-        return term.items(term.blocks.index("H_OP")) if "H_OP" in term.blocks else np.arange(term.count)
+        return term.items(term.blocks.index(PoseUnknown.H_OP)) if PoseUnknown.H_OP in term.blocks else np.arange(term.count)
 
     def of_views(self, chosen: Mask) -> list[Mask]:
         """Which observations (K,) of each term belong to chosen views (N,)."""
@@ -165,11 +200,11 @@ class HandEyeEstimate:
 
     def corner_residuals(self) -> tuple[Array, npt.NDArray[np.intp]]:
         """Residuals (K, 2) of the corners in pixels of the image, and the view (K,) of each; empty where there are no corners."""
-        place = self.term("corners")
+        place = self.term(Observed.CORNERS)
         if place < 0:
             return np.zeros((0, 2)), np.zeros(0, dtype=np.intp)
         term = self.solution.terms[place]
-        return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, self.views_of("corners")
+        return self.solution.residuals[place] * np.sqrt(np.asarray(term.weight)) * self.sigmas.px, self.views_of(Observed.CORNERS)
 
     def in_mocap_metres(self, H_CB: Array) -> Array:
         """Board poses (N, 4, 4) at the board's size as found."""
@@ -180,11 +215,11 @@ class HandEyeEstimate:
     @property
     def scale_std(self) -> float:
         """One standard deviation of the scale."""
-        return float(self.scale * np.sqrt(self.solution.covariance("scale")[0, 0]))
+        return float(self.scale * np.sqrt(self.solution.covariance(PoseUnknown.SCALE)[0, 0]))
 
     def covariance(self) -> Array:
         """(13, 13) of H_PC, H_OB (left perturbations) and the offset."""
-        return self.solution.covariance("H_PC", "H_OB", "clock")
+        return self.solution.covariance(PoseUnknown.H_PC, PoseUnknown.H_OB, PoseUnknown.CLOCK)
 
 
 def estimate(
@@ -206,31 +241,40 @@ def estimate(
     H_PC, H_OB = (start.H_PC, start.H_OB) if isinstance(start, HandEyeEstimate) else start
     earlier = start if isinstance(start, HandEyeEstimate) else None
     log_scale = Block(np.full((1, 1), 0.0 if earlier is None else np.log(earlier.scale)))
-    blocks = {"H_PC": Block(H_PC[None]), "H_OB": Block(H_OB[None]), "clock": Block(np.zeros((1, 1)), free=clock), "scale": log_scale}
-    of_scale = prior("scale", log_scale, np.zeros(1), np.array([[sigmas.log_scale**2]]))
+    blocks: dict[str, Block] = {
+        PoseUnknown.H_PC: Block(H_PC[None]),
+        PoseUnknown.H_OB: Block(H_OB[None]),
+        PoseUnknown.CLOCK: Block(np.zeros((1, 1)), free=clock),
+        PoseUnknown.SCALE: log_scale,
+    }
+    of_scale = prior(PoseUnknown.SCALE, log_scale, np.zeros(1), np.array([[sigmas.log_scale**2]]))
     if views.corners_px is None or camera is None:
-        return _estimate(solve(blocks, [_board_term(views, sigmas), of_scale], options=options), ("board", "scale"), sigmas)
-    same_views = earlier is not None and len(earlier.solution["H_OP"]) == views.count
-    blocks["H_OP"] = Block(earlier.solution["H_OP"] if earlier is not None and same_views else views.H_OP)
-    blocks["camera"] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
-    terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas), of_scale], ["mocap", "corners", "scale"]
+        return _estimate(solve(blocks, [_board_term(views, sigmas), of_scale], options=options), (Observed.BOARD, Observed.SCALE), sigmas)
+    same_views = earlier is not None and len(earlier.solution[PoseUnknown.H_OP]) == views.count
+    blocks[PoseUnknown.H_OP] = Block(earlier.solution[PoseUnknown.H_OP] if earlier is not None and same_views else views.H_OP)
+    blocks[PoseUnknown.CAMERA] = Block((camera.mean if earlier is None else earlier.camera)[None], free=camera.free[None])
+    terms, order = [_mocap_term(views, sigmas), _corner_term(views, sigmas), of_scale], [Observed.MOCAP, Observed.CORNERS, Observed.SCALE]
     if camera.free.any():
         terms.append(_camera_prior(camera))
-        order.append("camera")
-    return _estimate(solve(blocks, terms, eliminate="H_OP", options=options), tuple(order), sigmas)
+        order.append(Observed.CAMERA)
+    return _estimate(solve(blocks, terms, eliminate=PoseUnknown.H_OP, options=options), tuple(order), sigmas)
 
 
-def _estimate(found: Solution, order: tuple[str, ...], sigmas: Sigmas) -> HandEyeEstimate:
-    camera = found["camera"][0] if "camera" in found.blocks else np.zeros(CAMERA_SIZE)
-    clock, scale = float(found["clock"][0, 0]), float(np.exp(found["scale"][0, 0]))
-    return HandEyeEstimate(found["H_PC"][0], found["H_OB"][0], camera, clock, scale, found, order, sigmas)
+def _estimate(found: Solution, order: tuple[Observed, ...], sigmas: Sigmas) -> HandEyeEstimate:
+    camera = found[PoseUnknown.CAMERA][0] if PoseUnknown.CAMERA in found.blocks else np.zeros(CAMERA_SIZE)
+    clock, scale = float(found[PoseUnknown.CLOCK][0, 0]), float(np.exp(found[PoseUnknown.SCALE][0, 0]))
+    return HandEyeEstimate(found[PoseUnknown.H_PC][0], found[PoseUnknown.H_OB][0], camera, clock, scale, found, order, sigmas)
 
 
 def _mocap_term(views: Views, sigmas: Sigmas) -> Term:
     weight = views.mocap_sigmas(sigmas) ** -2 / views.deflation[:, None]
     data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity], axis=1)
     return Term(
-        _mocap_model_of_inverse() if views.inverse else _mocap_model(), ("H_OP", "clock"), (np.arange(views.count), 0), data, weight=weight
+        _mocap_model_of_inverse() if views.inverse else _mocap_model(),
+        (PoseUnknown.H_OP, PoseUnknown.CLOCK),
+        (np.arange(views.count), 0),
+        data,
+        weight=weight,
     )
 
 
@@ -241,7 +285,7 @@ def _corner_term(views: Views, sigmas: Sigmas) -> Term:
     scale = np.ones(len(view)) if views.corner_scale is None else views.corner_scale[view, corner]
     return Term(
         _corner_model(),
-        ("H_PC", "H_OB", "H_OP", "camera", "scale"),
+        (PoseUnknown.H_PC, PoseUnknown.H_OB, PoseUnknown.H_OP, PoseUnknown.CAMERA, PoseUnknown.SCALE),
         (0, 0, view, 0, 0),
         data,
         weight=np.repeat(scale[:, None] ** -2.0, 2, axis=1) / sigmas.px**2,
@@ -252,14 +296,16 @@ def _board_term(views: Views, sigmas: Sigmas) -> Term:
     s = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
     weight = np.array(s) ** -2.0 / views.deflation[:, None]
     data = np.concatenate([views.H_OP.reshape(-1, 16), views.velocity, views.H_CB.reshape(-1, 16)], axis=1)
-    return Term(_board_model(), ("H_PC", "H_OB", "clock", "scale"), (0, 0, 0, 0), data, weight=weight)
+    return Term(
+        _board_model(), (PoseUnknown.H_PC, PoseUnknown.H_OB, PoseUnknown.CLOCK, PoseUnknown.SCALE), (0, 0, 0, 0), data, weight=weight
+    )
 
 
 def _camera_prior(camera: CameraPrior) -> Term:
     """The prior of the free parameters; those that are held get a unit variance that never acts."""
     covariance = np.eye(CAMERA_SIZE)
     covariance[np.ix_(camera.free, camera.free)] = camera.covariance
-    return prior("camera", Block(camera.mean[None]), camera.mean, covariance)
+    return prior(PoseUnknown.CAMERA, Block(camera.mean[None]), camera.mean, covariance)
 
 
 @cache

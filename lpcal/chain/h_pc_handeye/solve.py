@@ -15,7 +15,7 @@ from lpcal.chain.h_pc_handeye import observability, set_up, variance
 from lpcal.chain.h_pc_handeye.clock import without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
-from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Views, estimate, misfit
+from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Observed, Views, estimate, misfit
 from lpcal.chain.h_pc_handeye.stamps import late_stamps
 from lpcal.chain.h_pc_handeye.start import start_moving, start_paired
 from lpcal.chain.h_pc_handeye.state import HandEyeOptions, SolveState
@@ -169,7 +169,7 @@ def _clock_unseen(found: HandEyeEstimate) -> bool:
 def _choose(state: SolveState, refused: Mask) -> tuple[Mask, Array | None]:
     """Views whose mocap pose fits within its noise, and the corners without gross ones; what was refused once is not taken in again."""
     found, views = state.estimate(), state.views()
-    kind = "mocap" if state.camera is not None else "board"
+    kind = Observed.MOCAP if state.camera is not None else Observed.BOARD
     place = found.term(kind)
     free = np.maximum(1 - found.solution.leverage(place), 0.02)
     sigma = variance.row_sigmas(views, state.sigmas, kind)

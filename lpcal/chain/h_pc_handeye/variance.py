@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, HandEyeEstimate, Sigmas, Views
+from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, HandEyeEstimate, Observed, PoseUnknown, Sigmas, Views
 from lpcal.errors import DegenerateError
 from lpcal.geometry.arrays import Array
 
@@ -42,7 +42,7 @@ FLOOR_PX = 1e-3
 def components(views: Views, found: HandEyeEstimate, sigmas: Sigmas, t_s: Array | None) -> Sigmas:
     """The sigmas that the residuals show, at the present weights; t_s (N,) are the times of the views, where they are known."""
     sigmas = replace(sigmas, log_scale=_scale_sigma(views, found, t_s))
-    if (place := found.term("board")) >= 0:
+    if (place := found.term(Observed.BOARD)) >= 0:
         r, free = found.solution.residuals[place], 1 - found.solution.leverage(place)
         return replace(
             sigmas,
@@ -50,7 +50,7 @@ def components(views: Views, found: HandEyeEstimate, sigmas: Sigmas, t_s: Array 
             board_lateral_m=_updated(sigmas.board_lateral_m, r[:, 3:5], free[:, 3:5]),
             board_depth_m=_updated(sigmas.board_depth_m, r[:, 5:], free[:, 5:]),
         )
-    place = found.term("mocap")
+    place = found.term(Observed.MOCAP)
     r, leverage = found.solution.residuals[place], found.solution.leverage(place)
     r = r if views.pose_variance is None else r / np.sqrt(views.pose_variance)
     free = 1 - leverage
@@ -75,9 +75,9 @@ def _scale_sigma(views: Views, found: HandEyeEstimate, t_s: Array | None) -> flo
     return float(np.sqrt(SCALE_SIGMA**2 + max(by_data**2 - chance, 0.0)))
 
 
-def row_sigmas(views: Views, sigmas: Sigmas, kind: str) -> Array:
+def row_sigmas(views: Views, sigmas: Sigmas, kind: Observed) -> Array:
     """One standard deviation (N, 6) of the rows of a term, mocap | board, of one view by itself."""
-    if kind == "board":
+    if kind is Observed.BOARD:
         row = [sigmas.board_rad] * 3 + [sigmas.board_lateral_m] * 2 + [sigmas.board_depth_m]
         return np.tile(np.array(row), (views.count, 1))
     return views.mocap_sigmas(sigmas)
@@ -93,7 +93,7 @@ def change(before: Sigmas, after: Sigmas) -> float:
 
 def deflation(views: Views, found: HandEyeEstimate, sigmas: Sigmas, t_s: Array) -> Array:
     """Factor (N,) on the mocap's variance of each view: the number of views that share its error, by the residuals' correlation."""
-    kind = "mocap" if found.term("mocap") >= 0 else "board"
+    kind = Observed.MOCAP if found.term(Observed.MOCAP) >= 0 else Observed.BOARD
     z = found.solution.residuals[found.term(kind)] / row_sigmas(views, sigmas, kind)
     gap = np.abs(t_s[:, None] - t_s[None])
     np.fill_diagonal(gap, np.inf)
@@ -120,7 +120,7 @@ def block_factor(views: Views, found: HandEyeEstimate, t_s: Array | None) -> flo
     so that white noise keeps its covariance.
     """
     solution = found.solution
-    at, formal = solution.columns("H_PC"), solution.covariance("H_PC")
+    at, formal = solution.columns(PoseUnknown.H_PC), solution.covariance(PoseUnknown.H_PC)
     place = np.argsort(np.argsort(t_s)) if t_s is not None else np.arange(views.count)
     factor = 1.0
     for number in BLOCKS:

@@ -36,6 +36,8 @@ FEWEST_CORNERS = 6
 """Corners of a view below which mrcal estimates no pose of it: it raises a class that cannot be named outside."""
 SPLINE_PX = 60
 """About so many pixels between the knots of a splined lens."""
+RMS = "rms_reproj_error__pixels"
+"""The name under which mrcal's optimiser gives the rms of its residuals, pixels."""
 
 
 @dataclass
@@ -128,7 +130,7 @@ def _start(problem: CornerProblem) -> Inputs:
             inputs.intrinsics, inputs.rt_ref_frame = core, rt_CB
             mrcal.optimize(**vars(inputs))
             inputs.do_optimize_intrinsics_core = True
-            error = mrcal.optimize(**vars(inputs))["rms_reproj_error__pixels"]
+            error = mrcal.optimize(**vars(inputs))[RMS]
         except (ConvergenceError, RuntimeError, ValueError, np.linalg.LinAlgError):
             continue
         if error < best[0] and np.all(inputs.intrinsics[0, :2] > 0):

@@ -24,6 +24,7 @@ import numpy as np
 from lpcal.chain.refine_lights import residuals
 from lpcal.chain.refine_lights.free_camera import ray_slope
 from lpcal.chain.refine_lights.measure import CentreMeasurement, local_projection
+from lpcal.chain.refine_lights.unknowns import LightUnknown as Unknown
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3, sphere
 from lpcal.geometry.arrays import Array, Index
@@ -118,36 +119,38 @@ class _Problem:
         return sorted({wing.leds or 0 for wing in self.wings.wings}) if self.wings else []
 
     def blocks(self) -> dict[str, Block]:
-        blocks = {
-            "centre": Block(np.array([m.centre_C for m in self.measured])),
-            "bias": Block(np.array([[BIAS_PX[kind][0]] for kind in KINDS])),
+        blocks: dict[str, Block] = {
+            Unknown.CENTRE: Block(np.array([m.centre_C for m in self.measured])),
+            Unknown.BIAS: Block(np.array([[BIAS_PX[kind][0]] for kind in KINDS])),
         }
         if self.wings is not None:
-            blocks["H_CD"] = Block(self.wings.H_CD[None])
-            blocks["setting"] = Block(settings_of(self.wings))
-            blocks["offset"] = Block(np.full((len(self.modes), 1), SOURCE_OFFSET_M))
+            blocks[Unknown.H_CD] = Block(self.wings.H_CD[None])
+            blocks[Unknown.SETTING] = Block(settings_of(self.wings))
+            blocks[Unknown.OFFSET] = Block(np.full((len(self.modes), 1), SOURCE_OFFSET_M))
         if self.core:
-            blocks["core"] = Block(np.zeros((1, self.core)))
+            blocks[Unknown.CORE] = Block(np.zeros((1, self.core)))
         if self.free:
-            blocks["source"] = Block(np.array([start_of_free_light(light, self.views, self.measured, self.camera) for light in self.free]))
+            blocks[Unknown.SOURCE] = Block(
+                np.array([start_of_free_light(light, self.views, self.measured, self.camera) for light in self.free])
+            )
         return blocks
 
     def terms(self) -> list[Term]:
         blocks = self.blocks()
         bias = np.array([BIAS_PX[kind] for kind in KINDS])
-        terms = [self._outlines(), independent_prior("bias", bias[:, :1], bias[:, 1:])]
+        terms = [self._outlines(), independent_prior(Unknown.BIAS, bias[:, :1], bias[:, 1:])]
         if self.wings is not None:
             offset = np.full((len(self.modes), 1), SOURCE_OFFSET_M)
             terms += [
-                prior("H_CD", blocks["H_CD"], self.wings.H_CD, self.wings.H_CD_covariance),
-                independent_prior("setting", settings_of(self.wings), self.wings.setting_sigma),
-                independent_prior("offset", offset, np.array([SOURCE_OFFSET_SIGMA_M])),
+                prior(Unknown.H_CD, blocks[Unknown.H_CD], self.wings.H_CD, self.wings.H_CD_covariance),
+                independent_prior(Unknown.SETTING, settings_of(self.wings), self.wings.setting_sigma),
+                independent_prior(Unknown.OFFSET, offset, np.array([SOURCE_OFFSET_SIGMA_M])),
             ]
         if self.core:
             assert self.camera.covariance is not None
-            terms.append(prior("core", blocks["core"], np.zeros(self.core), self.camera.covariance))
+            terms.append(prior(Unknown.CORE, blocks[Unknown.CORE], np.zeros(self.core), self.camera.covariance))
         if self.free:
-            terms.append(independent_prior("source", blocks["source"].value, np.array([FREE_SIGMA_M] * 3)))
+            terms.append(independent_prior(Unknown.SOURCE, blocks[Unknown.SOURCE].value, np.array([FREE_SIGMA_M] * 3)))
         terms += [term for term in (self._wing_highlights(), self._free_highlights()) if term is not None]
         return terms
 
@@ -166,7 +169,11 @@ class _Problem:
         mode = np.array([self.modes.index(self.wings.wings[k].leds or 0) for k in row])
         which = np.array([s for s, _ in seen])
         return self._highlights(
-            residuals.wing_highlight, ("H_CD", "setting", "offset", "centre"), (POSE, 4, 1, 3), (0, row, mode, which), seen
+            residuals.wing_highlight,
+            (Unknown.H_CD, Unknown.SETTING, Unknown.OFFSET, Unknown.CENTRE),
+            (POSE, 4, 1, 3),
+            (0, row, mode, which),
+            seen,
         )
 
     def _free_highlights(self) -> Term | None:
@@ -174,7 +181,7 @@ class _Problem:
         if not seen:
             return None
         row, which = np.array([self.free.index(light) for _, light in seen]), np.array([s for s, _ in seen])
-        return self._highlights(residuals.free_highlight, ("source", "centre"), (3, 3), (row, which), seen)
+        return self._highlights(residuals.free_highlight, (Unknown.SOURCE, Unknown.CENTRE), (3, 3), (row, which), seen)
 
     def _highlights(
         self,
@@ -186,58 +193,61 @@ class _Problem:
     ) -> Term:
         data = highlight_data(self.views, seen, self.camera, core=self.core > 0)
         model = compile_residual(residual, (*sizes, *with_free_core(self.core)), data.shape[1])
-        return Term(model, (*names, *["core"] * (self.core > 0)), (*index, *[0] * (self.core > 0)), data, robust=ROBUST, group=2)
+        return Term(model, (*names, *[Unknown.CORE] * (self.core > 0)), (*index, *[0] * (self.core > 0)), data, robust=ROBUST, group=2)
 
     def result(self, solution: Solution) -> GeometryFit:
-        names = [name for name in ("H_CD", "setting", "offset", "source", "centre") if name in solution.blocks]
+        names = [
+            name for name in (Unknown.H_CD, Unknown.SETTING, Unknown.OFFSET, Unknown.SOURCE, Unknown.CENTRE) if name in solution.blocks
+        ]
         covariance = solution.covariance(*names)
-        start = dict(
-            zip(names, np.cumsum([0, *(solution.blocks[name].count * solution.blocks[name].size for name in names)]), strict=False)
-        )
-        by_source, by_frame, source_C, H_CL = [], [], [], []
-        for light in self.lights:
-            J_source, J_frame = np.zeros((3, len(covariance))), np.full((6, len(covariance)), np.nan)
-            if light in self.rows:
-                k = self.rows[light]
-                leds = self.wings.wings[k].leds if self.wings else None
-                mode = self.modes.index(leds or 0)
-                H_CD, setting, offset = solution["H_CD"][0], solution["setting"][k], float(solution["offset"][mode, 0])
-                J_frame = np.zeros((6, len(covariance)))
-                J_frame[:, start["H_CD"] : start["H_CD"] + 6] = np.eye(6)
-                J_frame[:, start["setting"] + 4 * k : start["setting"] + 4 * k + 4] = se3.adjoint(H_CD) @ wing_jacobian(setting)
-                H = H_CD @ wing_transform(setting)
-                x = H[:3, 3] + offset * H[:3, 2]
-                J_source = se3.point_jacobian(x) @ J_frame
-                J_source[:, start["offset"] + mode] = H[:3, 2]
-            else:
-                k = self.free.index(light)
-                H, x = np.full((4, 4), np.nan), solution["source"][k]
-                J_source[:, start["source"] + 3 * k : start["source"] + 3 * k + 3] = np.eye(3)
-            source_C.append(x)
-            H_CL.append(H)
-            by_source.append(J_source)
-            by_frame.append(J_frame @ covariance @ J_frame.T)
+        ends = np.cumsum([0, *(solution.blocks[name].count * solution.blocks[name].size for name in names)])
+        start = dict(zip(names, ends, strict=False))
+        of_lights = [self._light(light, solution, start, len(covariance)) for light in self.lights]
+        source_C, H_CL, by_source, by_frame = (list(parts) for parts in zip(*of_lights, strict=True))
         J = np.concatenate(by_source)
-        centre_block = covariance[start["centre"] :, start["centre"] :]
+        centre_block = covariance[start[Unknown.CENTRE] :, start[Unknown.CENTRE] :]
+        wings = self.wings is not None
         return GeometryFit(
             lights=self.lights,
             wing_of=tuple(self.rows.get(light) for light in self.lights),
             source_C=np.array(source_C),
             source_covariance=J @ covariance @ J.T,
             H_CL=np.array(H_CL),
-            frame_covariance=np.array(by_frame),
-            settings=solution["setting"] if "setting" in names else np.zeros((0, 4)),
-            settings_std=np.sqrt(np.diag(solution.covariance("setting"))).reshape(-1, 4) if "setting" in names else np.zeros((0, 4)),
-            H_CD=solution["H_CD"][0] if "H_CD" in names else None,
-            H_CD_covariance=solution.covariance("H_CD") if "H_CD" in names else None,
-            core=solution["core"][0] if self.core else np.zeros(0),
-            source_offset_m={mode: float(solution["offset"][k, 0]) for k, mode in enumerate(self.modes)},
-            centres_C=solution["centre"],
+            frame_covariance=np.array([J_frame @ covariance @ J_frame.T for J_frame in by_frame]),
+            settings=solution[Unknown.SETTING] if wings else np.zeros((0, 4)),
+            settings_std=np.sqrt(np.diag(solution.covariance(Unknown.SETTING))).reshape(-1, 4) if wings else np.zeros((0, 4)),
+            H_CD=solution[Unknown.H_CD][0] if wings else None,
+            H_CD_covariance=solution.covariance(Unknown.H_CD) if wings else None,
+            core=solution[Unknown.CORE][0] if self.core else np.zeros(0),
+            source_offset_m={mode: float(solution[Unknown.OFFSET][k, 0]) for k, mode in enumerate(self.modes)},
+            centres_C=solution[Unknown.CENTRE],
             centres_sigma_m=np.sqrt(np.diag(centre_block).reshape(-1, 3).mean(axis=1)),
-            bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
-            highlight_px=self._misses(np.array(source_C), solution["centre"]),
+            bias_px={kind: float(solution[Unknown.BIAS][k, 0]) for k, kind in enumerate(KINDS)},
+            highlight_px=self._misses(np.array(source_C), solution[Unknown.CENTRE]),
             cost=solution.cost,
         )
+
+    def _light(self, light: str, solution: Solution, start: dict[Unknown, int], width: int) -> tuple[Array, Array, Array, Array]:
+        """Source (3,) and frame (4, 4) of a light, and their derivatives (3, width), (6, width) by the unknowns that start so."""
+        J_source, J_frame = np.zeros((3, width)), np.full((6, width), np.nan)
+        if light not in self.rows:
+            k = self.free.index(light)
+            first = start[Unknown.SOURCE] + 3 * k
+            J_source[:, first : first + 3] = np.eye(3)
+            return solution[Unknown.SOURCE][k], np.full((4, 4), np.nan), J_source, J_frame
+        assert self.wings is not None
+        k = self.rows[light]
+        mode = self.modes.index(self.wings.wings[k].leds or 0)
+        H_CD, setting, offset = solution[Unknown.H_CD][0], solution[Unknown.SETTING][k], float(solution[Unknown.OFFSET][mode, 0])
+        disc, first = start[Unknown.H_CD], start[Unknown.SETTING] + 4 * k
+        J_frame = np.zeros((6, width))
+        J_frame[:, disc : disc + 6] = np.eye(6)
+        J_frame[:, first : first + 4] = se3.adjoint(H_CD) @ wing_jacobian(setting)
+        H_CL: Array = H_CD @ wing_transform(setting)
+        source_C = H_CL[:3, 3] + offset * H_CL[:3, 2]
+        J_source = se3.point_jacobian(source_C) @ J_frame
+        J_source[:, start[Unknown.OFFSET] + mode] = H_CL[:3, 2]
+        return source_C, H_CL, J_source, J_frame
 
     def _misses(self, source_C: Array, centres_C: Array) -> dict[tuple[str, str], float]:
         misses = {}
@@ -259,7 +269,7 @@ def outline_term(measured: Sequence[CentreMeasurement], kinds: Index) -> Term:
     rows = [[m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel(), m.by_core.ravel()] for m in measured]
     data, core = np.array([np.concatenate(row) for row in rows]), measured[0].by_core.shape[1]
     model = compile_residual(residuals.outline, (3, 1, *with_free_core(core)), data.shape[1])
-    return Term(model, ("centre", "bias", *["core"] * (core > 0)), (np.arange(len(data)), kinds, *[0] * (core > 0)), data)
+    return Term(model, (Unknown.CENTRE, Unknown.BIAS, *[Unknown.CORE] * (core > 0)), (np.arange(len(data)), kinds, *[0] * (core > 0)), data)
 
 
 def start_of_free_light(light: str, views: Sequence[SphereView], measured: Sequence[CentreMeasurement], camera: Camera) -> Array:

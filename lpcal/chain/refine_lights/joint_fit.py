@@ -17,6 +17,8 @@ from lpcal.chain.refine_lights.led_fit import Cluster
 from lpcal.chain.refine_lights.measure import CentreMeasurement
 from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, ShadingFit
+from lpcal.chain.refine_lights.unknowns import LightUnknown as Unknown
+from lpcal.chain.refine_lights.unknowns import leds_of
 from lpcal.chain.refine_lights.volume import volume_points
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.arrays import Array, Index
@@ -85,14 +87,14 @@ def fit_jointly(
     """Solve roughly, from some of the blocks; with all, curved as under the lights found so; with the LEDs' scatter that this shows."""
     problem = _Problem(tuple(start.lights), tuple(views), tuple(measured), camera, wings, intensity_sd)
     few = samples.some(samples.block % FIRST_SHARE == 0)
-    blocks = problem.start(start, first, samples) | {"delta": _deltas(few)}
-    rough = solve(blocks, problem.terms(blocks, few), eliminate="delta", options=SolverOptions(iterations=100, tolerance=1e-3))
-    samples = sample_blocks(views, rough["centre"], camera, problem.lights_of(dict(rough.blocks)))
-    blocks = dict(rough.blocks) | {"delta": _deltas(samples)}
+    blocks = problem.start(start, first, samples) | {Unknown.DELTA: _deltas(few)}
+    rough = solve(blocks, problem.terms(blocks, few), eliminate=Unknown.DELTA, options=SolverOptions(iterations=100, tolerance=1e-3))
+    samples = sample_blocks(views, rough[Unknown.CENTRE], camera, problem.lights_of(dict(rough.blocks)))
+    blocks = dict(rough.blocks) | {Unknown.DELTA: _deltas(samples)}
     options = SolverOptions(iterations=100, tolerance=1e-5)
-    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)
+    solution = solve(blocks, problem.terms(blocks, samples), eliminate=Unknown.DELTA, options=options)
     problem, blocks = replace(problem, scatter=problem.scatter_seen(solution)), dict(solution.blocks)
-    solution = solve(blocks, problem.terms(blocks, samples), eliminate="delta", options=options)
+    solution = solve(blocks, problem.terms(blocks, samples), eliminate=Unknown.DELTA, options=options)
     return problem.result(solution, focus_C)
 
 
@@ -143,40 +145,42 @@ class _Problem:
         domes = [[fit.source_offset_m.get(mode, led_fit.DOME_M[0]), led_fit.DOME_M[1]] for mode in self.modes]
         # with the LEDs' sum normalised on the axis the lobe's own level is 1, but for the LEDs' distance
         blocks = {
-            "H_CD": Block(fit.H_CD[None]),
-            "setting": Block(fit.settings),
-            "dome": Block(np.array(domes)),
-            "roll": Block(np.array(rolls)),
-            "intensity": Block(np.log(first.intensity.mean(axis=1))[:, None]),
-            "albedo": Block(np.array([[first.log_albedo.get(s, 0.0)] for s in range(len(self.views))])),
-            "centre": Block(fit.centres_C),
-            "bias": Block(np.array([[fit.bias_px[kind]] for kind in KINDS])),
+            Unknown.H_CD: Block(fit.H_CD[None]),
+            Unknown.SETTING: Block(fit.settings),
+            Unknown.DOME: Block(np.array(domes)),
+            Unknown.ROLL: Block(np.array(rolls)),
+            Unknown.INTENSITY: Block(np.log(first.intensity.mean(axis=1))[:, None]),
+            Unknown.ALBEDO: Block(np.array([[first.log_albedo.get(s, 0.0)] for s in range(len(self.views))])),
+            Unknown.CENTRE: Block(fit.centres_C),
+            Unknown.BIAS: Block(np.array([[fit.bias_px[kind]] for kind in KINDS])),
         }
-        blocks |= {"core": Block(fit.core[None])} if self.core else {}
-        return blocks | {f"led{mode}": Block(np.zeros((len(self.names), 3 * mode))) for mode in self.modes}
+        blocks |= {Unknown.CORE: Block(fit.core[None])} if self.core else {}
+        return blocks | {leds_of(mode): Block(np.zeros((len(self.names), 3 * mode))) for mode in self.modes}
 
     def terms(self, blocks: dict[str, Block], samples: Samples) -> list[Term]:
         """Observations and priors."""
         count, wings = len(self.names), self.wings
         kinds = np.array([KINDS.index(view.kind) for view in self.views])
         terms = [
-            prior("H_CD", blocks["H_CD"], wings.H_CD, wings.H_CD_covariance),
-            independent_prior("setting", settings_of(wings), wings.setting_sigma),
-            independent_prior("dome", np.tile(led_fit.DOME_M, (len(self.modes), 1)), led_fit.DOME_SIGMA_M),
-            independent_prior("roll", blocks["roll"].value, np.array([1.0])),
-            independent_prior("intensity", np.zeros((count, 1)), np.array([self.intensity_sd])),
-            independent_prior("albedo", blocks["albedo"].value, np.array([ALBEDO_SD])),
-            independent_prior("delta", np.zeros_like(blocks["delta"].value), np.array([TEXTURE_SD])),
-            independent_prior("bias", np.array([[BIAS_PX[kind][0]] for kind in KINDS]), np.array([[BIAS_PX[kind][1]] for kind in KINDS])),
+            prior(Unknown.H_CD, blocks[Unknown.H_CD], wings.H_CD, wings.H_CD_covariance),
+            independent_prior(Unknown.SETTING, settings_of(wings), wings.setting_sigma),
+            independent_prior(Unknown.DOME, np.tile(led_fit.DOME_M, (len(self.modes), 1)), led_fit.DOME_SIGMA_M),
+            independent_prior(Unknown.ROLL, blocks[Unknown.ROLL].value, np.array([1.0])),
+            independent_prior(Unknown.INTENSITY, np.zeros((count, 1)), np.array([self.intensity_sd])),
+            independent_prior(Unknown.ALBEDO, blocks[Unknown.ALBEDO].value, np.array([ALBEDO_SD])),
+            independent_prior(Unknown.DELTA, np.zeros_like(blocks[Unknown.DELTA].value), np.array([TEXTURE_SD])),
+            independent_prior(
+                Unknown.BIAS, np.array([[BIAS_PX[kind][0]] for kind in KINDS]), np.array([[BIAS_PX[kind][1]] for kind in KINDS])
+            ),
             outline_term(self.measured, kinds),
         ]
         if self.core:
             assert self.camera.covariance is not None
-            terms.append(prior("core", blocks["core"], np.zeros(self.core), self.camera.covariance))
+            terms.append(prior(Unknown.CORE, blocks[Unknown.CORE], np.zeros(self.core), self.camera.covariance))
         for mode in self.modes:
             cluster, rows = Cluster(mode), [k for k, leds in enumerate(self.leds) if leds == mode]
             mean, covariance = led_fit.led_prior(count, mode, self.scatter)
-            terms.append(independent_prior(f"led{mode}", mean, np.sqrt(np.diag(covariance))))
+            terms.append(independent_prior(leds_of(mode), mean, np.sqrt(np.diag(covariance))))
             terms += [term for term in (self._highlights(cluster, rows), self._shading(cluster, rows, samples)) if term is not None]
         return terms
 
@@ -187,8 +191,8 @@ class _Problem:
             squares, known = SCATTER_WEIGHT, SCATTER_WEIGHT
             for mode in self.modes:
                 sd = np.sqrt(np.diag(led_fit.led_prior(1, mode)[1]))
-                z = solution[f"led{mode}"] / sd
-                variance = np.diag(solution.covariance(f"led{mode}")).reshape(z.shape) / sd**2
+                z = solution[leds_of(mode)] / sd
+                variance = np.diag(solution.covariance(leds_of(mode))).reshape(z.shape) / sd**2
                 squares += float(np.sum(z.reshape(-1, 3)[:, places] ** 2))
                 known += float(np.sum(1 - variance.reshape(-1, 3)[:, places]))
             found.append(float(np.sqrt(squares / known)))
@@ -228,11 +232,11 @@ class _Problem:
 
     def _light(self, k: int, blocks: dict[str, Block]) -> Light:
         leds, H_CL = self._leds(k, blocks), self._frame(k, blocks)
-        source_L = np.array([0.0, 0.0, blocks["dome"].value[self.mode[k], 0]])
+        source_L = np.array([0.0, 0.0, blocks[Unknown.DOME].value[self.mode[k], 0]])
         return Light(
             name=self.names[k],
             direction_C=-H_CL[:3, 2],
-            intensity=np.exp(blocks["intensity"].value[k]),
+            intensity=np.exp(blocks[Unknown.INTENSITY].value[k]),
             H_CL=H_CL,
             source_C=se3.apply(H_CL, source_L[None])[0],
             axis_C=H_CL[:3, 2],
@@ -243,26 +247,26 @@ class _Problem:
         """The solution as lights, with the standard deviations that it gives."""
         blocks = dict(solution.blocks)
         lights = [self._with_direction(k, blocks, focus_C) for k in range(len(self.names))]
-        parts = ["H_CD", "setting", "dome", "roll", "intensity", *(f"led{mode}" for mode in self.modes)]
+        parts = [Unknown.H_CD, Unknown.SETTING, Unknown.DOME, Unknown.ROLL, Unknown.INTENSITY, *(leds_of(mode) for mode in self.modes)]
         covariance = solution.covariance(*parts)
         J = self._derivatives(blocks, parts, volume_points(focus_C))
         place, source, field = J[:, :3], J[:, 3:6].reshape(-1, J.shape[2]), J[:, 6:].reshape(len(self.names), -1, 4, J.shape[2])
         turn, level = field[:, :, :3], field[:, :, 3] - field[:, :, 3].mean(axis=(0, 1))
-        shading_terms = [place_ for place_, term in enumerate(solution.terms) if "delta" in term.blocks and len(term.blocks) > 1]
+        shading_terms = [place_ for place_, term in enumerate(solution.terms) if Unknown.DELTA in term.blocks and len(term.blocks) > 1]
         left = np.concatenate([solution.residuals[t][:, 0] / solution.terms[t].data[:, 5] for t in shading_terms])
         which = np.concatenate([solution.terms[t].items(7) for t in shading_terms])
         return JointFit(
             lights=tuple(lights),
-            H_CD=solution["H_CD"][0],
-            H_CD_covariance=solution.covariance("H_CD"),
-            core=solution["core"][0] if self.core else np.zeros(0),
-            settings=solution["setting"],
-            settings_std=np.sqrt(np.diag(solution.covariance("setting"))).reshape(-1, 4),
+            H_CD=solution[Unknown.H_CD][0],
+            H_CD_covariance=solution.covariance(Unknown.H_CD),
+            core=solution[Unknown.CORE][0] if self.core else np.zeros(0),
+            settings=solution[Unknown.SETTING],
+            settings_std=np.sqrt(np.diag(solution.covariance(Unknown.SETTING))).reshape(-1, 4),
             cost=solution.cost,
-            centres_C=solution["centre"],
-            bias_px={kind: float(solution["bias"][k, 0]) for k, kind in enumerate(KINDS)},
-            dome_m={mode: solution["dome"][k].tolist() for k, mode in enumerate(self.modes)},
-            highlight_px=self._misses(lights, solution["centre"]),
+            centres_C=solution[Unknown.CENTRE],
+            bias_px={kind: float(solution[Unknown.BIAS][k, 0]) for k, kind in enumerate(KINDS)},
+            dome_m={mode: solution[Unknown.DOME][k].tolist() for k, mode in enumerate(self.modes)},
+            highlight_px=self._misses(lights, solution[Unknown.CENTRE]),
             shading={self.views[s].name: float(np.sqrt(np.mean(left[which == s] ** 2))) for s in np.unique(which)},
             position_std_m=np.sqrt(np.einsum("kij,jl,kil->k", place, covariance, place) / 3),
             direction_std_rad=np.sqrt(_mean_variance(turn, covariance).sum(axis=1) / 2),
@@ -285,7 +289,14 @@ class _Problem:
         J = np.zeros((len(self.names), 6 + 4 * len(points_C), sum(blocks[name].count * blocks[name].size for name in parts)))
         for k, leds in enumerate(self.leds):
             now = self._figures(k, blocks, points_C)
-            own = {"H_CD": 0, "setting": self.wing[k], "dome": self.mode[k], "roll": k, "intensity": k, f"led{leds}": k}
+            own = {
+                Unknown.H_CD: 0,
+                Unknown.SETTING: self.wing[k],
+                Unknown.DOME: self.mode[k],
+                Unknown.ROLL: k,
+                Unknown.INTENSITY: k,
+                leds_of(leds): k,
+            }
             for name, item in own.items():
                 block = blocks[name]
                 for axis in range(block.size):
@@ -300,18 +311,18 @@ class _Problem:
         H_CL, leds = self._frame(k, blocks), self._leds(k, blocks)
         x_L = se3.apply(se3.inv(H_CL), points_C)
         d_L, irradiance = led_cluster.cluster_field(x_L, leds.position_L, leds.axis_L, leds.power, leds.exponent)
-        level = np.log(irradiance) + blocks["intensity"].value[k]
-        middle_C = H_CL[:3, 3] + blocks["dome"].value[self.mode[k], 0] * H_CL[:3, 2]
+        level = np.log(irradiance) + blocks[Unknown.INTENSITY].value[k]
+        middle_C = H_CL[:3, 3] + blocks[Unknown.DOME].value[self.mode[k], 0] * H_CL[:3, 2]
         return np.concatenate([H_CL[:3, 3], middle_C, np.column_stack([se3.rotate(H_CL, d_L), level]).ravel()])
 
     def _frame(self, k: int, blocks: dict[str, Block]) -> Array:
-        H_CL: Array = blocks["H_CD"].value[0] @ wing_transform(blocks["setting"].value[self.wing[k]])
+        H_CL: Array = blocks[Unknown.H_CD].value[0] @ wing_transform(blocks[Unknown.SETTING].value[self.wing[k]])
         return H_CL
 
     def _leds(self, k: int, blocks: dict[str, Block]) -> LedCluster:
         mode = self.leds[k]
-        dome, led = blocks["dome"].value[self.mode[k]], blocks[f"led{mode}"].value[k]
-        return _cluster_of(Cluster(mode), dome, float(blocks["roll"].value[k, 0]), led)
+        dome, led = blocks[Unknown.DOME].value[self.mode[k]], blocks[leds_of(mode)].value[k]
+        return _cluster_of(Cluster(mode), dome, float(blocks[Unknown.ROLL].value[k, 0]), led)
 
     def _misses(self, lights: Sequence[Light], centres_C: Array) -> dict[tuple[str, str], float]:
         misses = {}

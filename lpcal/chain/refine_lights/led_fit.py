@@ -22,6 +22,8 @@ import numpy as np
 
 from lpcal.chain.refine_lights import residuals
 from lpcal.chain.refine_lights.geometry_fit import with_free_core
+from lpcal.chain.refine_lights.unknowns import LightUnknown as Unknown
+from lpcal.chain.refine_lights.unknowns import leds_of
 from lpcal.geometry import led_cluster
 from lpcal.geometry.arrays import Array, Index
 from lpcal.geometry.least_squares import POSE, Model, Term, compile_residual
@@ -79,7 +81,7 @@ def highlights(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: 
     """Chrome highlights: `where` rows of the light, its wing, its mode, and the sphere; data as in `residuals.wing_highlight`."""
     light, wing, mode, centre = where
     more = core > 0
-    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "centre", *["core"] * more)
+    blocks = (Unknown.H_CD, Unknown.SETTING, Unknown.DOME, Unknown.ROLL, leds_of(cluster.leds), Unknown.CENTRE, *[Unknown.CORE] * more)
     items: tuple[Index | int, ...] = (0, wing, mode, light, light, centre, *[0] * more)
     return Term(_highlight_model(cluster, core, data.shape[1]), blocks, items, data, robust=robust, group=2)
 
@@ -107,7 +109,18 @@ def shading(cluster: Cluster, where: tuple[Index, ...], data: Array, robust: flo
     """
     light, wing, mode, centre, albedo, block = where
     more = core > 0
-    blocks = ("H_CD", "setting", "dome", "roll", f"led{cluster.leds}", "intensity", "albedo", "centre", "delta", *["core"] * more)
+    blocks = (
+        Unknown.H_CD,
+        Unknown.SETTING,
+        Unknown.DOME,
+        Unknown.ROLL,
+        leds_of(cluster.leds),
+        Unknown.INTENSITY,
+        Unknown.ALBEDO,
+        Unknown.CENTRE,
+        Unknown.DELTA,
+        *[Unknown.CORE] * more,
+    )
     items: tuple[Index | int, ...] = (0, wing, mode, light, light, light, albedo, centre, block, *[0] * more)
     return Term(_shading_model(cluster, core, data.shape[1]), blocks, items, data, robust=robust)
 
