@@ -9,6 +9,7 @@ from lpcal.formats import (
     export_meshroom,
     export_poses,
     export_rig_glb,
+    export_rti,
     export_surfaces,
     import_diligent,
     import_directions,
@@ -213,6 +214,33 @@ WHOLE = (
         export_rig_glb.write_rig_glb,
     ),
 )
+RTI = "the images themselves, places and lobes, camera, normals, depth"
+RELIGHTABLE = (
+    ExchangeFormat(
+        "ptm",
+        "RTI as PTM 1.2, relight.ptm",
+        ("lights", "capture"),
+        "each pixel as a polynomial of the light's direction, 6 terms in 8 bit, display-encoded",
+        RTI,
+        export_rti.write_ptm,
+    ),
+    ExchangeFormat(
+        "hsh",
+        "RTI as hemispherical harmonics, relight.rti",
+        ("lights", "capture"),
+        "each pixel as 4 or 9 harmonics of the light's direction, in 8 bit, display-encoded",
+        RTI,
+        export_rti.write_hsh,
+    ),
+    ExchangeFormat(
+        "openlime",
+        "RelightLab and OpenLIME folder, relight/info.json",
+        ("lights", "capture"),
+        "the same harmonics, as JPEGs",
+        RTI,
+        export_rti.write_openlime,
+    ),
+)
 SURFACE_LOST = "standard deviations, pieces, alternatives"
 SURFACES = (
     ExchangeFormat(
@@ -258,5 +286,5 @@ SURFACES = (
         export_surfaces.write_normals,
     ),
 )
-OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE, *SURFACES)
+OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE, *RELIGHTABLE, *SURFACES)
 """lpcal's own formats, in the order of `lpcal export --list`."""

@@ -157,12 +157,12 @@ def write_diligent(content: ExchangeContent, folder: Path) -> list[str]:
     vectors, said = directions_up(content)
     (target / "filenames.txt").write_text("".join(f"{name}\n" for name in file_names(content)), encoding="utf-8")
     power = np.array([rgb(light) for light in content.calibration.lights])
-    for name, rows in {"light_directions.txt": vectors, "light_intensities.txt": power * _fall_off(content)[:, None]}.items():
+    for name, rows in {"light_directions.txt": vectors, "light_intensities.txt": power * arriving(content)[:, None]}.items():
         (target / name).write_text("".join(" ".join(number(v) for v in row) + "\n" for row in rows), encoding="utf-8")
     return [*said, *_images(content, target)]
 
 
-def _fall_off(content: ExchangeContent) -> Array:
+def arriving(content: ExchangeContent) -> Array:
     """How much of each light (L,) arrives at the working point, relative: near lights by distance and lobe."""
     point_C, _ = reference_C(content)
     arrives = [

@@ -1,0 +1,136 @@
+"""RTI of a drawn dome: the files as their formats' readers decode them, relit in directions that they were not made from."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from lpcal.api.exchange import export_content
+from lpcal.errors import DegenerateError
+from lpcal.geometry.relightable import hsh_basis
+from lpcal.records.calibration import Calibration, Light
+from lpcal.records.exchange import ExchangeContent, LinearImages
+from lpcal.records.provenance import Provenance
+
+HEIGHT, WIDTH = 54, 72
+GAMMA = 2.2
+
+
+def dome(count: int, lowest: float = 0.35) -> np.ndarray:
+    """Directions (count, 3), u right, v up, w to the camera, all over a dome."""
+    k = np.arange(count) + 0.5
+    w = 1 - (1 - lowest) * k / count
+    around, r = np.pi * (1 + 5**0.5) * k, np.sqrt(1 - w**2)
+    return np.stack([r * np.cos(around), r * np.sin(around), w], axis=1)
+
+
+def scene() -> tuple[np.ndarray, np.ndarray]:
+    """Normals (H, W, 3), u right, v up, w to the camera, of a relief with a ball in it, and where the ball is."""
+    x, y = np.meshgrid(np.linspace(-1.3, 1.3, WIDTH), np.linspace(1, -1, HEIGHT))
+    r2 = (x**2 + y**2) / 0.4
+    ball = r2 < 0.9
+    round_ = np.stack([x / 0.4**0.5, y / 0.4**0.5, np.sqrt(np.maximum(1 - r2, 0.1))], axis=-1)
+    relief = np.stack([-0.4 * np.sin(9 * x), -0.3 * np.cos(7 * y + x), np.ones_like(x)], axis=-1)
+    found = np.where(ball[..., None], round_, relief)
+    return found / np.linalg.norm(found, axis=-1, keepdims=True), ball
+
+
+def lit(direction: np.ndarray) -> np.ndarray:
+    """Linear image (H, W, 3): matte, a little gloss, three colours."""
+    normals, _ = scene()
+    halfway = direction + np.array([0, 0, 1.0])
+    halfway /= np.linalg.norm(halfway)
+    matte, gloss = np.clip(normals @ direction, 0, None), np.clip(normals @ halfway, 0, None) ** 20
+    return 0.6 * matte[..., None] * [1.0, 0.8, 0.5] + 0.05 * gloss[..., None] * (matte > 0)[..., None]
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    directions = dome(48)
+    lights = tuple(Light(f"L{k:02d}", d * [1, -1, -1], np.ones(1)) for k, d in enumerate(directions))
+    images = np.stack([lit(d) for d in directions]).astype(np.float32)
+    content = ExchangeContent(Calibration("dome", lights), None, LinearImages("relief", tuple(light.name for light in lights), images))
+    folder = tmp_path_factory.mktemp("rti")
+    found = export_content(folder, content, ["ptm", "hsh", "openlime"], Provenance())
+    white = max(np.percentile(image, 99.8) for image in images)
+    return folder, {one.format: one.notes for one in found}, white
+
+
+def decoded_ptm(path: Path, direction: np.ndarray) -> np.ndarray:
+    """What a PTM viewer shows (H, W, 3), by the format's own description."""
+    version, kind, width, height, scale, bias, body = path.read_bytes().split(b"\n", 6)
+    assert (version, kind, int(width), int(height)) == (b"PTM_1.2", b"PTM_FORMAT_RGB", WIDTH, HEIGHT)
+    scale, bias = np.array(scale.split(), float), np.array(bias.split(), int)
+    stored = np.frombuffer(body, np.uint8).reshape(3, HEIGHT, WIDTH, 6)[:, ::-1]
+    u, v, _ = direction
+    return np.moveaxis(((stored.astype(float) - bias) * scale) @ [u * u, v * v, u * v, u, v, 1], 0, -1) / 255
+
+
+def decoded_hsh(path: Path, direction: np.ndarray) -> np.ndarray:
+    """What RTIViewer shows (H, W, 3)."""
+    mark, kind, size, terms, body = path.read_bytes().split(b"\n", 4)
+    assert (mark, kind) == (b"#HSH1.2", b"3")
+    assert size.split() == [str(WIDTH).encode(), str(HEIGHT).encode(), b"3"]
+    count = int(terms.split()[0])
+    scale, bias = np.frombuffer(body[: 8 * count], "<f4").reshape(2, count)
+    stored = np.frombuffer(body[8 * count :], np.uint8).reshape(HEIGHT, WIDTH, 3, count)
+    return (stored / 255 * scale + bias) @ hsh_basis(direction[None], count)[0]
+
+
+def decoded_openlime(folder: Path, direction: np.ndarray) -> np.ndarray:
+    """What OpenLIME's shader computes (H, W, 3)."""
+    said = json.loads((folder / "info.json").read_text())
+    count = said["nplanes"] // 3
+    assert (said["type"], said["colorspace"], said["width"], said["height"]) == ("hsh", "rgb", WIDTH, HEIGHT)
+    scale, bias = (np.array(said["materials"][0][key]).reshape(count, 3) for key in ("scale", "bias"))
+    weight = hsh_basis(direction[None], count)[0]
+    planes = [cv2.imread(str(folder / f"plane_{k}.jpg"))[..., ::-1] / 255 for k in range(count)]
+    return sum(weight[k] * (planes[k] - bias[k]) * scale[k] for k in range(count))
+
+
+READERS = {
+    "ptm": (lambda folder, d: decoded_ptm(folder / "relight.ptm", d), 0.03, 0.065),
+    "hsh": (lambda folder, d: decoded_hsh(folder / "relight.rti", d), 0.016, 0.05),
+    "openlime": (lambda folder, d: decoded_openlime(folder / "relight", d), 0.016, 0.05),
+}
+"""By format: its reader, and the rms that it may miss a held-out image by, on the relief and on the ball, as a share of full scale."""
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_relit_from_directions_that_it_was_not_made_from(exported, name):
+    folder, notes, white = exported
+    decode, on_relief, on_ball = READERS[name]
+    _, ball = scene()
+    off = []
+    for direction in dome(13, 0.45):
+        shown = np.clip(lit(direction) / white, 0, 1) ** (1 / GAMMA)
+        off.append(np.clip(decode(folder, direction), 0, 1) - shown)
+    relief, round_ = (float(np.sqrt(np.mean(np.array(off)[:, where] ** 2))) for where in (~ball, ball))
+    assert relief < on_relief
+    assert round_ < on_ball
+    said = float(re.search(r"held out to ([0-9.]+) %", notes[name][-1])[1]) / 100
+    assert 0.5 * said < np.sqrt(np.mean(np.array(off) ** 2)) < 1.3 * said, "what is said of it holds for other directions too"
+
+
+def test_up_is_up_and_right_is_right(exported):
+    folder, _, _ = exported
+    for decode, *_ in READERS.values():
+        for direction, brighter, darker in (
+            ([0, 0.7, 0.714], np.s_[8:20, 30:42], np.s_[36:46, 30:42]),
+            ([0.7, 0, 0.714], np.s_[22:32, 42:50], np.s_[22:32, 22:30]),
+        ):
+            shown = decode(folder, np.array(direction))
+            assert shown[brighter].mean() > 1.3 * shown[darker].mean()
+
+
+def test_too_few_lights_are_refused(tmp_path):
+    lights = tuple(Light(f"L{k}", d * [1, -1, -1], np.ones(1)) for k, d in enumerate(dome(5)))
+    images = np.stack([lit(d) for d in dome(5)]).astype(np.float32)
+    content = ExchangeContent(Calibration("few", lights), None, LinearImages("few", tuple(one.name for one in lights), images))
+    with pytest.raises(DegenerateError, match="5 lights"):
+        export_content(tmp_path, content, ["ptm"], Provenance())
