@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 
 LOWEST_RAD = 0.15
 """Elevation below which the harmonics take a light as standing there, radians: as OpenLIME does, for they bend hard at the horizon."""
@@ -62,7 +62,7 @@ class RelightFit:
     """(L,) rms of each image, predicted by all others, as a share of full scale."""
 
 
-def fit(basis: Array, images: Image, inside: Array | None = None) -> RelightFit:
+def fit(basis: Array, images: Image, inside: Mask | None = None) -> RelightFit:
     """Fit a basis (L, K) to images (L, H, W, C), 0..1; `inside` (H, W) says which pixels the held-out error counts."""
     normal = basis.T @ basis
     normal += RIDGE * np.trace(normal) / len(normal) * np.eye(len(normal))
@@ -70,7 +70,7 @@ def fit(basis: Array, images: Image, inside: Array | None = None) -> RelightFit:
     leverage = np.clip(np.einsum("lk,kl->l", basis, smoother), 0.0, 1 - 1e-6)
     flat = images.reshape(len(images), -1)
     coefficients = (smoother @ flat).astype(np.float32)
-    counted = np.ones(images.shape[1:], bool) if inside is None else np.broadcast_to(inside[..., None] > 0, images.shape[1:])
+    counted = np.ones(images.shape[1:], bool) if inside is None else np.broadcast_to(inside[..., None], images.shape[1:])
     missed = []
     for k, row in enumerate(flat):
         predicted = row - (row - basis[k] @ coefficients) / (1 - leverage[k])
