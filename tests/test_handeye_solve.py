@@ -70,12 +70,15 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("off", [0.0, 0.015, -0.02])
-def test_the_covariance_holds_whatever_the_square_is_stated(off):
+def test_the_covariance_holds_whatever_the_square_is_stated():
+    """Over many sessions by chance alone; and of one session nothing but the unit hangs on the square that is stated."""
     sessions = [static_session(np.random.default_rng(seed), 30) for seed in range(60)]
-    found = [_static(with_square_stated(session, 1 / (1 + off))) for session in sessions]
-    nees = [_nees(session.H_PC, one.H_PC, one.H_PC_covariance) for session, one in zip(sessions, found, strict=True)]
+    nees = [_nees(session.H_PC, one.H_PC, one.H_PC_covariance) for session in sessions if (one := _static(session))]
     assert np.mean(nees) == pytest.approx(6.3, abs=1.5)
+    for session, as_it_is in zip(sessions[:8], nees, strict=False):
+        for off in (0.015, -0.02):
+            found = _static(with_square_stated(session, 1 / (1 + off)))
+            assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) == pytest.approx(as_it_is, abs=1.0)
 
 
 def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
@@ -120,11 +123,11 @@ def test_a_view_at_the_edge_of_a_run_that_settling_loses():
 @pytest.mark.slow
 def test_drifting_noise_does_not_make_it_sure_of_itself():
     nees = []
-    for seed in range(30):
+    for seed in range(8):
         session = moving_session(np.random.default_rng(seed), 150, Noise(drift=0.6))
         found = _moving(session)
         nees.append(_nees(session.H_PC, found.H_PC, found.H_PC_covariance))
-    assert np.mean(nees) < 12
+    assert np.mean(nees) < 12  # white noise gives 6, and 0.9 of chance over eight sessions
 
 
 def test_camera_error_is_refined_away():
