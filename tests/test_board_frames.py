@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from board_sheets import BOARDLESS, DARK, LIGHT, bright_noise, cap, carpet, seen, sheet
-from lpcal.detect.board import count_corners, find_board
-from lpcal.detect.board_absent import hardly_any_contrast
+from lpcal.detect.board import count_corners, find_board, hardly_any_contrast
 from lpcal.records.observations import Board
 
 BOARD = Board((9, 6), (0.025, 0.025))

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from handeye_scene import Noise, stop_and_shoot
-from lpcal.chain.h_op_dwells import match_rests, rests_of
-from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_op_panel import match_rests, rests_of, track_of
 from lpcal.errors import DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3

@@ -79,7 +79,7 @@ UNTYPED = re.compile(r"(dict|Mapping)\[str, (object|Any)\]")
 TYPED_ROOMS = ("chain", "surface", "report", "records")
 PAGE_DATA = {
     "report/scene.py": 2,
-    "report/relight_pack.py": 1,
+    "report/relight_page.py": 1,
     "report/watch_page.py": 1,
     "records/outcome.py": 1,
     "records/provenance.py": 1,
@@ -163,7 +163,7 @@ def test_reconstruct_imports_only_what_it_uses() -> None:
     assert "numpy" not in used
     program = (
         "import importlib, pkgutil, sys, lpcal.surface\n"
-        "import lpcal.pipeline.reconstruct, lpcal.formats.surface_files, lpcal.report.relight_pack\n"
+        "import lpcal.pipeline.reconstruct, lpcal.formats.surface_files, lpcal.report.relight_page\n"
         "[importlib.import_module(one.name) for one in pkgutil.iter_modules(lpcal.surface.__path__, 'lpcal.surface.')]\n"
         "print(*{name.partition('.')[0] for name in sys.modules})"
     )

@@ -15,7 +15,7 @@ from PIL import Image
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import read_image
-from lpcal.pipeline.board_search import search
+from lpcal.pipeline.intrinsics import search
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.observations import Board
 from lpcal.records.rig import Rig, RigFile

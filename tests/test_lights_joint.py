@@ -10,7 +10,7 @@ from lpcal.chain.h_pl_wings import camera_in_disc, design_lights, share_correcti
 from lpcal.chain.refine_lights.free_camera import ray_slope, with_core
 from lpcal.chain.refine_lights.geometry_fit import GeometryFit, fit_geometry
 from lpcal.chain.refine_lights.measure import measure_centre
-from lpcal.chain.refine_lights.next_sphere import advise, mean_direction_std
+from lpcal.chain.refine_lights.refine import advise, mean_direction_std
 from lpcal.chain.refine_lights.samples import Samples
 from lpcal.chain.refine_lights.shading import fit_shading
 from lpcal.geometry import se3

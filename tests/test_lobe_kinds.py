@@ -12,7 +12,7 @@ import pytest
 import lpcal
 from lpcal.geometry.light_field import FORMULAS
 from lpcal.records.calibration import Lobe
-from lpcal.report.light_sections import lights_section
+from lpcal.report.page import lights_section
 from lpcal.report.scene import half_angle
 from report_rig import documents, report_of
 

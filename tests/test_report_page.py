@@ -13,8 +13,7 @@ from lpcal.records.calibration import Lobe
 from lpcal.records.evidence import CameraEvidence, ChosenModel, TriedModel
 from lpcal.report import charts
 from lpcal.report.chain_sections import camera_section, handeye_section, lens_choice
-from lpcal.report.light_sections import lights_section, sphere_disagreement, spheres_section
-from lpcal.report.page import render
+from lpcal.report.page import lights_section, render, sphere_disagreement, spheres_section
 from lpcal.report.pictures import png, shrink
 from lpcal.report.rig_report import origin_sigmas
 from lpcal.report.scene import half_angle, rig_scene, room_scene

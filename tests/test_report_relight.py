@@ -16,7 +16,7 @@ import pytest
 from lpcal.geometry import camera as central
 from lpcal.records.calibration import Calibration, Light, Lobe
 from lpcal.records.surface import Surface
-from lpcal.report import relight_pack
+from lpcal.report import relight_page
 from lpcal.report.page import render as render_report
 from lpcal.report.relight_page import render
 from report_rig import documents, read, report_of, surface
@@ -149,7 +149,7 @@ def unpacked(data: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize("colour", [True, False])
 def test_what_is_packed_comes_out_again(perspective: bool, colour: bool) -> None:
     whole = ball(perspective=perspective, colour=colour)
-    data = relight_pack.pack(whole, None)
+    data = relight_page.pack(whole, None)
     json.dumps(data, allow_nan=False)
     found, window = unpacked(data), np.s_[data["origin"][1] :, data["origin"][0] :]
     window = tuple(slice(part.start, part.start + size) for part, size in zip(window, found["mask"].shape, strict=True))
@@ -170,16 +170,16 @@ def test_what_is_packed_comes_out_again(perspective: bool, colour: bool) -> None
 def test_normals_that_look_away_survive_the_packing() -> None:
     whole = ball(perspective=True)
     away = whole.normals * np.array([1, 1, -1], np.float32)
-    data = relight_pack.pack(Surface(**{**vars(whole), "normals": away}), None)
+    data = relight_page.pack(Surface(**{**vars(whole), "normals": away}), None)
     found = unpacked(data)
     window = tuple(slice(start, start + size) for start, size in zip(data["origin"][::-1], found["mask"].shape, strict=True))
     np.testing.assert_allclose(found["normals"][found["mask"]], away[window][found["mask"]], atol=2e-4)
 
 
 def test_a_large_surface_is_averaged_down(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(relight_pack, "MOST_PIXELS", 4000)
+    monkeypatch.setattr(relight_page, "MOST_PIXELS", 4000)
     whole = ball(perspective=True)
-    data = relight_pack.pack(whole, None)
+    data = relight_page.pack(whole, None)
     assert data["step"] > 1
     assert data["width"] * data["height"] <= 4000 * 1.1
     found, step = unpacked(data), data["step"]
@@ -198,9 +198,9 @@ def test_a_surface_without_pixels_makes_a_page() -> None:
 
 
 def test_near_lights_are_distant_where_there_is_no_camera() -> None:
-    packed = relight_pack.pack(ball(perspective=False), lights(near=True))["lights"]
+    packed = relight_page.pack(ball(perspective=False), lights(near=True))["lights"]
     assert [light["source"] for light in packed] == [None] * 3
-    packed = relight_pack.pack(ball(perspective=True), lights(near=True))["lights"]
+    packed = relight_page.pack(ball(perspective=True), lights(near=True))["lights"]
     assert all(light["source"] is not None and light["lobe"][0] == pytest.approx(1) for light in packed)
 
 
@@ -242,7 +242,7 @@ def shown(canvas: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
 
 def lambert(whole: Surface, canvas: dict[str, Any], light: Light) -> np.ndarray:
     """What a canvas should show of a surface under one light, up to a factor: albedo E n.d at its own pixels; NaN outside."""
-    data = relight_pack.pack(whole, None)
+    data = relight_page.pack(whole, None)
     scale = min(0.84 * canvas["width"] / data["width"], 0.84 * canvas["height"] / data["height"])
     left, top = (canvas["width"] - scale * data["width"]) / 2, (canvas["height"] - scale * data["height"]) / 2
     rows, columns = (np.arange(0, canvas[key], canvas["step"]) + 0.5 for key in ("height", "width"))

@@ -7,11 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from lpcal.simulate import interreflection
-from lpcal.simulate.interreflection import ThrownLight, gather, thrown
+from lpcal.simulate import picture
 from lpcal.simulate.leds import LedLight
 from lpcal.simulate.lens import Lens
-from lpcal.simulate.picture import render
+from lpcal.simulate.picture import ThrownLight, gather, render, thrown
 from lpcal.simulate.scene import DrawnScene, Points, direct
 from lpcal.simulate.shapes import SHAPES, Shape, grain, sphere
 
@@ -73,7 +72,7 @@ def test_the_share_of_rays_is_the_form_factor_of_a_rectangle():
 
 
 def test_one_bounce_in_a_corner_is_the_integral_over_the_other_plate(monkeypatch):
-    monkeypatch.setattr(interreflection, "BOUNCES", 1)
+    monkeypatch.setattr(picture, "BOUNCES", 1)
     scene = before_wall(corner(0.6), lamp((0.02, -0.03, 0.1)))
     y_m, x_m = (one.ravel() for one in np.meshgrid(np.linspace(0.008, 0.05, 12), np.linspace(-0.03, 0.03, 12)))
     nodes = on_back(scene, y_m, x_m)
@@ -105,7 +104,7 @@ def test_an_integrating_sphere_keeps_its_energy(albedo):
     walls = Points(RADIUS_M * n + scene.H_CS[:3, 3], -n, np.full(len(n), albedo), np.ones(len(n), bool))
     found = thrown(scene, walls).J[:, 0]
     once = albedo / np.pi / RADIUS_M**2
-    assert found.mean() == pytest.approx(once * (1 - albedo**interreflection.BOUNCES) / (1 - albedo), rel=0.01)
+    assert found.mean() == pytest.approx(once * (1 - albedo**picture.BOUNCES) / (1 - albedo), rel=0.01)
     assert found.mean() < 1.005 * once / (1 - albedo)
     assert found.std() / found.mean() < 0.03
 

@@ -17,9 +17,9 @@ from lpcal.geometry import se3
 from lpcal.pipeline.simulate import simulate
 from lpcal.records.outcome import silent
 from lpcal.simulate.built import working_distance
+from lpcal.simulate.captures import mirror_point
 from lpcal.simulate.leds import ring_directions
 from lpcal.simulate.lens import Lens
-from lpcal.simulate.mirror import mirror_point
 from lpcal.simulate.rays import blocked, cast
 from lpcal.simulate.recipe import Recipe, SensorRecipe
 from lpcal.simulate.sensor import Response, splat

@@ -9,8 +9,8 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, room_light, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.surface import room_light as room
 from lpcal.surface import sight, without_ambient
+from lpcal.surface import without_ambient as room
 from lpcal.surface.reconstruct import Options, reconstruct
 
 LIT = Scene(centre=(0.004, -0.003, 0.36), room=0.25)

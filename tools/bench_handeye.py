@@ -210,7 +210,7 @@ READ_AND_DETECT = """
 from pathlib import Path
 from lpcal.formats.mocap import read_mocap
 from lpcal.formats.panel_yaml import read_rig
-from lpcal.pipeline.board_search import search
+from lpcal.pipeline.intrinsics import search
 from lpcal.pipeline.intrinsics import board_of, camera_images
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.outcome import silent

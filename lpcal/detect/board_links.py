@@ -13,7 +13,7 @@ from collections import deque
 import numpy as np
 
 from lpcal.detect.board_grid import extended
-from lpcal.detect.saddle_points import SaddlePoints, likeness, saddle_points
+from lpcal.detect.saddle import SaddlePoints, likeness, saddle_points
 from lpcal.geometry.arrays import Array, Labels, Mask
 
 NEIGHBOURS = 14

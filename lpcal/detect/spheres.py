@@ -9,10 +9,9 @@ from functools import partial
 import numpy as np
 
 from lpcal.detect import sphere_checks, sphere_outline, sphere_start
+from lpcal.detect.sphere_checks import chrome_likeness, matte_likeness, refuse_curved
 from lpcal.detect.sphere_highlights import Highlight, find_highlight, without_lamps
-from lpcal.detect.sphere_likeness import chrome_likeness, matte_likeness
 from lpcal.detect.sphere_outline import Outline
-from lpcal.detect.sphere_response import refuse_curved
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array, Image, Mask

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.chain.h_op_body import body_of
-from lpcal.chain.h_op_dwells import match_rests, rests_of
-from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_op_panel import match_rests, rests_of, track_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb

@@ -2,6 +2,12 @@
 
 Without a camera, or with distant lights, the light does not tell the distance: parallel rays give a depth in pixels about zero, a camera
 one about the distance that is given or designed.
+
+Normals of a depth: the cross product of its slopes along rows and columns, taken where the surface does not break.
+
+Where to begin when nothing says how far away the object is: the distance of a flat front at which near light explains the images best.
+
+At each distance of a sweep every pixel has a normal and an albedo of its own; what is left over is the light's word on the distance.
 """
 
 from __future__ import annotations
@@ -14,7 +20,7 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
@@ -22,7 +28,6 @@ from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface import (
     bands,
     basins,
-    bend,
     gains,
     mask,
     normals,
@@ -31,7 +36,6 @@ from lpcal.surface import (
     rounds,
     shadow_anchor,
     sight,
-    start,
     surroundings,
     uncertainty,
     without_ambient,
@@ -94,7 +98,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     near = options.near and central and any(light.source_C is not None for light in lights)
     begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else None)
     if begin is None:
-        begin = start.distance_m(maps, rays_C, lights, _given(radiance, options)) if near else DISTANCE_M
+        begin = distance_m(maps, rays_C, lights, _given(radiance, options)) if near else DISTANCE_M
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not gains.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
@@ -214,7 +218,7 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, foun
     label = pieces.pieces(grid, state.weight, seen.mask)
     albedo = _albedo(radiance, scene, state)
     whole = state.weight > pieces.BREAK_WEIGHT
-    of_depth = bend.normals_of(grid, seen.shape_C(depth), whole)
+    of_depth = normals_of(grid, seen.shape_C(depth), whole)
     of_depth = np.where(np.isfinite(of_depth), of_depth, state.normals)
     clues = uncertainty.clues(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole)
     sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
@@ -302,3 +306,46 @@ def _figures(state: State) -> SurfaceFigures:
         reflectance=state.reflectance,
         residual_sigmas_rms=float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     )
+
+
+def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
+    """Normals (P, 3) of points (P, 3) of a grid's pixels, turned towards the camera; NaN where no slope is known both ways."""
+    count = len(points_C)
+    slopes = []
+    for edges in (grid.horizontal & whole, ~grid.horizontal & whole):
+        a, b = grid.a[edges], grid.b[edges]
+        chord = points_C[b] - points_C[a]
+        number = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)
+        total = np.stack([np.bincount(a, column, count) + np.bincount(b, column, count) for column in chord.T], axis=1)
+        slopes.append(np.where(number[:, None] > 0, total / np.maximum(number, 1)[:, None], np.nan))
+    normal = -np.cross(slopes[0], slopes[1])
+    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+
+
+SPAN = (0.5, 40.0)
+"""Of the lights' spread: where the object is looked for. Nearer, lights graze it; farther, they are all alike."""
+STEPS = 27
+"""Distances of the sweep, each 18 per cent beyond the last: the rounds find the rest from there."""
+PIXELS = 600
+"""Pixels that are asked, evenly over the object."""
+BRIGHT = 0.2
+"""Of the image's 99th percentile: pixels brighter than this under some light are asked where no mask is given."""
+
+
+def distance_m(maps: sight.Grey, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:
+    """The distance along the camera's axis at which the signals fit best, by pixels of the mask, else by bright ones."""
+    sources_C = np.stack([light.source_C for light in lights if light.source_C is not None])
+    spread = float(np.sqrt(np.mean(np.sum((sources_C - sources_C.mean(axis=0)) ** 2, axis=1))))
+    sweep = max(float(sources_C[:, 2].mean()), 0.0) + spread * np.geomspace(*SPAN, STEPS)
+    brightest = maps.signal.max(axis=0)
+    asked = brightest > BRIGHT * np.percentile(brightest, 99) if mask is None or not mask.any() else mask
+    seen = sight.look_at(maps, rays_C, asked, central=True)
+    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(PIXELS, seen.pixels)).astype(int)))
+    cost = []
+    for z in sweep:
+        d, E = sight.light_vectors(lights, some.points_C(np.full(some.pixels, z)))
+        B = d * E[..., None]
+        usable = some.usable & (E > 0)
+        found = normals.estimate(some, B, normals.candidates(some, E), normals.variances(some))
+        cost.append(normals.misfit(some, B, usable, found))
+    return float(sweep[int(np.argmin(cost))])
