@@ -11,10 +11,10 @@ import pytest
 from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain.k_camera import patterns, solve_camera
 from lpcal.chain.k_camera.assess import assess, information, mean_sigma, ray_slope
+from lpcal.chain.k_camera.bundle import refit
 from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
 from lpcal.chain.k_camera.next_view import TILTS, _information_of, _pose, advise
 from lpcal.chain.k_camera.problem import CameraFit, CornerProblem
-from lpcal.chain.k_camera.refit import refit
 from lpcal.chain.k_camera.shape import BOARDS, shape_terms
 from lpcal.detect.board import find_board, refine
 from lpcal.detect.saddle import fit_saddles

@@ -11,11 +11,10 @@ import pytest
 from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from lpcal.chain import k_camera
 from lpcal.chain.h_cb_board import fit_board_pose
-from lpcal.chain.k_camera.bundle import lens_jacobian
+from lpcal.chain.k_camera.bundle import find_shape, lens_jacobian
+from lpcal.chain.k_camera.bundle import solve_from_opencv as solve_own
 from lpcal.chain.k_camera.choice import cross_validate
 from lpcal.chain.k_camera.problem import CornerProblem
-from lpcal.chain.k_camera.refit import find_shape
-from lpcal.chain.k_camera.refit import solve_from_opencv as solve_own
 from lpcal.detect.board import find_board
 from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry import camera as central

@@ -80,7 +80,7 @@ TYPED_ROOMS = ("chain", "surface", "report", "records")
 PAGE_DATA = {
     "report/scene.py": 2,
     "report/relight_page.py": 1,
-    "report/watch_page.py": 1,
+    "report/side_pages.py": 1,
     "records/outcome.py": 1,
     "records/provenance.py": 1,
     "records/sensor.py": 3,

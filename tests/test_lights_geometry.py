@@ -10,9 +10,9 @@ from scipy.optimize import minimize
 
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights
 from lpcal.chain.refine_lights import as_designed, refine
-from lpcal.chain.refine_lights.clicks import fit_with_clicks
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, fit_geometry
 from lpcal.chain.refine_lights.measure import measure_centre, outline_errors
+from lpcal.chain.refine_lights.swaps import fit_with_clicks
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import led_cluster, se3, sphere
 from lpcal.geometry.wing import d_object, wing_jacobian, wing_transform

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lpcal.detect.linearity import fit_sweep, refuse_contradiction
+from lpcal.detect.exposures import fit_sweep, refuse_contradiction
 from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DegenerateError, DisagreementError
 

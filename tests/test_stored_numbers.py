@@ -15,7 +15,7 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import InputError
 from lpcal.formats.capture import read_capture
 from lpcal.formats.full_scale import full_scale
-from lpcal.formats.tone_claims import tone_claim
+from lpcal.formats.images import tone_claim
 from lpcal.geometry.tone_curve import decode, encode, worded
 from lpcal.records.quantities import parse_gamma
 

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from lpcal.simulate.study_sphere import Conditions, capture, ring
+from lpcal.simulate.captures import Conditions, capture, ring
 
 
 def write(folder: Path, order: list[int], signs: tuple[int, int, int] = (1, 1, 1)) -> None:

@@ -31,8 +31,8 @@ from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from board_sheets import BOARDLESS, seen, sheet
 from lpcal.chain.k_camera import solve_camera
 from lpcal.chain.k_camera.assess import assess, information, ray_slope
+from lpcal.chain.k_camera.bundle import refit
 from lpcal.chain.k_camera.problem import CornerProblem
-from lpcal.chain.k_camera.refit import refit
 from lpcal.detect.board import find_board
 from lpcal.formats.images import read_image
 from lpcal.geometry import camera as central

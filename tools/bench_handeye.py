@@ -251,7 +251,7 @@ def write_rig(folder: Path) -> None:
     """Sixty images of a board, and the recording of ten minutes that they were taken in."""
     import cv2
 
-    from lpcal.formats.mocap_motive_write import write_motive
+    from lpcal.formats.mocap_motive import write_motive
 
     folder.mkdir(parents=True, exist_ok=True)
     session, _ = stop_and_shoot(np.random.default_rng(1), 60, dwell_s=4.0, move_s=6.0, hz=240.0)

@@ -31,8 +31,8 @@ from light_errors import HEADER, Errors, errors_of, rms, table_row
 from light_rigs import CACHE, REPOSITORY, Drawn, drawn, exact, first_of
 from lpcal.api.sensor import sensor_of_camera
 from lpcal.chain.refine_lights import refine
-from lpcal.chain.refine_lights.clicks import fit_with_clicks
 from lpcal.chain.refine_lights.measure import measure_centre
+from lpcal.chain.refine_lights.swaps import fit_with_clicks
 from lpcal.detect.radiometry import to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.formats.camera_yaml import read_camera

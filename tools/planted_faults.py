@@ -38,7 +38,7 @@ from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.lights_yaml import read_lights
 from lpcal.geometry import se3
-from lpcal.simulate.study_sphere import Conditions, capture, ring
+from lpcal.simulate.captures import Conditions, capture, ring
 from planted_kinds import FAULTS, Fault, Truth, true_H_PC
 
 CACHE = Path(tempfile.gettempdir()) / "lpcal_planted_faults"

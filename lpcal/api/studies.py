@@ -21,7 +21,7 @@ from lpcal.records import screens
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import Sensor
 from lpcal.records.shown import Shown
-from lpcal.simulate.study_sphere import Conditions, capture, ring
+from lpcal.simulate.captures import Conditions, capture, ring
 from lpcal.surface import normals, pieces, sight
 from lpcal.surface.integrate import Grid
 

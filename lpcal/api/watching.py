@@ -12,8 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from lpcal.detect.board import find_board
-from lpcal.detect.board_glance import glance
+from lpcal.detect.board import find_board, glance
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board
 

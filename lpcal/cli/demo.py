@@ -15,6 +15,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Calibrate, reconstruct, compare with the truth."""
-    from lpcal.pipeline.demo import demo
+    from lpcal.pipeline.run import demo
 
     return demo(options.folder, progress)

@@ -25,6 +25,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Compare them."""
-    from lpcal.pipeline.evaluate import evaluate_files
+    from lpcal.pipeline.diff import evaluate_files
 
     return evaluate_files(options.surface, options.truth, options.mask)

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Do it."""
     from lpcal.cli.reconstruct import length
-    from lpcal.pipeline.integrate import integrate_file
+    from lpcal.pipeline.reconstruct import integrate_file
 
     target = options.output or Path("surfaces") / options.normals.stem
     distance_m = length(options.distance)

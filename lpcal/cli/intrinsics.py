@@ -35,7 +35,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     if options.compare is not None:
         if options.images:
             raise UsageError("--compare takes no images", todo="run lpcal intrinsics IMAGES first, then --compare OTHER")
-        from lpcal.pipeline.compare_cameras import compare
+        from lpcal.pipeline.diff import compare
 
         return compare(open_workspace(options), options.compare)
     from lpcal.pipeline import intrinsics

@@ -28,9 +28,9 @@ from lpcal.pipeline.reconstruct import MASK_WORDS, Task, Wishes, line_of, panel_
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress, silent
-from lpcal.report.collection_page import MARK, Row, render
 from lpcal.report.page import data_uri
 from lpcal.report.pictures import png, shaded, shrink
+from lpcal.report.side_pages import COLLECTION_MARK, Row, collection_html
 
 logger = logging.getLogger("lpcal")
 BUG = 1
@@ -211,7 +211,7 @@ class Table:
 
 
 CSV = marked("a table of surfaces", ",".join(COLUMNS))
-PAGE = marked("a page of surfaces", MARK)
+PAGE = marked("a page of surfaces", COLLECTION_MARK)
 COLLECTION = Table()
 
 
@@ -229,7 +229,7 @@ def write_collection(root: Path, found: Sequence[tuple[Task, str, dict[str, Any]
     table.writerow(COLUMNS)
     table.writerows([_written(getattr(row, column)) for column in COLUMNS] for row in rows)
     write_text(root / COLLECTION.csv, text.getvalue(), CSV)
-    write_text(root / COLLECTION.page, render(root.resolve().name, rows), PAGE)
+    write_text(root / COLLECTION.page, collection_html(root.resolve().name, rows), PAGE)
     return root / COLLECTION.page
 
 

@@ -1,9 +1,13 @@
-"""Captures to surfaces: which captures, which calibration, where to, and what summary.json says."""
+"""Captures to surfaces: which captures, which calibration, where to, and what summary.json says.
+
+A normal map from elsewhere to a depth and a mesh.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
+import re
 import sys
 import time
 from collections.abc import Iterable
@@ -16,16 +20,20 @@ from typing import Any
 from lpcal import __version__
 from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
 from lpcal.api.surface_notes import distance_said
-from lpcal.api.surfaces import mesh, reconstruct
+from lpcal.api.surfaces import DISTANCE_M, Green, integrate, mesh, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
+from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import plain, sha256
+from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
+from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.formats.zarr_files import is_zarr
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace
-from lpcal.records.calibration import Calibration
+from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
@@ -142,7 +150,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     with cores(wishes.jobs):
         surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     solved = time.perf_counter()
-    document = document_of(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
+    document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     if document["flatness"] and wishes.near and wishes.method is None and calibration.lights[0].source_C is not None:
         with cores(wishes.jobs):
             document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
@@ -164,7 +172,7 @@ def panel_of(workspace: Workspace | None, task: Task, calibration_path: Path) ->
     return stated_in_panel(workspace) if within else StatedSensor()
 
 
-def document_of(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
+def summary_document(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
     return summary_of(surface) | {
         "flatness": flatness(surface),
@@ -321,3 +329,58 @@ def calibration_of(workspace: Workspace | None, given: Path | None) -> Path:
     if workspace is None:
         raise InputError("no calibration", needed="-c calibration.yaml, or a rig folder", todo="name one with -c, or go into a rig folder")
     return workspace.calib(CALIBRATION)
+
+
+HEAD = 1000
+"""Bytes of a file among which lpcal's own says its kind, as its second line."""
+
+
+def integrate_file(
+    normals: Path,
+    calibration: Path | None,
+    mask: Path | None,
+    target: Path,
+    distance_m: float | None = None,
+    green: Green = "auto",
+    integrator: str = "lpcal",
+) -> Outcome:
+    """Integrate a normal map and write its folder.
+
+    Raises
+    ------
+    LpcalError
+        The map, the mask or the calibration cannot be read, or they disagree.
+    """
+    refuse_place(target, SURFACE, [path for path in (normals, calibration, mask) if path is not None])
+    begun = time.perf_counter()
+    values, good = read_normals(normals)
+    inside = good if mask is None else good & read_mask(mask, good.shape)
+    camera, working_m = (None, None) if calibration is None else _camera(calibration)
+    distance_m = distance_m or working_m or DISTANCE_M
+    surface = integrate(values, camera, inside, distance_m=distance_m, green=green, integrator=integrator, name=normals.stem)
+    *told, _ = surface.warnings
+    seconds = round(time.perf_counter() - begun, 2)
+    inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
+    figures = document_of(surface.figures)
+    document = summary_of(surface) | {
+        "convention": figures.pop("convention"),
+        "counts_and_residuals": figures,
+        "times_s": {"solving": seconds},
+        "inputs": inputs,
+    }
+    write_surface(target, surface, mesh(surface), document)
+    count = len(surface.components)
+    line = f"{surface.name}: {surface.mask.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
+    return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in told)], {"surfaces": [document]})
+
+
+def _camera(path: Path) -> tuple[Camera | None, float | None]:
+    """Camera and working distance of a calibration, or the camera of a file that holds one alone."""
+    if not path.is_file():
+        raise InputError("no such file", where=str(path), needed="calibration.yaml, or any camera file")
+    with path.open("rb") as stream:
+        begins = stream.read(HEAD)
+    if re.search(rb"^kind: calibration\s*$", begins, re.MULTILINE):
+        lights = read_calibration(path)
+        return lights.camera, lights.d_object_m
+    return read_camera_file(path), None

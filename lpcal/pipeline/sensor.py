@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lpcal.api.sensor import unlike_plain
-from lpcal.detect.linearity import fit_sweep, refuse_contradiction
+from lpcal.detect.exposures import fit_sweep, refuse_contradiction
 from lpcal.detect.radiometry import fit_flat_field
 from lpcal.formats.capture import read_sweep
 from lpcal.formats.images import read_image

@@ -15,7 +15,7 @@ import numpy as np
 
 from lpcal.api.simulation import Simulation, simulation_of
 from lpcal.errors import InputError
-from lpcal.formats.mocap_motive_write import write_motive
+from lpcal.formats.mocap_motive import write_motive
 from lpcal.formats.outputs import NEW, refuse_place, whole, write_text
 from lpcal.formats.truth_folder import README, write_field, write_leds, write_poses, write_surface, write_yaml
 from lpcal.geometry import se3

@@ -7,7 +7,7 @@ from pathlib import Path
 from lpcal.api.studies import ACROSS, Study, StudyCurve, Which, study
 from lpcal.formats.outputs import marked, refuse_place, whole, write_text
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.report.study_plot import SOFTWARE, PlotLine, plot_png
+from lpcal.report.side_pages import SOFTWARE, PlotLine, plot_png
 
 TABLE = marked("a study's table", *(across.replace(",", "") for across in ACROSS.values()))
 PLOT = marked("a study's plot", SOFTWARE)

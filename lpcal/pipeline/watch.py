@@ -27,7 +27,7 @@ from lpcal.formats.named_files import hidden
 from lpcal.pipeline.workspace import IMAGE_ENDINGS, natural
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
-from lpcal.report.watch_page import render
+from lpcal.report.side_pages import watch_html
 
 LOOK_S = 0.2
 """Seconds between two looks at the folder: ten in the two seconds that are allowed."""
@@ -160,7 +160,7 @@ def _served(at: Watch, port: int | None) -> Iterator[str | None]:
             elif self.path == "/state.json":
                 self._send("application/json", json.dumps(at.state(), allow_nan=False))
             elif self.path == "/":
-                self._send("text/html; charset=utf-8", render(at.state()))
+                self._send("text/html; charset=utf-8", watch_html(at.state()))
             else:
                 self.send_error(404)
 

@@ -8,6 +8,12 @@ so the offset is where these agree, over pairs of views next to each other in ti
 pictures while the panel stood still) means that the data show the offset no better than the plateau is wide.
 Source: the correlation of angular speeds of Furrer et al., Evaluation of combined time-offset estimation and hand-eye calibration
 (2017), in the form of angle differences, which needs no even sampling.
+
+Views left out of the solve whose pose fits at another time: images stamped late, on arrival and not at exposure.
+
+Symbols: the pose that a view's board shows, ``H_OP = H_OB inv(H_PC H_CB)``, against the track at ``t - offset - d``; a lost or flipped pose
+fits at no d, one of a wrong stamp at its own. Few views are late by chance, and in slow motion a late one cannot be distinguished from the
+others, so it stays in and pulls the offset: hence a warning, though the views that show it are left out.
 """
 
 from __future__ import annotations
@@ -18,10 +24,12 @@ from datetime import UTC, datetime
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.chain.h_pc_handeye.likelihood import Views, misfit
+from lpcal.chain.h_pc_handeye.state import SolveState
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.geometry.pose_track import PoseTrack
+from lpcal.geometry.pose_track import PoseTrack, poses_at
 
 REACH_S = 60.0
 """Offsets of clocks that meet as they stand are looked for within this of zero; clocks of unlike epoch, wherever their ranges overlap."""
@@ -234,3 +242,46 @@ def _plateau(lags: Array, costs: Array, k: int, offset: float, cost: float) -> t
         right += 1
     width = float(lags[right] - lags[left])
     return (offset if width <= 4 * STEP_S else float(lags[left] + lags[right]) / 2), width
+
+
+FEWEST = 3
+"""Views that must fit at another time: one or two may by chance."""
+MOST_OF = 0.5
+"""Share of the views left out that must: where stamps are what is wrong nearly all do, while of views that are out by their noise one in
+five fits somewhere."""
+STAMP_REACH_S = 0.3
+"""Seconds by which a stamp may be off: several images of any camera that a panel is calibrated with."""
+STAMP_STEP_S = 0.0025
+"""Seconds between the times that are tried: a hand moves a panel by a millimetre in it."""
+LEAST_S = 0.01
+"""Seconds from which a stamp is off: less is the clock's own scatter."""
+FITS = 3.0
+"""Times the rms misfit of the views used, within which a view fits."""
+NAMED = 4
+
+
+def late_stamps(state: SolveState, t_camera_s: Array) -> str | None:
+    """In words, where views left out fit at other times than theirs; t_camera_s (N,) are the times of all views."""
+    out = np.flatnonzero(state.panel.trusted & ~state.inliers)
+    if state.track is None or len(out) < FEWEST:
+        return None
+    found = state.estimate()
+    usual = np.array([np.sqrt(np.mean(of**2)) for of in misfit(state.views(), found)])
+    tried = np.arange(-STAMP_REACH_S, STAMP_REACH_S + STAMP_STEP_S / 2, STAMP_STEP_S)
+    panel = poses_at(state.track, (t_camera_s[out, None] - state.offset_s - tried).ravel())
+    H_CB = np.repeat(state.boards.H_CB[out], len(tried), axis=0)
+    shown = Views(H_CB, panel.H, panel.velocity, np.zeros(0, dtype=np.intp), np.zeros(0))
+    off = np.max(np.stack(misfit(shown, found), axis=1) / usual, axis=1)
+    off = np.where(panel.trusted, off, np.inf).reshape(len(out), len(tried))
+    best = np.argmin(off, axis=1)
+    late = (off[np.arange(len(out)), best] < FITS) & (np.abs(tried[best]) > LEAST_S)
+    if late.sum() < max(FEWEST, MOST_OF * len(out)):
+        return None
+    images = [state.boards.images[row] for row in out[late]]
+    more = f" and {len(images) - NAMED} more" if len(images) > NAMED else ""
+    by_ms = 1e3 * float(np.median(tried[best[late]]))
+    return (
+        f"the stamps of {len(images)} images do not hold: {abs(by_ms):.0f} ms {'earlier' if by_ms > 0 else 'later'} (median) their views "
+        f"fit as the others do: {', '.join(images[:NAMED])}{more}. They are left out; others that are as late in slow motion are not, and "
+        "may bend H_PC and the clock offset beyond their sigmas: stamp the images at exposure, not on arrival"
+    )

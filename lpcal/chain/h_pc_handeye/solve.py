@@ -18,12 +18,11 @@ import numpy as np
 from lpcal.chain.h_pc_handeye import clock as clocks
 from lpcal.chain.h_pc_handeye import congruence, observability, set_up, variance
 from lpcal.chain.h_pc_handeye.camera_part import as_pinhole, camera_prior
-from lpcal.chain.h_pc_handeye.clock import without_rate
+from lpcal.chain.h_pc_handeye.clock import late_stamps, without_rate
 from lpcal.chain.h_pc_handeye.drift import Drift, drift_of
 from lpcal.chain.h_pc_handeye.ends import found_by_other_end, settled_ends, with_turned
 from lpcal.chain.h_pc_handeye.finding import HandEyeFinding, finding_of
 from lpcal.chain.h_pc_handeye.likelihood import HandEyeEstimate, Observed, Views, estimate, misfit
-from lpcal.chain.h_pc_handeye.stamps import late_stamps
 from lpcal.chain.h_pc_handeye.state import HandEyeOptions, SolveState
 from lpcal.errors import ConvergenceError, DegenerateError, DisagreementError
 from lpcal.geometry import park, se3

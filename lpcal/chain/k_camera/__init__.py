@@ -24,12 +24,12 @@ from importlib.util import find_spec
 import numpy as np
 
 from lpcal.chain.k_camera import patterns
+from lpcal.chain.k_camera.bundle import find_shape, refit
 from lpcal.chain.k_camera.choice import FEWEST_VIEWS as FEWEST_TO_CHOOSE
 from lpcal.chain.k_camera.choice import Candidate, better_of, choose
 from lpcal.chain.k_camera.findings import blurred_or_glaring, findings
 from lpcal.chain.k_camera.next_view import TODO, monotony
 from lpcal.chain.k_camera.problem import DISTORTIONS, CameraFit, CornerProblem, Solver, rms
-from lpcal.chain.k_camera.refit import find_shape, refit
 from lpcal.chain.k_camera.shape import BOARDS
 from lpcal.errors import ConvergenceError, DegenerateError, InputError
 from lpcal.geometry import se3
@@ -129,7 +129,7 @@ def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
         from lpcal.chain.k_camera import mrcal_solver
 
         return "mrcal", mrcal_solver.solve, None
-    from lpcal.chain.k_camera.refit import solve_from_opencv
+    from lpcal.chain.k_camera.bundle import solve_from_opencv
 
     missing = None
     if solver == "auto":

@@ -32,7 +32,6 @@ from lpcal.chain.refine_lights.assemble import (
     with_leds,
     with_shading,
 )
-from lpcal.chain.refine_lights.clicks import Click, clicks_under_shading, fit_with_clicks
 from lpcal.chain.refine_lights.distant import refine_distant
 from lpcal.chain.refine_lights.free_camera import with_core
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, GeometryFit, fit_geometry
@@ -40,7 +39,7 @@ from lpcal.chain.refine_lights.joint_fit import JointFit, can_fit, fit_jointly
 from lpcal.chain.refine_lights.measure import Measured, measure_centre, measured_spheres
 from lpcal.chain.refine_lights.samples import sample_blocks
 from lpcal.chain.refine_lights.shading import ShadingFit, fit_shading, lobe_of_leds
-from lpcal.chain.refine_lights.swaps import refuse_swapped
+from lpcal.chain.refine_lights.swaps import Click, clicks_under_shading, fit_with_clicks, refuse_swapped
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import sphere
 from lpcal.geometry.arrays import Array

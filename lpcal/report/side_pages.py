@@ -1,0 +1,146 @@
+"""The pages beside the report, each one file that opens offline, and the plot of a study.
+
+`lpcal diff`: two rigs drawn over each other, and the table of what has changed. Many surfaces: surfaces.html, worst first, beside the
+surfaces' folders. `lpcal watch`: what was judged and what comes next; it asks for the state once a second. `lpcal study`: the error of
+the normals against what was varied.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from lpcal import __version__
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Calibration
+from lpcal.records.comparison import CalibrationChange
+from lpcal.report.page import script_json
+from lpcal.report.rig_report import RigReport
+from lpcal.report.scene import LineItem, LineScene, rig_scene
+from lpcal.report.templates import environment
+
+DIFF_MARK = '<meta name="lpcal-page" content="diff">'
+"""What tells the page from one of anybody else's."""
+
+
+def diff_html(names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str]) -> str:
+    """The page."""
+    scene = scene_of(rigs, change)
+    return (
+        environment()
+        .get_template("diff.html")
+        .render(
+            mark=DIFF_MARK,
+            names=names,
+            change=change,
+            lines=lines,
+            scene=None if scene is None else script_json(scene.document()),
+            version=__version__,
+        )
+    )
+
+
+def scene_of(rigs: tuple[Calibration, Calibration], change: CalibrationChange) -> LineScene | None:
+    """The later rig, where each light stood before, and the arrow of its own change, what all share taken out."""
+    own, scene = (rig_scene(RigReport(one.name, calibration=one)) for one in rigs)
+    if scene is None or own is None:
+        return None
+    ghosts = [replace(item, tone="designed", layer="designed", thin=True) for item in own.items if item.kind in {"line", "point"}]
+    sources = {light.name: light.source_C for light in rigs[1].lights if light.source_C is not None}
+    arrows = [
+        LineItem(
+            kind="arrow",
+            points=(sources[light.name] - light.moved_C)[None],
+            by=light.moved_C,
+            tone="poor" if light.says else "designed",
+            layer="wings",
+        )
+        for light in change.lights
+        if light.name in sources
+    ]
+    return replace(scene, items=(*ghosts, *scene.items, *arrows))
+
+
+SOFTWARE = "lpcal study"
+"""What the PNG says made it; it tells a plot of lpcal's from any other picture."""
+
+
+@dataclass(frozen=True)
+class PlotLine:
+    """One line of the plot."""
+
+    name: str
+    x: Array
+    y: Array
+    """Mean relative error, per cent."""
+
+
+def plot_png(curves: Sequence[PlotLine], across: str) -> bytes:
+    """The curves as a PNG, error on a logarithmic axis."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9, 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    for curve in curves:
+        axes.semilogy(curve.x, curve.y, marker=".", label=curve.name)
+    axes.set_xlabel(across)
+    axes.set_ylabel("mean relative error of the normals, %")
+    axes.grid(visible=True, which="both", alpha=0.25)
+    figure.legend(frameon=False, fontsize="small", loc="outside right center")
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=130, metadata={"Software": SOFTWARE})
+    return data.getvalue()
+
+
+COLLECTION_MARK = '<meta name="lpcal-page" content="surfaces">'
+"""What tells the page from one of anybody else's."""
+FAIR = 0.2
+"""Odds of being wrong from which a surface is marked: one in five is looked at."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """One capture: what stands in the table, by column, and a small picture; None where a figure does not apply."""
+
+    name: str
+    state: str
+    """done | up to date | failed | lost."""
+    doubt: float
+    """Odds (0..1) that it is wrong; 1 where there is no surface."""
+    pixels: int | None = None
+    pieces: int | None = None
+    distance_mm: float | None = None
+    distance_std_mm: float | None = None
+    other_distance_odds: float | None = None
+    mask_doubt: float | None = None
+    normal_std_deg: float | None = None
+    residual_sigmas: float | None = None
+    solving_s: float | None = None
+    peak_memory_mb: float | None = None
+    folder: str = ""
+    notes: str = ""
+    error: str = ""
+    picture: str | None = None
+    """As a data: URI, where there is a surface; not in the table."""
+
+    @property
+    def tone(self) -> str:
+        """How it is marked."""
+        return "poor" if self.picture is None and self.error else "fair" if self.doubt >= FAIR else "good"
+
+
+def collection_html(name: str, rows: Sequence[Row]) -> str:
+    """The page."""
+    counts = {state: sum(row.state == state for row in rows) for state in ("done", "up to date", "failed", "lost")}
+    said = ", ".join(f"{count} {state}" for state, count in counts.items() if count)
+    doubtful = sum(row.tone == "fair" for row in rows)
+    return environment().get_template("collection.html").render(mark=COLLECTION_MARK, name=name, rows=rows, said=said, doubtful=doubtful)
+
+
+def watch_html(state: dict[str, Any]) -> str:
+    """The page."""
+    return environment().get_template("watch.html").render(state=script_json(state))
