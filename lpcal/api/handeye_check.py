@@ -22,7 +22,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
 from lpcal.records import given, screens
 from lpcal.records.calibration import Carries
-from lpcal.records.evidence import CheckFigures, HandEyeCheck
+from lpcal.records.handeye_check import CheckFigures, HandEyeCheck
 from lpcal.records.observations import BoardPoses, MarkerStream, PoseStream
 
 NAMED = 6

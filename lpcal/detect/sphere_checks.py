@@ -10,7 +10,7 @@ Symbols: data y of one light and a of the room at the pixels of an outline (norm
 
 A gamma that nobody stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law. A light as near as fourteen radii
 takes a third off e (a linear camera's is .75), a rough surface adds to it, so only the plainest curves are refused here; where chrome
-spheres say where the lights are, `chain.refine_lights.distant` judges anew.
+spheres say where the lights are, `chain.refine_lights.matte` judges anew.
 
 Whether what is inside a round outline is a ball: shaded as one, or with a mirror image of each light.
 

@@ -24,9 +24,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.chain.refine_lights.diagnosis import diagnose
-from lpcal.chain.refine_lights.distant import FACING_CAMERA, matte_direction, refuse_what_explains_shading
+from lpcal.chain.refine_lights.distant import FACING_CAMERA, matte_direction
 from lpcal.chain.refine_lights.explain import refuse_at_sight, refuse_other_orders, refuse_what_explains
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
+from lpcal.chain.refine_lights.matte import refuse_what_explains_shading
 from lpcal.chain.refine_lights.measure import CentreMeasurement, Measured, measured_spheres
 from lpcal.chain.refine_lights.refine import DOUBTED_PX, DOUBTED_SIGMAS, refine
 from lpcal.chain.refine_lights.volume import volume_points
