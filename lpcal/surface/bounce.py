@@ -9,8 +9,9 @@ with V whether p and j see each other. As b = albedo times n in the units of the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
 camera does not see are guessed (surface.sides). s, and what shares of the guessed are there, are told by the samples in shadow, which
-show nothing but thrown light: posterior means over a grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and
-Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg 1985 (form factors).
+show nothing but thrown light, and by what lit samples and the smoothness of the surface say together (surface.field): posterior means over
+a grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
+Greenberg 1985 (form factors).
 """
 
 from __future__ import annotations
@@ -41,9 +42,9 @@ GRAZING = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
 STEEPEST = 0.1
 """Least cosine to the viewer by which a pixel's area is told."""
-REFLECTANCES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+REFLECTANCES = tuple(np.arange(0.0, 0.951, 0.05))
 """Of the object's median pixel."""
-SHARES = (0.0, 0.5, 1.0)
+SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Shares of what is guessed that are tried: of the light of sides that are not seen, and of what goes on around out of sight."""
 COMMON, COMMON_SIGMA = 0.5, 0.25
 """Reflectance of objects as prior."""
@@ -55,6 +56,10 @@ DOUBT, DARK = 0.3, 0.01
 """Standard deviation of thrown light as a share of itself, and of other light in a shadow as a share of the pixel's brightest sample."""
 ELSE = 0.1
 """Share of the samples taken for shadows that are none: the shape hides a light that in truth arrives, or the rim is near."""
+LIT_NEIGHBOURS, LIT_DOUBT = 100.0, 0.2
+"""How many lit samples are worth one, and the standard deviation of what they tell of a part of the light, as a share of all of it."""
+UNTOLD = 1e-4
+"""Curvature of the cost of a part that is nowhere, relative to the strength: it keeps the equations solvable."""
 AWAY, RIM = 0.05, 2
 """Cosine by which a normal is turned away from a light, and pixels off a shadow's rim, from which a sample counts as in shadow."""
 
@@ -77,10 +82,14 @@ class Thrown:
         J = self.seen + sides * self.sides
         return J if self.beyond is None else J + beyond * self.beyond
 
+    @property
+    def parts(self) -> tuple[Array, Array, Array]:
+        """J (L, P, 3) of the seen parts, of the sides, and of what lies beyond."""
+        return self.seen, self.sides, np.zeros_like(self.seen) if self.beyond is None else self.beyond
+
     def on(self, b: Array, light: Indices, pixel: Indices) -> tuple[Array, Array, Array]:
         """What the seen parts, the sides and what lies beyond give (N,) to samples, by b (P, 3) and their lights and pixels."""
-        beyond = np.zeros_like(self.seen) if self.beyond is None else self.beyond
-        seen, sides, further = (lambert.dot(J[light, pixel], b[pixel]) for J in (self.seen, self.sides, beyond))
+        seen, sides, further = (lambert.dot(J[light, pixel], b[pixel]) for J in self.parts)
         return seen, sides, further
 
 
@@ -95,6 +104,11 @@ class Reflectance:
     sides: float
     beyond: float
     """Shares of what the unseen sides and what goes on out of sight throw by the guess of it."""
+
+    @property
+    def strengths(self) -> Array:
+        """What makes the three parts of J light (3,)."""
+        return self.per_unit * np.array([1.0, self.sides, self.beyond])
 
 
 def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
@@ -136,12 +150,31 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     return Thrown(at_pixels(at_patches), at_pixels(by_unseen), out_of_sight, spread(unseen))
 
 
-def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask) -> Reflectance:
-    """The reflectance that the shadows show.
+@dataclass(frozen=True)
+class Told:
+    """What lit samples and the smoothness of the surface tell of the strengths x (3,) of the three parts of J: a quadratic cost."""
 
-    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is thrown, ``s J_k . b``. Lit samples say
-    next to nothing: b takes up most of what is thrown on them, and what is left is less than the lights' own errors. What is found are
-    posterior means: the shadows often constrain it weakly, and the place of the least cost would jump.
+    x0: Array
+    """The strengths at which the next two hold."""
+    curvature: Array
+    slope: Array
+
+    def cost(self, x: Array) -> Array:
+        """Twice the negative logarithm of the likelihood (N,) of strengths (N, 3), all relative to that of the seen parts at x0."""
+        unit = max(float(self.x0[0]), 1e-12)
+        curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + UNTOLD * np.eye(3)
+        middle = np.linalg.solve(curvature, self.slope * unit / LIT_NEIGHBOURS)
+        doubt = LIT_DOUBT * max(1 + float(middle[0]), 0.0)
+        off = (x - self.x0) / unit - middle
+        return np.asarray(np.einsum("ni,ij,nj->n", off, np.linalg.inv(np.linalg.inv(curvature) + doubt**2 * np.eye(3)), off))
+
+
+def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, told: Told | None = None) -> Reflectance:
+    """The reflectance that the shadows show, and what lit samples tell of it.
+
+    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is thrown, ``s J_k . b``. A lit sample by
+    itself says next to nothing, since b takes up most of what is thrown on it; together with its neighbours in other lights it does, which
+    is what `told` holds. What is found are posterior means: where both say little the place of the least cost would jump.
     """
     albedo = np.linalg.norm(b, axis=1)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
@@ -162,6 +195,8 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask) -> Reflectance:
 
     trials = np.array(list(product([one for one in REFLECTANCES if one * bright <= middle], SHARES, SHARES)))
     costs = np.array([cost(*trial) for trial in trials])
+    if told is not None:
+        costs += told.cost(trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]]))
     odds = np.exp(-(costs - costs.min()) / 2)
     one, sides, beyond = np.average(trials * np.stack([np.ones(len(trials)), trials[:, 0], trials[:, 0]], axis=1), axis=0, weights=odds)
     return Reflectance(float(one), float(one / middle), float(sides / max(one, 1e-9)), float(beyond / max(one, 1e-9)))

@@ -16,7 +16,9 @@ Cipolla 2008 (shadows, and the neighbours' part in what they hide).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,6 +29,9 @@ from lpcal.surface import bands, gloss, pieces
 from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, joined
 from lpcal.surface.sight import Lit, Sight
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 TURN = 0.15
 """Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of
@@ -91,7 +96,8 @@ def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimat
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
             shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / np.median(albedo))
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
-        b = _solved(grid, b, *_all_gathered(seen, lit, b, v, hidden, shine, warmth))
+        own_samples, right = _all_gathered(seen, lit, b, v, hidden, shine, warmth)
+        b = _System.at(grid, b, own_samples).solved(right, b)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
         b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
 
@@ -137,6 +143,11 @@ def _states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array |
     return _States(left - bright, spread2, dark, dark2, chance)
 
 
+def _weights(seen: Sight, chance: Array, residual: Array, spread2: Array) -> Array:
+    """Weights (L, P) of samples in the normal equations, by their chance of being what the residual takes them for."""
+    return np.where(seen.usable, chance / (1 + residual**2 / spread2 / gloss.WIDTH2) ** 2 / spread2, 0.0)
+
+
 def _all_gathered(
     seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
 ) -> tuple[Array, Array]:
@@ -166,11 +177,8 @@ def _gathered(
     shown = _shown(lit, b, v, shine)
     state = _states(seen, lit, b, hidden, shown, warmth)
 
-    def weights(chance: Array, residual: Array, spread2: Array) -> Array:
-        return np.where(seen.usable, chance / (1 + residual**2 / spread2 / gloss.WIDTH2) ** 2 / spread2, 0.0)
-
-    as_lit = weights(state.chance, state.lit, state.spread2)
-    in_shadow = weights(1 - state.chance, state.shadow, state.shadow_spread2)
+    as_lit = _weights(seen, state.chance, state.lit, state.spread2)
+    in_shadow = _weights(seen, 1 - state.chance, state.shadow, state.shadow_spread2)
     J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
     B = np.where((lambert.dot(lit.direct, b) > 0)[..., None], lit.direct + J, J)
     signal = seen.signal if shown is None else seen.signal - shown
@@ -179,32 +187,74 @@ def _gathered(
     return own, right
 
 
-def _solved(grid: Grid, b: Array, own: Array, right: Array) -> Array:
-    """b (P, 3) of least energy: of the pixels' normal equations, and of the links between them with their weights at b."""
-    from scipy import sparse
-    from scipy.sparse import linalg
+@dataclass(frozen=True)
+class _System:
+    """The normal equations of the energy at b (P, 3): of the pixels' own samples, and of the links between them."""
 
-    P = len(b)
-    albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
-    both = albedo[grid.a] * albedo[grid.b]
-    apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
-    link = 1 / (both * TURN**2) / (1 + apart / 4) ** 2
-    links = sparse.coo_array((link, (grid.a, grid.b)), shape=(P, P)).tocsr()
-    links = links + links.T
-    block = own + np.asarray(links.sum(axis=1)).reshape(-1, 1, 1) * np.eye(3)
-    inverse = np.linalg.inv(block + 1e-12 * np.trace(block, axis1=1, axis2=2).max() * np.eye(3))
+    block: Array
+    """(P, 3, 3)."""
+    links: sparse.csr_array
+    """Weights between neighbours (P, P)."""
 
-    def energy(x: Array) -> Array:
-        y = x.reshape(P, 3)
-        return np.asarray((np.einsum("pij,pj->pi", block, y) - links @ y).ravel())
+    @classmethod
+    def at(cls, grid: Grid, b: Array, own: Array) -> _System:
+        """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
+        from scipy import sparse
 
-    def near(x: Array) -> Array:
-        return np.asarray(np.einsum("pij,pj->pi", inverse, x.reshape(P, 3)).ravel())
+        P = len(b)
+        albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
+        both = albedo[grid.a] * albedo[grid.b]
+        apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
+        link = 1 / (both * TURN**2) / (1 + apart / 4) ** 2
+        links = sparse.coo_array((link, (grid.a, grid.b)), shape=(P, P)).tocsr()
+        links = links + links.T
+        return cls(own + np.asarray(links.sum(axis=1)).reshape(-1, 1, 1) * np.eye(3), links)
 
-    shape = (3 * P, 3 * P)
-    A, M = linalg.LinearOperator(shape, matvec=energy, dtype=float), linalg.LinearOperator(shape, matvec=near, dtype=float)
-    found, _ = linalg.cg(A, right.ravel(), x0=b.ravel(), M=M, rtol=SOLVED, maxiter=MOST_STEPS)
-    return np.asarray(found.reshape(P, 3))
+    def times(self, x: Array) -> Array:
+        """The system's left side (P, 3) of x."""
+        return np.asarray(np.einsum("pij,pj->pi", self.block, x) - self.links @ x)
+
+    def solved(self, right: Array, begin: Array) -> Array:
+        """x (P, 3) of a right side, by conjugate gradients from a beginning."""
+        from scipy.sparse import linalg
+
+        block = self.block
+        inverse = np.linalg.inv(block + 1e-12 * np.trace(block, axis1=1, axis2=2).max() * np.eye(3))
+        shape = (begin.size, begin.size)
+        A = linalg.LinearOperator(shape, matvec=lambda x: self.times(x.reshape(-1, 3)).ravel(), dtype=float)
+        M = linalg.LinearOperator(shape, matvec=lambda x: np.einsum("pij,pj->pi", inverse, x.reshape(-1, 3)).ravel(), dtype=float)
+        found, _ = linalg.cg(A, right.ravel(), x0=begin.ravel(), M=M, rtol=SOLVED, maxiter=MOST_STEPS)
+        return np.asarray(found.reshape(-1, 3))
+
+
+def told(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]) -> tuple[Array, Array]:
+    """What lit samples and the field's smoothness tell of how strong parts of the light are, each an array of light vectors (L, P, 3).
+
+    With b taken out (Schur complement of the normal equations) the energy at strengths x more than those in `lit` is the quadratic
+    ``x . curvature x - 2 slope . x``: curvature (N, N) and slope (N,) are returned. Where a shadow ends on a smooth surface, or few lights
+    reach, light that is missing would turn the normals.
+    """
+    v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+
+    def of(at: slice) -> tuple[Array, Array, Array, Array, Array]:
+        some, light, b = seen.at(at), lit.at(at), before.b[at]
+        shown = _shown(light, b, v[at], before.gloss)
+        state = _states(some, light, b, None if hidden is None else hidden[:, at], shown, 1.0)
+        weight = _weights(some, state.chance, state.lit, state.spread2)
+        own = np.einsum("kp,kpi,kpj->pij", weight, light.B, light.B)
+        pull = np.einsum("kp,kpi->pi", weight * state.lit, light.B)
+        column = np.stack([lambert.dot(part[:, at], b) for part in parts])
+        across = np.einsum("kp,nkp,kpi->npi", weight, column, light.B)
+        return own, pull, across, np.einsum("kp,nkp,mkp->nm", weight, column, column), np.einsum("kp,nkp->n", weight * state.lit, column)
+
+    own, pull, across, square, slope = zip(*bands.each(seen.pixels, len(seen.signal), of), strict=True)
+    system = _System.at(grid, before.b, np.concatenate(own))
+    C = np.concatenate(across, axis=1)
+    smooth = system.times(before.b) - np.einsum("pij,pj->pi", np.concatenate(own), before.b)
+    answers = [system.solved(one, np.zeros_like(before.b)) for one in (*C, np.concatenate(pull) - smooth)]
+    taken = np.array([[np.sum(one * answer) for answer in answers] for one in C])
+    curvature = sum(square) - taken[:, :-1]
+    return (curvature + curvature.T) / 2, sum(slope) - taken[:, -1]
 
 
 def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:

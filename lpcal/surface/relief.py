@@ -31,18 +31,20 @@ class Relief:
     """(6, 2) coefficients of columns and rows by the powers of a ray's x and y."""
 
     @staticmethod
-    def of(seen: Sight, depth: Array) -> Relief:
-        """Of depths (P,) at the pixels of a camera."""
+    def of(seen: Sight, depth: Array, *, to_rim: bool = False) -> Relief:
+        """Of depths (P,) at the pixels of a camera; `to_rim` tells whether pixels on the rim count, which on round bodies turn away."""
         from scipy import ndimage
 
-        front = np.full(seen.mask.shape, np.inf)
+        outside = -np.inf if to_rim else np.inf
+        front = np.full(seen.mask.shape, outside)
         front[seen.mask] = depth
         some = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
         places = np.stack(np.nonzero(seen.mask)[::-1], axis=1)
         first = places.min(axis=0)
         pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), (places[some] - first).astype(float), rcond=None)[0]
         pixel_of_ray[0] += first
-        return Relief(ndimage.maximum_filter(front, 3, mode="constant", cval=np.inf), pixel_of_ray)
+        front = ndimage.maximum_filter(front, 3, mode="constant", cval=outside)
+        return Relief(np.where(seen.mask, front, np.inf) if to_rim else front, pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
         """Whether the surface stands between points (N, 3) and (N, 3), tried at `steps` places."""

@@ -34,6 +34,8 @@ SHAPE_ROUND = 2
 SHADOW_STEPS = 64
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
+SLANTED = 0.1
+"""Least cosine by which it is told what a light unhindered would give: a shadow may have turned the normals away from the light."""
 FEWEST_PIXELS = 50
 
 
@@ -116,14 +118,11 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)
     shaped = before if k >= SHAPE_ROUND else None
-    hidden = None if shaped is None else hidden_lights(scene, depth, shaped, lit)
+    reflects = hidden = None
+    if shaped is not None:
+        by_object, hidden = hidden_lights(scene, depth, shaped, lit)
+        lit, reflects = _thrown(scene, depth, shaped, lit, by_object, hidden)
     usable = normals.candidates(seen, lit.E, hidden)
-    reflects = None
-    if shaped is not None and hidden is not None:
-        by = bounce.thrown(seen, depth, replace(shaped.found, b=shaped.field.b), shaped.normals, scene.lights, scene.around)
-        dark = bounce.in_shadow(seen, lit, shaped.normals, hidden)
-        reflects = bounce.reflectance(seen, by, shaped.field.b, dark)
-        lit = replace(lit, thrown=reflects.per_unit * by.J(reflects.sides, reflects.beyond), unseen=by.unseen)
     glossy = bounce.COMMON if reflects is None else reflects.median
     whole = _estimated(scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None)
     found, n = whole.estimate, lambert.unit(whole.b)[0]
@@ -145,20 +144,38 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     return State(u, weight, n, found, own, lit, whole, None if reflects is None else reflects.median)
 
 
-def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> Mask:
-    """Samples (L, P) whose light the surface hides, by its depths (P,) and by the picture: they are darker than with that light."""
+def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Mask, Mask]:
+    """Samples (L, P) whose light the object hides, by its depths (P,), and those that it or what it stands on hides.
+
+    The picture must agree: they are darker than with that light.
+    """
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
     albedo = np.linalg.norm(before.field.b, axis=1)
-    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), 0.0)
+    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), SLANTED)
     dark = ~(seen.signal > SHADED * expected)
+    by_object, by_any = np.zeros_like(dark), np.zeros_like(dark)
     for k, light in enumerate(scene.lights):
-        maybe = np.flatnonzero(dark[k])
         if light.source_C is None:
-            dark[k] = False
-        else:
-            dark[k, maybe] = relief.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
-    return dark
+            continue
+        maybe = np.flatnonzero(dark[k])
+        by_object[k, maybe] = relief.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
+        by_any[k] = by_object[k]
+        if scene.around is not None:
+            by_any[k, maybe] |= scene.around.front.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
+    return by_object, by_any
+
+
+def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask, hidden: Mask) -> tuple[Lit, bounce.Reflectance]:
+    """The light with what surfaces throw at depths (P,), and the reflectance by which they do."""
+    seen = scene.seen
+    by = bounce.thrown(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
+    dark = bounce.in_shadow(seen, lit, before.normals, by_object)
+    first = bounce.reflectance(seen, by, before.field.b, dark)
+    begin = replace(lit, thrown=first.per_unit * by.J(first.sides, first.beyond))
+    told = bounce.Told(first.strengths, *field.told(seen, scene.grid, begin, hidden, before.field, by.parts))
+    found = bounce.reflectance(seen, by, before.field.b, dark, told)
+    return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 
 def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None) -> Field:

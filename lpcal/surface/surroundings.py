@@ -25,6 +25,8 @@ BEYOND = 0.6
 """How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
 NEAREST, FURTHEST = 0.5, 2.0
 """Least and largest depth of what is not seen of a plane, by the median depth of what is seen of it."""
+SLAB = 0.05
+"""Depth of a patch along the line of sight at most, as a share: a table at a grazing angle goes far back within a few pixels."""
 SHADOW_STEPS = 32
 """Places at which it is asked whether the object stands between a light and an unseen patch."""
 
@@ -59,6 +61,8 @@ class Around:
 
     seen: Patches
     unseen: Patches | None
+    front: Relief
+    """What of them stands before a light: lights below a table's top do not reach what stands on it."""
 
     def beyond(self, relief: Relief, lights: Sequence[Light]) -> Patches | None:
         """The unseen ones in the shadow of the object."""
@@ -97,16 +101,22 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
 
     seen, free = image.seen, ~ndimage.binary_dilation(image.hidden, iterations=MARGIN).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
-    albedo = []
+    albedo: list[float] = []
+    signal = seen.signal.copy()
     for k, plane in enumerate(found):
         m = planes.foretold(plane.q, seen.rays_C, lights)
         square, count = planes.misfit(seen, m)
         better = free & (count >= 2) & (square < least)
         of_plane[better], least[better] = k, square[better]
         albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
+        signal[:, better] = _unclipped(seen, m, better, albedo[k])
+    for k, plane in enumerate(found):
+        mine = of_plane == k
+        of_plane[mine & ~_within_reach(seen.rays_C @ plane.q, seen.rays_C[mine] @ plane.q)] = -1
+    signal = _beside(image, signal, of_plane, free)
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
     block = _blocks(seen.mask.shape, size)
-    shown = [_of_plane(seen.rays_C, seen.signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
+    shown = [_of_plane(seen.rays_C, signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
     if not shown:
         return None
     pad = int(np.ceil(BEYOND * max(seen.mask.shape) / size)) * size
@@ -120,7 +130,39 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
             part = _of_plane(rays_C, blank, plane.q, inside, block)
             d, E = light_vectors(lights, part.x_C)
             unseen.append(replace(part, signal=albedo[k] * (E * np.maximum(np.einsum("kpi,pi->kp", d, part.n), 0.0))))
-    return Around(Patches.together(shown), Patches.together(unseen) if unseen else None)
+    slopes = np.stack([seen.rays_C @ plane.q for plane in found])
+    depth = 1 / np.maximum(slopes[of_plane, np.arange(seen.pixels)], planes.BEHIND)
+    body = replace(seen, mask=(of_plane >= 0).reshape(seen.mask.shape), rays_C=seen.rays_C[of_plane >= 0])
+    return Around(Patches.together(shown), Patches.together(unseen) if unseen else None, Relief.of(body, depth[of_plane >= 0], to_rim=True))
+
+
+def _unclipped(seen: Sight, m: Array, some: Mask, albedo: float) -> Array:
+    """Signals (L, Q) of some pixels of a plane, by m (L, P) of albedo 1: saturated ones as the pixel's others, or the common albedo, say.
+
+    A support in full light is often brighter than the object that the exposure was set for.
+    """
+    signal, m, usable = seen.signal[:, some], np.maximum(m[:, some], 0.0), seen.usable[:, some]
+    lit = usable & (m > planes.WEAK * m.max(axis=0))
+    with np.errstate(all="ignore"):
+        own = np.where(lit.any(axis=0), np.sum(np.where(lit, signal * m, 0.0), axis=0) / np.sum(np.where(lit, m**2, 0.0), axis=0), albedo)
+    return np.where(usable, signal, np.maximum(signal, own * m))
+
+
+def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array:
+    """The signals (L, P), in the margin about the object those of the nearest pixel of a plane; `of_plane` (P,) gains them.
+
+    What stands nearest to the object throws most on it.
+    """
+    from scipy import ndimage
+
+    shape = image.seen.mask.shape
+    nearest = ndimage.distance_transform_edt((of_plane < 0).reshape(shape), return_distances=False, return_indices=True)
+    pixel = (nearest[0] * shape[1] + nearest[1]).ravel()
+    margin = ~free & ~image.hidden.ravel() & np.any(of_plane >= 0)
+    of_plane[margin] = of_plane[pixel[margin]]
+    signal = signal.copy()
+    signal[:, margin] = signal[:, pixel[margin]]
+    return signal
 
 
 def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
@@ -170,7 +212,8 @@ def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Mask, block: Indic
     unit, rays = q / np.linalg.norm(q), rays_C[inside]
     depth = 1 / (rays @ q)
     area = (depth * step) ** 2 / (rays @ unit)
-    _, of_block = np.unique(block[inside], return_inverse=True)
+    slab = np.floor(np.log(depth) / SLAB).astype(int)
+    _, of_block = np.unique(np.stack([block[inside], slab]), axis=1, return_inverse=True)
     total = np.bincount(of_block, area)
 
     def joined(values: Array) -> Array:
