@@ -18,6 +18,13 @@ from lpcal.pipeline.workspace import Workspace
 COMPOSED, APART = (unicodedata.normalize(form, "M\u00fcnze") for form in ("NFC", "NFD"))
 
 
+@pytest.fixture(autouse=True)
+def without_rawpy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As lpcal is installed without its extra for raw files."""
+    monkeypatch.setattr("lpcal.formats.named_files.raw_is_read", lambda: False)
+    monkeypatch.setattr("lpcal.formats.images.raw_is_read", lambda: False)
+
+
 def image(path: Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(cv2.imencode(path.suffix, np.full((20, 30), 99, np.uint8))[1].tobytes())

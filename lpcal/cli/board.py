@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lpcal.errors import InputError, UsageError
+from lpcal.cli.board_words import corners_of, square_of
+from lpcal.errors import InputError
 from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
@@ -63,8 +63,8 @@ def _board(options: argparse.Namespace) -> tuple[BoardSection, str]:
             section, origin = read_rig(panel).rig.board, f"from {panel}"
     if section is not None and not (options.corners or options.square):
         return _drawable(section, origin), origin
-    corners = _corners(options.corners) if options.corners else section.corners if section else _corners(DEFAULT_CORNERS)
-    square = _square(options.square) if options.square else section.square if section else _square(DEFAULT_SQUARE)
+    corners = corners_of(options.corners) if options.corners else section.corners if section else corners_of(DEFAULT_CORNERS)
+    square = square_of(options.square) if options.square else section.square if section else square_of(DEFAULT_SQUARE)
     origin = "as asked for" if options.corners or options.square else "the default board"
     return BoardSection.model_construct(kind="chessboard", corners=corners, square=square), origin
 
@@ -87,22 +87,3 @@ def _drawable(section: BoardSection, origin: str) -> BoardSection:
             "a charuco board without marker and dictionary", where=origin, needed="both", todo="add marker: 18 mm, dictionary: DICT_5X5_100"
         )
     return section
-
-
-def _corners(text: str) -> tuple[int, int]:
-    match = re.fullmatch(r"(\d+)[x,](\d+)", text)
-    if not match or min(int(n) for n in match.groups()) < 2:
-        raise UsageError(f"--corners {text}", needed="two counts of 2 or more", todo="write for example 9x6")
-    return int(match[1]), int(match[2])
-
-
-def _square(text: str) -> tuple[float, float]:
-    from lpcal.records.quantities import parse
-
-    try:
-        side = parse(text, "length")
-    except ValueError as error:
-        raise UsageError(f"--square: {error}", needed="a length with its unit", todo="write for example 25mm") from error
-    if side <= 0:
-        raise UsageError(f"--square {text}", needed="a length above 0", todo="write for example 25mm")
-    return side, side

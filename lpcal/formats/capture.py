@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.capture_order import by_order, pattern_of
+from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import full_scale, negatives, refuse_odd_floats
-from lpcal.formats.images import ENDINGS, StoredImage, read_image
-from lpcal.formats.named_files import exists, hidden, kind_of_other, resolve_named
+from lpcal.formats.images import StoredImage, read_image
+from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
 from lpcal.geometry.arrays import Array, Image, Mask
@@ -42,8 +44,8 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     if is_zarr(folder):
         return read_capture_zarr(folder, lights, name=name, use=use)
     section = read_capture_section(folder / "capture.yaml")
-    files = _by_name(folder)
-    chosen = _chosen(folder, lights, use or section.lights, files)
+    files, named, said = _in_order(folder, section, lights)
+    chosen = _chosen(folder, lights, use or named, files)
     _refuse_unknown(section, {*lights, *files, *(SHORT + light for light in lights)}, folder)
     reader = _SameSize()
     images = np.stack([reader.read(files[light]).pixels for light in chosen])
@@ -54,16 +56,19 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     short = {light: reader.read(files[SHORT + light]).pixels for light in chosen if SHORT + light in files}
     full = full_scale(images, reader.step)
     divisor = np.float32(full.divisor)
+    sources = {light: files[light] for light in (*chosen, *ambient_names)}
+    stated = {path: _exposure(section, name) for name, path in sources.items()}
+    exposure, more = exposures({path: reader.taken[path] for path in sources.values()}, stated)
     known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights), *([flat.stem] if flat else [])}
     return RawCapture(
         name=name or folder.resolve().name,
         lights=tuple(chosen),
         images=images / divisor,
-        exposure_s=np.array([_exposure(section, light) or 1.0 for light in chosen]),
+        exposure_s=np.array([exposure[files[light]] for light in chosen]),
         ambient=np.stack(ambient) / divisor if ambient else None,
-        ambient_exposure_s=np.array([_exposure(section, stem) or 1.0 for stem in ambient_names]),
+        ambient_exposure_s=np.array([exposure[files[stem]] for stem in ambient_names]),
         short={light: pixels / divisor for light, pixels in short.items()},
-        short_exposure_s={light: _exposure(section, SHORT + light, own=True) for light in short},
+        short_exposure_s={light: _short_exposure(section, light, files, reader, exposure) for light in short},
         mask=_read_mask(files["mask"], images.shape[1:3]) if "mask" in files else None,
         left_out=tuple(path.name for stem, path in files.items() if stem not in known),
         step=full.step or reader.step,
@@ -72,7 +77,7 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         claim=claim,
         white_level=full.white_level,
         distance_m=section.distance,
-        notes=(*full.notes, *negatives(reader.least, full.divisor)),
+        notes=(*said, *more, *full.notes, *negatives(reader.least, full.divisor)),
     )
 
 
@@ -107,7 +112,8 @@ def check_lights(folder: Path, lights: Sequence[str], *, use: Sequence[str] | No
         As `read_capture` raises them for the folder, its capture.yaml and the names of its images.
     """
     _need_folder(folder, "a capture folder: one image a light, named after it")
-    _chosen(folder, lights, use or read_capture_section(folder / "capture.yaml").lights, _by_name(folder))
+    files, named, _ = _in_order(folder, read_capture_section(folder / "capture.yaml"), lights)
+    _chosen(folder, lights, use or named, files)
 
 
 def read_sweep(folder: Path) -> tuple[Image, Array, float]:
@@ -154,6 +160,7 @@ class _SameSize:
         self.step = 1 / 255
         self.claims: list[ToneClaim | None] = []
         self.least: dict[Path, float] = {}
+        self.taken: dict[Path, TakenAt | None] = {}
 
     def read(self, path: Path) -> StoredImage:
         image = read_image(path)
@@ -169,6 +176,7 @@ class _SameSize:
         refuse_odd_floats(image.pixels, path)
         self.claims.append(image.claim)
         self.least[path] = float(image.pixels.min())
+        self.taken[path] = image.taken
         return image
 
 
@@ -201,7 +209,11 @@ def _by_name(folder: Path) -> dict[str, Path]:
     """The folder's images by their names without the ending."""
     files: dict[str, Path] = {}
     for path in sorted(folder.iterdir()):
-        if path.suffix.lower() not in ENDINGS or hidden(path):
+        if path.suffix.lower() not in image_endings() or hidden(path):
+            continue
+        raws = [each for each in (path, files.get(path.stem)) if each is not None and each.suffix.lower() in RAWS]
+        if path.stem in files and len(raws) == 1:  # a camera that stores a picture beside its raw file
+            files[path.stem] = raws[0]
             continue
         if path.stem in files:
             raise DisagreementError(
@@ -212,6 +224,16 @@ def _by_name(folder: Path) -> dict[str, Path]:
             )
         files[path.stem] = path
     return files
+
+
+def _in_order(folder: Path, section: CaptureSection, lights: Sequence[str]) -> tuple[dict[str, Path], Sequence[str] | None, list[str]]:
+    """The images by name, the lights that capture.yaml takes, and what is to be said where the images' order names them."""
+    files, pattern = _by_name(folder), pattern_of(section.lights)
+    if pattern is None:
+        return files, section.lights, []
+    files = by_order(folder, pattern, lights, files)
+    first, last = lights[0], lights[-1]
+    return files, None, [f"lights by the order of {pattern}: {first} is {files[first].name}, ... {last} is {files[last].name}"]
 
 
 def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, files: dict[str, Path]) -> list[str]:
@@ -269,6 +291,17 @@ def _exposure(section: CaptureSection, stem: str, *, own: bool = False) -> float
     """Exposure times gain of one image; None where no exposure is stated (`own`: stated for this very image)."""
     exposure = section.exposures.get(stem, None if own else section.exposure)
     return None if exposure is None else exposure * section.gains.get(stem, section.gain)
+
+
+def _short_exposure(
+    section: CaptureSection, light: str, files: dict[str, Path], reader: _SameSize, exposure: dict[Path, float]
+) -> float | None:
+    """Exposure of a light's shorter image: as stated, else by both images' EXIF tags; None where neither says it."""
+    stated = _exposure(section, SHORT + light, own=True)
+    short, plain = reader.taken.get(files[SHORT + light]), reader.taken.get(files[light])
+    if stated is not None or short is None or plain is None:
+        return stated
+    return exposure[files[light]] * short.relative_to(plain) / plain.time_s
 
 
 def _read_mask(path: Path, shape: tuple[int, ...]) -> Mask:

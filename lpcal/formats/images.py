@@ -26,14 +26,17 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.named_files import exists, kind_of_other
+from lpcal.formats.exif import GARBLED, TakenAt, taken_at
+from lpcal.formats.named_files import PICTURES, RAWS, exists, kind_of_other, raw_is_read
+from lpcal.formats.raw_photograph import read_raw_photograph
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image
 from lpcal.geometry.tone_curve import decode
 from lpcal.records.quantities import LEAST_GAMMA, MOST_GAMMA
 from lpcal.records.sensor import ToneClaim
 
-ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
+RAW_NUMBERS = ToneClaim("are a camera's raw numbers", 1.0)
+"""What a raw file says of its tone curve."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,8 @@ class StoredImage:
     step: float
     claim: ToneClaim | None = None
     """What the file says of its tone curve."""
+    taken: TakenAt | None = None
+    """What the file says of its exposure."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -66,7 +71,10 @@ def read_image(path: Path) -> StoredImage:
         raise InputError("no such image", where=str(path), needed="an image file")
     other = kind_of_other([path])
     if other:
-        raise InputError(other, where=str(path), needed=f"one of {', '.join(ENDINGS)}")
+        raise InputError(other, where=str(path), needed=f"one of {', '.join(PICTURES)}")
+    if raw_is_read() and path.suffix.lower() in RAWS:
+        raw, step, taken = read_raw_photograph(path)
+        return StoredImage(raw, step, RAW_NUMBERS, taken)
     data = path.read_bytes()
     refuse_cut(data, path)
     refuse_odd_head(data, path)
@@ -76,7 +84,7 @@ def read_image(path: Path) -> StoredImage:
     except cv2.error:
         stored = None
     if stored is None:
-        raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(ENDINGS)}, whole", todo="copy it anew")
+        raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(PICTURES)}, whole", todo="copy it anew")
     if data[:2] in {b"II", b"MM"}:
         stored = as_stored(stored, orientation(data))
     if stored.ndim == 3:
@@ -85,7 +93,7 @@ def read_image(path: Path) -> StoredImage:
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
     pixels = np.ascontiguousarray(stored, dtype=np.float32) / np.float32(full_scale)
-    return StoredImage(pixels, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data))
+    return StoredImage(pixels, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data), taken_at(data))
 
 
 MOST_PIXELS = 250_000_000
@@ -198,8 +206,6 @@ MAKER, CAMERA = 271, 272
 CURVES = (b"rTRC", b"kTRC", b"gTRC")
 AT = np.array([0.05, 0.2, 0.5])
 """Stored numbers at which a profile's curve is read: sRGB and a power part in the dark."""
-GARBLED = (OSError, ValueError, SyntaxError, TypeError, LookupError, AttributeError, ArithmeticError, struct.error)
-"""What comes of tags that cannot be read."""
 SAME = 0.001
 """Linear numbers within which a profile's curve is sRGB's."""
 

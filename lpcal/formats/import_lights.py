@@ -12,9 +12,8 @@ from pathlib import Path
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
-from lpcal.formats.images import ENDINGS
 from lpcal.formats.light_tables import sane_lights
-from lpcal.formats.named_files import exists
+from lpcal.formats.named_files import exists, image_endings
 from lpcal.formats.reading import reading
 from lpcal.records.calibration import Calibration
 
@@ -73,6 +72,11 @@ def import_lights(path: Path, vectors: str | None = None) -> Imported:
     raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
 
 
+def natural_stem(stem: str) -> list[tuple[bool, int, str]]:
+    """A key that sorts IMG_9 before IMG_10."""
+    return [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)]
+
+
 def named_after(calibration: Calibration, folder: Path) -> Calibration:
     """The same lights, named after the images of a folder in natural order (not ambient, mask and short ones).
 
@@ -85,9 +89,9 @@ def named_after(calibration: Calibration, folder: Path) -> Calibration:
     """
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light")
-    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in ENDINGS and not path.name.startswith(".")]
+    stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in image_endings() and not path.name.startswith(".")]
     stems = [stem for stem in stems if not RESERVED & set(re.split(r"[^a-z]+", stem.lower()))]
-    stems.sort(key=lambda stem: [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)])
+    stems.sort(key=natural_stem)
     if len(stems) != len(calibration.lights):
         raise DisagreementError(f"{len(stems)} images", where=str(folder), needed=f"{len(calibration.lights)}, one a light")
     return replace(calibration, lights=tuple(replace(light, name=stem) for light, stem in zip(calibration.lights, stems, strict=True)))

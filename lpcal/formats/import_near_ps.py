@@ -15,9 +15,10 @@ import numpy as np
 
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.camera_coefficients import sane_camera
-from lpcal.formats.images import ENDINGS, read_image
+from lpcal.formats.images import read_image
 from lpcal.formats.light_tables import LARGEST, of_light, positive, scaled, unit_rows
 from lpcal.formats.mat_file import read_matrices
+from lpcal.formats.named_files import image_endings
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera, Light, Lobe
 
@@ -95,7 +96,7 @@ def _camera(file: Path) -> Camera | None:
     if K.shape != (3, 3):
         raise InputError(f"K is {K.shape[0]}x{K.shape[1]}", where=str(file), needed="3 x 3")
     K = K.T if K[0, 2] == 0 else K
-    images = sorted(path for path in file.parent.iterdir() if path.suffix.lower() in ENDINGS and not path.name.startswith("."))
+    images = sorted(path for path in file.parent.iterdir() if path.suffix.lower() in image_endings() and not path.name.startswith("."))
     if K[2, 2] != 0:
         K = K / K[2, 2]
     guess = (round(2 * float(K[0, 2])) + 1, round(2 * float(K[1, 2])) + 1)

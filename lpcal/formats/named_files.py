@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path, PureWindowsPath
 
 VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".mpg", ".mpeg", ".webm", ".wmv")
@@ -29,7 +31,20 @@ RAWS = (
     ".iiq",
     ".raw",
 )
+PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
+"""What names of images end in that are read."""
 OTHERS = (".heic", ".heif", ".gif", ".psd", ".exr", ".hdr", ".svg", ".pdf")
+
+
+@cache
+def raw_is_read() -> bool:
+    """Whether cameras' raw files are read: rawpy is installed."""
+    return find_spec("rawpy") is not None
+
+
+def image_endings() -> tuple[str, ...]:
+    """What names of images end in that are read here."""
+    return PICTURES + (RAWS if raw_is_read() else ())
 
 
 def exists(path: Path) -> bool:
@@ -65,8 +80,10 @@ def hidden(path: Path) -> bool:
 def kind_of_other(paths: Iterable[Path]) -> str:
     """What files are that cannot be read as pictures, in words; empty where there is nothing to say of them."""
     endings = {path.suffix.lower() for path in paths}
-    for known, what in ((VIDEOS, "a video"), (RAWS, "a camera's raw file"), (OTHERS, "of a kind that is not read")):
+    raws = () if raw_is_read() else RAWS
+    for known, what in ((VIDEOS, "a video"), (raws, "a camera's raw file"), (OTHERS, "of a kind that is not read")):
         found = sorted(endings & set(known))
         if found:
-            return f"{found[0]} is {what}: turn it into PNG or TIFF first"
+            first = "install lpcal[raw], or " if known is raws else ""
+            return f"{found[0]} is {what}: {first}turn it into PNG or TIFF first"
     return ""

@@ -23,8 +23,8 @@ from lpcal.api.watching import Seen, Watched, lacking
 from lpcal.detect.board import find_board
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.images import read_image
-from lpcal.formats.named_files import hidden
-from lpcal.pipeline.workspace import IMAGE_ENDINGS, natural
+from lpcal.formats.named_files import hidden, image_endings
+from lpcal.pipeline.workspace import natural
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig
 from lpcal.report.side_pages import watch_html
@@ -55,7 +55,7 @@ class Watch:
         """Images that have come or changed, and did not change since the last look."""
         found = []
         for path in sorted(self.folder.rglob("*"), key=natural):
-            if path.suffix.lower() not in IMAGE_ENDINGS or hidden(path):
+            if path.suffix.lower() not in image_endings() or hidden(path):
                 continue
             try:
                 state = path.stat()

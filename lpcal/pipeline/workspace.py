@@ -15,13 +15,11 @@ from typing import Any
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.documents import document_kind, plain, read_document, sha256
-from lpcal.formats.named_files import hidden, kind_of_other, resolve_named, spellings
+from lpcal.formats.named_files import hidden, image_endings, kind_of_other, resolve_named, spellings
 from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.provenance import Provenance
 from lpcal.records.rig import RigFile
-
-IMAGE_ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,7 @@ class Workspace:
         found: dict[Path, None] = {}
         for pattern in patterns:
             named = self._named_by(pattern, key)
-            matches = [path for path in named if path.suffix.lower() in IMAGE_ENDINGS and not hidden(path)]
+            matches = [path for path in named if path.suffix.lower() in image_endings() and not hidden(path)]
             if not matches:
                 other = kind_of_other(named)
                 raise InputError(

@@ -319,3 +319,6 @@ class CaptureSection(Section):
     exposures: dict[str, Duration] = {}
     gains: dict[str, Factor] = {}
     lights: Names | None = None
+    """Names of those that are taken; or one pattern of images, such as IMG_*.jpg, that are all the lights in their order."""
+
+    _lights = field_validator("lights", mode="before")(_as_list)
