@@ -67,3 +67,34 @@ def test_an_unknown_rig_and_a_broken_one(lpcal, tmp_path):
     assert code == 3
     assert "panel.yaml:2" in err
     assert not (tmp_path / "mine").exists()
+
+
+def test_an_rti_folder_takes_numbered_photographs(lpcal, tmp_path):
+    code, _, err = lpcal("new", tmp_path / "mine", "--from", "rti")
+    assert code == 0, err
+    rig = read_rig(tmp_path / "mine" / "panel.yaml").rig
+    assert rig.camera is None
+    for capture in ("ball", "objects/tablet"):
+        assert "lights: IMG_*.jpg" in (tmp_path / "mine" / capture / "capture.yaml").read_text()
+    code, _, err = lpcal("run", cwd=tmp_path / "mine")
+    assert code == 6
+    assert "0 images match IMG_*.jpg" in err
+    assert "24, one a light" in err
+
+
+def test_a_mocap_folder_says_what_it_lacks(lpcal, tmp_path):
+    code, out, err = lpcal("new", tmp_path / "mine", "--from", "mocap")
+    assert code == 0, err
+    assert "mocap" in out
+    assert (tmp_path / "mine" / "times.csv.example").read_text().startswith("file,time_s")
+    code, _, err = lpcal("run", cwd=tmp_path / "mine")
+    assert code == 3
+    assert "Traceback" not in err
+
+
+def test_a_robots_table_has_a_sample(lpcal, tmp_path):
+    from lpcal.formats.robot_poses import read_robot_poses
+
+    assert lpcal("new", tmp_path / "mine", "--from", "robot-camera")[0] == 0
+    sample = tmp_path / "mine" / "robot.csv.example"
+    assert read_robot_poses(sample.rename(sample.with_suffix(""))).H.shape == (3, 4, 4)

@@ -17,17 +17,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument("folder", type=Path, metavar="DIR", help="the folder to start; a panel.yaml that is there is never overwritten")
     parser.add_argument(
-        "--from", dest="origin", metavar="RIG", help="a bundled rig's name, or a panel.yaml or its folder (default: lightpanel-6)"
+        "--from",
+        dest="origin",
+        metavar="RIG",
+        help="a bundled rig's name, mocap, rti, or a panel.yaml or its folder (default: lightpanel-6)",
     )
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Copy the panel.yaml and make the folders that it names."""
-    from lpcal.formats.bundled import DEFAULT_RIG, rig_file, rig_names
+    from lpcal.formats.bundled import DEFAULT_RIG, rig_names, start_file, start_names
     from lpcal.formats.outputs import write_text
     from lpcal.formats.panel_yaml import FILE_NAME, read_rig
 
-    origin = read_rig(rig_file(options.origin))
+    origin = read_rig(start_file(options.origin))
     target = options.folder / FILE_NAME
     if target.exists() or (options.folder.exists() and not options.folder.is_dir()):
         found = "is there already" if target.exists() else "is a file"
@@ -36,15 +39,26 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     folders = _folders(origin.rig)
     for name in folders:
         (options.folder / name).mkdir(parents=True, exist_ok=True)
+    beside = _samples(origin.file.parent) if options.origin in {*rig_names(), *start_names()} else []
+    for sample in beside:
+        place = options.folder / sample.relative_to(origin.file.parent)
+        if not place.exists():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            write_text(place, sample.read_text(encoding="utf-8"))
     summary = [
         f"{target}: a copy of {options.origin or DEFAULT_RIG}; edit it to your rig",
         *(f"  {options.folder / name}/" for name in folders),
         f"then: {'; '.join(_todo(origin.rig))}",
-        f"other rigs to start from: {', '.join(rig_names())}",
+        f"other rigs to start from: {', '.join([*rig_names(), *start_names()])}",
     ]
-    document = {"panel": str(target), "folders": [str(options.folder / name) for name in folders], "rigs": rig_names()}
+    document = {"panel": str(target), "folders": [str(options.folder / name) for name in folders], "rigs": [*rig_names(), *start_names()]}
     first = "lpcal intrinsics" if origin.rig.camera and origin.rig.camera.images else "lpcal run"
     return Outcome(summary, document, next_command=f"cd {options.folder} && lpcal board; after the images are there, {first}")
+
+
+def _samples(folder: Path) -> list[Path]:
+    """What lies beside a bundled panel.yaml: samples of tables, and captures' capture.yaml."""
+    return sorted(path for path in folder.rglob("*") if path.is_file() and path.name != "panel.yaml")
 
 
 def _folders(rig: Rig) -> list[str]:

@@ -9,6 +9,8 @@ from lpcal.errors import InputError
 from lpcal.formats.panel_yaml import FILE_NAME, find
 
 DEFAULT_RIG = "lightpanel-6"
+START = "start"
+"""The folder of folders to start from."""
 
 
 def folder(name: str) -> Path:
@@ -29,6 +31,24 @@ def folder(name: str) -> Path:
 def rig_names() -> list[str]:
     """The bundled rigs."""
     return sorted(path.parent.name for path in folder("rigs").glob(f"*/{FILE_NAME}"))
+
+
+def start_names() -> list[str]:
+    """Folders to start from that are no whole rigs: their images and recordings are the user's to bring."""
+    return sorted(path.parent.name for path in (folder("rigs") / START).glob(f"*/{FILE_NAME}"))
+
+
+def start_file(name: str | None) -> Path:
+    """The panel.yaml to start a folder from: as `rig_file`, or one of `start_names`.
+
+    Raises
+    ------
+    InputError
+        As `rig_file`.
+    """
+    if name in start_names() and not Path(str(name)).exists():
+        return folder("rigs") / START / str(name) / FILE_NAME
+    return rig_file(name)
 
 
 def rig_file(name: str | None) -> Path:
