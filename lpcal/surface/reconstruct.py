@@ -303,7 +303,7 @@ def _figures(state: State) -> SurfaceFigures:
         median_lights_used=float(np.median(found.used)),
         shadow_anchors=state.anchors,
         gloss=GlossFound(**asdict(shine)) if shine is not None and shine.clear else None,
-        reflectance=state.reflectance,
+        reflectance=None if state.reflects is None else state.reflects.median,
         residual_sigmas_rms=float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     )
 

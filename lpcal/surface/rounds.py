@@ -26,7 +26,10 @@ from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Around
 
-ROUNDS = 5
+ROUNDS = 9
+"""At most: two for the depth, the others for what hangs on it."""
+SETTLED = 2e-4
+"""Median change of log depth in a round under which it was the last: a tenth of the least standard deviations that are stated."""
 GLOSS_ROUND = 1
 """From which on a gloss is looked for: at a false depth a lobe can fit by chance."""
 SHAPE_ROUND = 2
@@ -54,8 +57,8 @@ class State:
     """The light that the normals were found in."""
     field: Field
     """Of the normals, and the gloss of the object."""
-    reflectance: float | None = None
-    """Of the object's median pixel, by the light that its parts throw on each other; None where that was not asked."""
+    reflects: bounce.Reflectance | None = None
+    """By the light that its parts throw on each other; None where that was not asked."""
     anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
 
@@ -100,7 +103,9 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     rounds = ROUNDS if scene.near else 1
     for k in range(1, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
-        state = once(scene, state.u, state, k)
+        before, state = state, once(scene, state.u, state, k)
+        if k > SHAPE_ROUND and np.median(np.abs(state.u - before.u)) < SETTLED:
+            break
     progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
 
@@ -141,7 +146,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
-    return State(u, weight, n, found, own, lit, whole, None if reflects is None else reflects.median)
+    return State(u, weight, n, found, own, lit, whole, reflects)
 
 
 def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Mask, Mask]:
@@ -171,7 +176,7 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
     seen = scene.seen
     by = bounce.thrown(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
     dark = bounce.in_shadow(seen, lit, before.normals, by_object)
-    first = bounce.reflectance(seen, by, before.field.b, dark)
+    first = before.reflects or bounce.reflectance(seen, by, before.field.b, dark)
     begin = replace(lit, thrown=first.per_unit * by.J(first.sides, first.beyond))
     told = bounce.Told(first.strengths, *field.told(seen, scene.grid, begin, hidden, before.field, by.parts))
     found = bounce.reflectance(seen, by, before.field.b, dark, told)
