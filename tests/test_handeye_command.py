@@ -78,14 +78,26 @@ def test_missing_pieces(tmp_path, session, lpcal):
 
 
 @pytest.mark.slow
-def test_rig_a_from_the_true_camera(data, tmp_path, lpcal):
+def test_rig_a(data, tmp_path, lpcal):
+    """Every board found, the camera and the hand-eye within the contract's figures of the truth."""
     import shutil
+
+    from lpcal.formats.camera_yaml import read_camera, read_h_cb
+    from lpcal.geometry import camera as central
+    from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 
     folder = tmp_path / "rig"
     shutil.copytree(data("rig_a"), folder, ignore=shutil.ignore_patterns("objects", "spheres"))
     for path in folder.rglob("*"):
         path.chmod(0o755)
     assert lpcal("intrinsics", cwd=folder)[0] == 0
+    lens, of_lens = read_camera(folder / "calib" / "camera.yaml"), yaml.safe_load((folder / "truth" / "camera.yaml").read_text())
+    pixels = pixel_grid(lens.image_size)
+    rays = central.unproject(pixels, np.array(of_lens["K"]), np.array(of_lens["distortion"]))
+    apart, _ = projection_difference(pixels, rays, lens.project)
+    assert np.sqrt(np.mean(np.sum(apart**2, axis=1))) < 0.01
+    assert np.linalg.norm(apart, axis=1).max() < 0.02
+    assert len(read_h_cb(folder / "calib" / "H_CB.yaml").images) == 160
     assert lpcal("handeye", "mocap.csv", cwd=folder)[0] == 0
     found = read_handeye(folder / "calib" / "handeye.yaml")
     true = yaml.safe_load((folder / "truth" / "handeye.yaml").read_text())

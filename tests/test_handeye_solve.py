@@ -73,7 +73,8 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
 def test_the_covariance_holds_whatever_the_square_is_stated():
     """Over many sessions by chance alone; and of one session nothing but the unit hangs on the square that is stated."""
     sessions = [static_session(np.random.default_rng(seed), 30) for seed in range(60)]
-    nees = [_nees(session.H_PC, one.H_PC, one.H_PC_covariance) for session in sessions if (one := _static(session))]
+    solved = [(session, _static(session)) for session in sessions]
+    nees = [_nees(session.H_PC, found.H_PC, found.H_PC_covariance) for session, found in solved]
     assert np.mean(nees) == pytest.approx(6.3, abs=1.5)
     for session, as_it_is in zip(sessions[:8], nees, strict=False):
         for off in (0.015, -0.02):

@@ -95,9 +95,23 @@ def write_near_ps(folder):
     return [str(k + 1) for k in range(6)]
 
 
-@pytest.mark.parametrize("write", [pytest.param(write_luces, marks=pytest.mark.slow), write_near_ps])
-def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path, lpcal, write):
+@pytest.mark.parametrize("write", [write_luces, write_near_ps])
+def test_near_lights_are_read_as_they_are(tmp_path, write):
     names = write(tmp_path)
+    cv2.imwrite(str(tmp_path / f"{names[0]}.png"), np.zeros((112, 160), np.uint16))
+    _, found = read_lights(tmp_path)
+    true = calibration()
+    assert [light.name for light in found.lights] == names
+    assert np.allclose(found.camera.K, true.camera.K, atol=1e-6)
+    for one, other in zip(found.lights, true.lights, strict=True):
+        assert np.allclose(one.source_C, other.source_C, atol=1e-8)
+        assert np.allclose(one.axis_C, other.axis_C, atol=1e-7)
+        assert np.allclose(one.intensity, other.intensity, rtol=1e-6)
+        assert one.lobe.exponent == pytest.approx(EXPONENT)
+
+
+def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path, lpcal):
+    names = write_near_ps(tmp_path)
     raw = draw(Scene(), calibration())
     mask, depth, _ = truth(Scene())
     for name, image in zip(names, raw.images, strict=True):

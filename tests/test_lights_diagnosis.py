@@ -139,13 +139,7 @@ def test_a_spheres_own_capture_yaml_is_heeded_and_said(tmp_path: Path, lpcal: Ru
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("gamma", "spheres", "wings"),
-    [
-        (1.8, ["chrome_0", "chrome_1", "matte_0"], True),
-        (1.6, ["chrome_1", "matte_0"], True),
-    ],
-)
+@pytest.mark.parametrize(("gamma", "spheres", "wings"), [(1.8, ["chrome_0", "chrome_1", "matte_0"], True)])
 def test_a_gamma_too_slight_for_one_sphere_is_named_by_the_lights(
     tmp_path: Path, lpcal: Run, gamma: float, spheres: list[str], wings: bool
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import cv2
@@ -14,6 +15,7 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.formats.capture import read_capture
 from lpcal.records.calibration import LightsSolution
+from lpcal.records.observations import SphereView
 
 Data = Callable[[str], Path]
 IMAGES = [f"Image_{k:02d}" for k in range(1, 13)]
@@ -43,12 +45,13 @@ def apart_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.degrees(np.arccos(np.clip(np.sum(a * b, axis=1), -1, 1)))
 
 
+@cache
+def view_of(name: str, kind: str, folder: Path, lights: tuple[str, ...]) -> SphereView:
+    return observe_sphere(to_radiance(read_capture(folder, list(lights), name=name), Sensor()), Expected(kind, None), None)
+
+
 def solved(folders: dict[str, tuple[str, Path]], lights: list[str]) -> LightsSolution:
-    views = []
-    for name, (kind, folder) in folders.items():
-        radiance = to_radiance(read_capture(folder, lights, name=name), Sensor())
-        views.append(observe_sphere(radiance, Expected(kind, None), None))
-    return refine(views, lights, None, None)
+    return refine([view_of(name, kind, folder, tuple(lights)) for name, (kind, folder) in folders.items()], lights, None, None)
 
 
 def test_the_published_recipe_is_read_right(data: Data) -> None:
@@ -72,8 +75,7 @@ def test_the_rim_is_found_where_it_fades_into_the_wall(data: Data) -> None:
     """At its top LightProbe-1 mirrors the wall behind it, and the only edge there lies 6 px inside the rim. Streaks that it mirrors end
     at the rim, at y = 51.5 +- 1 px (read off the images' polar unwrapping with the wall's brightness divided out)."""
     folder = data("lights/psbox") / "LightProbe-1"
-    radiance = to_radiance(read_capture(folder, IMAGES, name="LightProbe-1"), Sensor())
-    view = observe_sphere(radiance, Expected("chrome", None), None)
+    view = view_of("LightProbe-1", "chrome", folder, tuple(IMAGES))
     waves = np.column_stack([2 * view.outline_px, np.ones(len(view.outline_px))])
     x, y, c = np.linalg.lstsq(waves, np.sum(view.outline_px**2, axis=1), rcond=None)[0]
     assert y - np.sqrt(c + x**2 + y**2) == pytest.approx(51.5, abs=1.5)

@@ -28,19 +28,19 @@ def drawn_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(light_sigmas, "CACHE", tmp_path)
 
 
-@pytest.mark.parametrize("seeds", [[20], pytest.param([7, 10, 20], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [[20], pytest.param([7, 10], marks=pytest.mark.slow)])
 def test_one_chrome_sphere_alone_says_how_little_it_knows_of_distances(seeds: list[int]) -> None:
     assert 0.3 < mean_nees(seeds, "direction")[0] < 3
 
 
-@pytest.mark.parametrize("seeds", [[17], pytest.param([6, 8, 17, 22], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [[17], pytest.param([6, 8, 22], marks=pytest.mark.slow)])
 def test_a_dome_from_chrome_spheres_is_as_sure_as_it_says(seeds: list[int]) -> None:
     direction, position = mean_nees(seeds, "direction", "position")
     assert 0.3 < direction < 2
     assert 0.3 < position < 2
 
 
-@pytest.mark.parametrize("seeds", [[16], pytest.param([26, 48, 74], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [[16], pytest.param([26, 48], marks=pytest.mark.slow)])
 def test_free_lights_say_how_well_matte_spheres_tell_their_irradiance(seeds: list[int]) -> None:
     assert 0.2 < mean_nees(seeds, "irradiance")[0] < 2.5
 

@@ -295,9 +295,9 @@ def wait_for(condition, seconds: float = 90.0) -> bool:
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found by /proc")
-@pytest.mark.parametrize("after", range(10))
+@pytest.mark.parametrize("after", [0, 1, 4, 8])
 def test_a_worker_killed_by_its_id_costs_nothing_but_time(tmp_path, after):
-    """At ten moments: before it has begun, and after so many surfaces stand."""
+    """Before it has begun, and after so many surfaces stand."""
     captures = collection(tmp_path, after + 8)  # some are left when it is killed
     with started(tmp_path, captures) as run:
         wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= after and children_of(run.pid))

@@ -100,7 +100,7 @@ def test_it_imports_only_what_it_uses(rig, quick):
 @pytest.mark.slow
 def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, rig, drawn, quick):
     write_capture(rig / "elsewhere", drawn)
-    code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, cwd=rig)
+    code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, "--lights", "distant", cwd=rig)
     assert code == 0, told
     assert (rig / "surfaces/ball/surface.npz").is_file()
     assert (rig / "surfaces/elsewhere/surface.npz").is_file()
@@ -134,7 +134,7 @@ def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
     dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
     write_capture(rig / "objects/dark", dark)
     (rig / "panel.yaml").write_text(PANEL.replace("{ball: objects/first}", "{dark: objects/dark, ball: objects/first}"))
-    code, _, told = lpcal("reconstruct", "--mask", quick, cwd=rig)
+    code, _, told = lpcal("reconstruct", "--mask", quick, "--lights", "distant", cwd=rig)
     assert code == 4
     assert "dark" in told
     assert not (rig / "surfaces/dark").exists()

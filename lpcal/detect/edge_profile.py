@@ -30,6 +30,8 @@ LARGE_RADIUS_PX, LARGEST_SCALE = 200.0, 3.0
 """Larger outlines are softer: all lengths above grow with the radius from here, up to so many times."""
 COARSEST = 40
 """Places looked at on either side of the curve, at the most."""
+SAME_PLACE_PX = 1e-9
+"""Places nearer than this are one, in pixels: what rounding makes of sums of steps is far less."""
 LEAST_CONTRAST = 4.0
 BEST_SHARE = 0.8
 SHARP_SHARE, SHARP_STEPS = 0.3, 5
@@ -116,11 +118,13 @@ class _Window:
     outer: float
 
     def misfits(self, terms: Callable[[Array], Array]) -> Array:
-        """Squared misfit (K, offsets) of the profiles to terms about each offset."""
-        found = []
+        """Squared misfit (K, offsets) of the profiles to terms about each offset; offsets a step apart share their terms."""
+        found, at, Q = [], np.zeros(0), np.zeros((0, 0))
         for away, part, square in self._parts:
-            Q = np.linalg.qr(terms(away))[0]
-            found.append(square - np.sum((part @ Q) ** 2, axis=1))
+            if len(away) != len(at) or np.abs(away - at).max() > SAME_PLACE_PX:
+                at, Q = away, np.linalg.qr(terms(away))[0]
+            along = part @ Q
+            found.append(square - np.einsum("kt,kt->k", along, along))
         return np.stack(found, axis=1)
 
     @cached_property
