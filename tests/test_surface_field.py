@@ -38,7 +38,7 @@ def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None
 
 def found(seen: Sight, lit: Lit, *, hidden: Mask | None = None, glossy: float | None = None) -> tuple[field.Field, normals.Estimate]:
     alone = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
-    return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, None, glossy), alone
+    return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, glossy), alone
 
 
 def errors_deg(b: Array, n: Array) -> Array:

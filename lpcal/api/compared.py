@@ -59,7 +59,7 @@ def reconstruct(
     InputError
         There is no method of this name, or it returns something else than (P, 3) numbers.
     """
-    sight.agree_on_size(radiance, calibration.camera)
+    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
     lights = sight.lights_of(calibration, radiance)
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     near = calibration.camera is not None and any(light.source_C is not None for light in lights)

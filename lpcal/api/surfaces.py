@@ -13,7 +13,7 @@ is the object's (interreflection) lies in few pixels and does not move a median;
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ import numpy.typing as npt
 
 from lpcal.api import compared, stacks
 from lpcal.api.curve import settle_sensor
+from lpcal.api.full_size import coarse_calibration, enlarged
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import notes_of
@@ -28,16 +29,18 @@ from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_u
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, InputError, UsageError
+from lpcal.formats.full_size import coarse_mask
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
+from lpcal.records.full_images import FullImages
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
-from lpcal.surface import convention
+from lpcal.surface import convention, sight
 from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.crop import Crop
@@ -148,40 +151,98 @@ def reconstruct(
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     refuse_unknown_words(mask, method, integrator, keep, distance_m)
     refuse_unknown_lights(raw, calibration)
-    hints = Hints(box, tuple((int(x), int(y)) for x, y in points))
-    refuse_hints(hints, raw.images.shape[1:3], raw.name)
-    calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
+    refuse_hints(Hints(box, tuple((int(x), int(y)) for x, y in points)), raw.size[::-1], raw.name)
+    asked = _Asked(
+        given=None if mask_given is None else stacks.of_image_size(mask_given, raw.size[::-1], "mask"),
+        automatic=isinstance(mask, str) and mask == "auto",
+        hints=Hints(box, tuple((int(x), int(y)) for x, y in points)),
+        keep=keep,
+        method=method,
+        integrator=integrator,
+        distance_m=distance_m or raw.distance_m,
+    )
+    calibration = calibration.of_images(raw.size)
     saying = _saying(sensor, raw, calibration)
+    if raw.full is None:
+        return _reconstructed(raw, calibration, asked, saying, progress)
+    return _in_full_size(raw, raw.full, calibration, asked, saying, progress)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What a caller of `reconstruct` asks for."""
+
+    given: Mask | None
+    automatic: bool
+    """Whether the mask is the capture's, or found; else every pixel counts where none is given."""
+    hints: Hints
+    keep: Keep
+    method: str
+    integrator: str
+    distance_m: float | None
+
+
+def _reconstructed(
+    raw: RawCapture,
+    calibration: Calibration,
+    asked: _Asked,
+    saying: Statements,
+    progress: Progress,
+    kept: list[solver.Solved] | None = None,
+) -> Surface:
+    """`reconstruct` for a capture that is held; what the surface was made from is added to `kept`."""
     settled = settle_sensor(raw, calibration, saying)
     used, said = settled.used.sensor, (*settled.notes, *contradictions(saying))
     refuse_bright_ambient(raw, used)
-    automatic = mask_given is None and isinstance(mask, str) and mask == "auto"
-    given_mask = None if mask_given is None else stacks.of_image_size(mask_given, raw.images.shape[1:3], "mask")
-    wanted = raw.mask if automatic else given_mask
+    given, hints, method = asked.given, asked.hints, asked.method
+    automatic = asked.automatic and given is None
+    wanted = raw.mask if automatic else given
     if method not in WAYS:
-        inside = np.ones(raw.images.shape[1:3], bool) if given_mask is None and not automatic else wanted
+        inside = np.ones(raw.images.shape[1:3], bool) if given is None and not automatic else wanted
         radiance = _linear(raw, used, said, None, use_mask=automatic)
-        begin_m = distance_m or raw.distance_m or calibration.d_object_m or DISTANCE_M
-        surface = compared.reconstruct(radiance, calibration, inside, hints, begin_m, method, integrator)
+        begin_m = asked.distance_m or calibration.d_object_m or DISTANCE_M
+        surface = compared.reconstruct(radiance, calibration, inside, hints, begin_m, method, asked.integrator)
         return replace(surface, warnings=(*radiance.notes, *surface.warnings), sensor=settled.used)
-    part = Crop.about(wanted) if wanted is not None and calibration.camera is None and hints == NO_HINTS else None
+    cropped = wanted is not None and calibration.camera is None and hints == NO_HINTS and kept is None
+    part = Crop.about(wanted) if cropped and wanted is not None else None
     options = solver.Options(
         near=method == "near",
-        distance_m=distance_m or raw.distance_m,
-        mask=given_mask if given_mask is None or part is None else part.of(given_mask),
+        distance_m=asked.distance_m,
+        mask=given if given is None or part is None else part.of(given),
         automatic_mask=automatic,
         hints=hints,
-        keep=keep,
+        keep=asked.keep,
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
     )
     radiance = _linear(raw, used, said, part, use_mask=automatic)
-    surface = solver.reconstruct(radiance, calibration, options, progress)
+    surface = solver.reconstruct(radiance, calibration, options, progress, kept)
     notes = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration))
     surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
     return replace(surface, warnings=notes, sensor=settled.used)
+
+
+def _in_full_size(
+    raw: RawCapture, full: FullImages, calibration: Calibration, asked: _Asked, saying: Statements, progress: Progress
+) -> Surface:
+    """`reconstruct` for a capture that is too large to be held: in coarse pixels first."""
+    if asked.method not in WAYS:
+        raise UsageError(
+            f"{len(raw.lights)} images of {full.size[1]}x{full.size[0]} are too large for a method to compare with",
+            where=asked.method,
+            needed="near or distant",
+            todo="compare on a smaller picture",
+        )
+    sight.agree_on_size(raw.name, full.size, calibration.camera)
+    by, kept = full.factor, list[solver.Solved]()
+    mask = asked.given if asked.given is not None else full.mask if asked.automatic else np.ones(full.size, bool)
+    coarse_asked = replace(asked, given=None if asked.given is None else coarse_mask(asked.given, by), hints=asked.hints.shrunk(by))
+    coarse = _reconstructed(replace(raw, full=None), coarse_calibration(calibration, by), coarse_asked, saying, progress, kept)
+    solved = next(one for one in kept if one.surface.depth is coarse.depth or one.surface.normals is coarse.normals)
+    inside = None if mask is None else asked.hints.of(mask)
+    return enlarged(raw, full, calibration, coarse, solved, inside, progress)
 
 
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:

@@ -22,6 +22,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.piled import piled_level, piled_words
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import FlatField, Sensor, StatedSensor
 
@@ -75,29 +76,56 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     piled = piled_level(raw.images, sensor.white_level, raw.step)
     if piled is not None:
         saturated |= over_white(raw.images, replace(sensor, white_level=piled), raw.step)
-    signal, sigma = np.empty(raw.images.shape, np.float32), np.empty(raw.images.shape, np.float32)
-    for image, stored in zip(signal, raw.images, strict=True):
-        image[...] = sensor.linear(stored)
-    ambient_linear = None if raw.ambient is None else sensor.linear(raw.ambient)
+    signal = _linear(raw, sensor)
     noise = noise_model(signal, saturated, raw.step)
     _refuse_black(raw, sensor, signal)
     response = sensor.response(signal.shape)
-    ambient = ambient_variance = np.zeros(signal.shape[1:], np.float32)
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
     notes += [] if piled is None else [piled_words(piled)]
-    if ambient_linear is None:
-        notes.append(NO_AMBIENT)
-    else:
-        times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (signal.ndim - 1))
-        ambient = np.asarray(np.mean(ambient_linear / times, axis=0), np.float32)
-        ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
-    for lit, std, exposure in zip(signal, sigma, raw.exposure_s.astype(np.float32), strict=True):
-        std[...] = np.sqrt(_variance(lit, noise) / exposure**2 + ambient_variance) / response
-        lit[...] = (lit / exposure - ambient) / response
+    notes += [NO_AMBIENT] if raw.ambient is None else []
+    sigma, ambient = _unit_exposure(raw, sensor, signal, noise, response)
     dark = _dark(raw, signal, sigma)
     short = {light: _short(sensor.linear(image), raw.short_exposure_s.get(light), ambient, response) for light, image in raw.short.items()}
     notes += [f"{light} lights nothing: is it off in its image?" for light in dark]
     return Radiance(raw.name, raw.lights, signal, sigma, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
+
+
+def part_to_radiance(part: RawCapture, sensor: Sensor, noise: tuple[float, float], white: float, response: Image) -> Radiance:
+    """The same of a part of a capture's images, of which the noise (see `noise_model`) and where the numbers end are known.
+
+    `response` (h, w) is that of lens and sensor there.
+    """
+    saturated = over_white(part.images, replace(sensor, white_level=white), part.step)
+    signal = _linear(part, sensor)
+    response = response[..., None] if signal.ndim == 4 else response
+    sigma, ambient = _unit_exposure(part, sensor, signal, noise, response)
+    short = {
+        light: _short(sensor.linear(image), part.short_exposure_s.get(light), ambient, response) for light, image in part.short.items()
+    }
+    return Radiance(part.name, part.lights, signal, sigma, saturated, ambient / response, short)
+
+
+def _linear(raw: RawCapture, sensor: Sensor) -> Image:
+    """The linear numbers of the lights' images."""
+    signal = np.empty(raw.images.shape, np.float32)
+    for image, stored in zip(signal, raw.images, strict=True):
+        image[...] = sensor.linear(stored)
+    return signal
+
+
+def _unit_exposure(raw: RawCapture, sensor: Sensor, linear: Image, noise: tuple[float, float], response: Image) -> tuple[Image, Image]:
+    """Sigma of the signals, and the ambient light; the linear numbers are made signals in their place."""
+    ambient = ambient_variance = np.zeros(linear.shape[1:], np.float32)
+    if raw.ambient is not None:
+        ambient_linear = sensor.linear(raw.ambient)
+        times = raw.ambient_exposure_s.astype(np.float32).reshape(-1, *[1] * (linear.ndim - 1))
+        ambient = np.asarray(np.mean(ambient_linear / times, axis=0), np.float32)
+        ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
+    sigma = np.empty(linear.shape, np.float32)
+    for lit, std, exposure in zip(linear, sigma, raw.exposure_s.astype(np.float32), strict=True):
+        std[...] = np.sqrt(_variance(lit, noise) / exposure**2 + ambient_variance) / response
+        lit[...] = (lit / exposure - ambient) / response
+    return sigma, ambient
 
 
 def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
@@ -248,32 +276,3 @@ def _dark(raw: RawCapture, signal: Image, sigma: Image) -> tuple[str, ...]:
             todo="check the lights, the exposure and the ambient image",
         )
     return dark
-
-
-NEAR_TOP = 0.8
-"""Numbers above this share of the largest are looked at; a dozen are in use there in any 8 bit image that is worth clipping."""
-BELOW = 8
-"""How many of the numbers in use just below the largest it is held against."""
-FEWEST_PX = 50
-"""Pixels at the largest number, of all images together, from which they can be a pile: a highlight of noise has a few."""
-TIMES = 8.0
-"""Times as many pixels as at any of the numbers below: an image that is not clipped has about as many, or fewer."""
-WIDEST = 0.15
-"""Share of the largest number over which the numbers below may lie: on a flat surface without noise there is none for long."""
-
-
-def piled_level(images: Image, white_level: float, step: float) -> float | None:
-    """The number, a fraction of full scale, at which images (L, H, W[, 3]) are clipped below the white level; None where they are not."""
-    top = float(images.max())
-    if top <= 0 or top >= white_level - 1.5 * step:
-        return None
-    values, counts = np.unique(images[images > NEAR_TOP * top], return_counts=True)
-    if len(values) <= BELOW or counts[-1] < max(FEWEST_PX, TIMES * counts[-1 - BELOW : -1].max()):
-        return None
-    return top if values[-1 - BELOW] > (1 - WIDEST) * top else None
-
-
-def piled_words(level: float) -> str:
-    """What is said of it."""
-    percent = f"{100 * level:.1f} %"
-    return f"the brightest numbers pile up at {percent} of full scale: taken as saturated there; state white_level: {percent}"

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats import full_size
 from lpcal.formats.capture_order import by_order, pattern_of
 from lpcal.formats.exif import TakenAt, exposures
-from lpcal.formats.full_scale import full_scale, negatives, refuse_odd_floats
-from lpcal.formats.images import StoredImage, read_image
+from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
+from lpcal.formats.images import Numbers, read_image, read_numbers
 from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
@@ -48,37 +51,64 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     chosen = _chosen(folder, lights, use or named, files)
     _refuse_unknown(section, {*lights, *files, *(SHORT + light for light in lights)}, folder)
     reader = _SameSize()
-    images = np.stack([reader.read(files[light]).pixels for light in chosen])
-    claim = _common_claim(reader.claims)
-    flat = _flat_field(section, folder)
     ambient_names = [stem for stem in files if stem == "ambient" or stem.startswith("ambient_")]
-    ambient = [reader.read(files[stem]).pixels for stem in ambient_names]
-    short = {light: reader.read(files[SHORT + light]).pixels for light in chosen if SHORT + light in files}
-    full = full_scale(images, reader.step)
-    divisor = np.float32(full.divisor)
+    short_names = [light for light in chosen if SHORT + light in files]
+    groups = [[files[stem] for stem in group] for group in (chosen, ambient_names, [SHORT + light for light in short_names])]
+    found = _read_images(groups, reader)
+    images, ambient, short = found.stacks
+    claim = _common_claim([reader.claims[files[light]] for light in chosen])
+    flat, full = _flat_field(section, folder), found.full
     sources = {light: files[light] for light in (*chosen, *ambient_names)}
     stated = {path: _exposure(section, name) for name, path in sources.items()}
     exposure, more = exposures({path: reader.taken[path] for path in sources.values()}, stated)
     known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights), *([flat.stem] if flat else [])}
-    return RawCapture(
+    mask = _read_mask(files["mask"], reader.shape) if "mask" in files else None
+    raw = RawCapture(
         name=name or folder.resolve().name,
         lights=tuple(chosen),
-        images=images / divisor,
+        images=images,
         exposure_s=np.array([exposure[files[light]] for light in chosen]),
-        ambient=np.stack(ambient) / divisor if ambient else None,
+        ambient=ambient if ambient_names else None,
         ambient_exposure_s=np.array([exposure[files[stem]] for stem in ambient_names]),
-        short={light: pixels / divisor for light, pixels in short.items()},
-        short_exposure_s={light: _short_exposure(section, light, files, reader, exposure) for light in short},
-        mask=_read_mask(files["mask"], images.shape[1:3]) if "mask" in files else None,
+        short=dict(zip(short_names, short, strict=True)),
+        short_exposure_s={light: _short_exposure(section, light, files, reader, exposure) for light in short_names},
+        mask=mask,
         left_out=tuple(path.name for stem, path in files.items() if stem not in known),
         step=full.step or reader.step,
         sensor=StatedSensor(section.gamma, section.black_level, section.white_level),
-        flat=None if flat is None else reader.read(flat).pixels / divisor,
+        flat=None if flat is None else reader.read(flat).image.pixels / np.float32(full.divisor),
         claim=claim,
         white_level=full.white_level,
         distance_m=section.distance,
         notes=(*said, *more, *full.notes, *negatives(reader.least, full.divisor)),
     )
+    return raw if found.sieve is None else full_size.settled(raw, found.sieve, full, mask)
+
+
+@dataclass(frozen=True)
+class _Read:
+    """The images of a capture, as fractions of full scale."""
+
+    stacks: list[Image]
+    """(N, H, W[, 3]) of the lights, of the ambient images, of the short ones."""
+    full: FullScale
+    sieve: full_size.Sieve | None
+    """What holds them in full size, where they are too large; the stacks are then coarse."""
+
+
+def _read_images(groups: list[list[Path]], reader: _SameSize) -> _Read:
+    """The images of lights, ambient ones and short ones."""
+    paths = [path for group in groups for path in group]
+    ends = np.cumsum([0, *(len(group) for group in groups)]).tolist()
+    first = reader.read(paths[0])
+    if full_size.too_large(first.stored.shape, len(groups[0])):
+        sieve = full_size.read_all(paths, reader.read, len(groups[0]), first)
+        full = sieve.full()
+        return _Read([sieve.coarse(range(*both), full) for both in pairwise(ends)], full, sieve)
+    images = np.stack([first.image.pixels, *(reader.read(path).image.pixels for path in groups[0][1:])])
+    others = [np.stack([reader.read(path).image.pixels for path in group]) if group else np.empty(0, np.float32) for group in groups[1:]]
+    full = full_scale(images, reader.step)
+    return _Read([np.asarray(stack / np.float32(full.divisor), np.float32) for stack in (images, *others)], full, None)
 
 
 def _flat_field(section: CaptureSection, folder: Path) -> Path | None:
@@ -137,7 +167,7 @@ def read_sweep(folder: Path) -> tuple[Image, Array, float]:
             needed="exposures: {image name: 5 ms, ...}",
             todo="state the exposure of each image",
         )
-    images = np.stack([reader.read(path).pixels for path in files.values()])
+    images = np.stack([reader.read(path).image.pixels for path in files.values()])
     return images, np.array([value for value in exposure.values() if value is not None]), reader.step
 
 
@@ -156,32 +186,33 @@ class _SameSize:
     """Reads images and holds them to the size and channels of the first."""
 
     def __init__(self) -> None:
-        self.first: tuple[Path, StoredImage] | None = None
+        self.first: Path | None = None
+        self.shape: tuple[int, ...] = ()
         self.step = 1 / 255
-        self.claims: list[ToneClaim | None] = []
+        self.claims: dict[Path, ToneClaim | None] = {}
         self.least: dict[Path, float] = {}
         self.taken: dict[Path, TakenAt | None] = {}
 
-    def read(self, path: Path) -> StoredImage:
-        image = read_image(path)
+    def read(self, path: Path) -> Numbers:
+        image = read_numbers(path)
         if self.first is None:
-            self.first, self.step = (path, image), image.step
-        if image.pixels.shape != self.first[1].pixels.shape:
+            self.first, self.shape, self.step = path, image.stored.shape, image.step
+        if image.stored.shape != self.shape:
             raise DisagreementError(
-                f"{_kind(image.pixels)}, but {self.first[0].name} is {_kind(self.first[1].pixels)}",
+                f"{_kind(image.stored.shape)}, but {self.first.name} is {_kind(self.shape)}",
                 where=str(path),
                 needed="all images of a capture alike",
                 todo="take the capture anew, or remove the odd image",
             )
-        refuse_odd_floats(image.pixels, path)
-        self.claims.append(image.claim)
-        self.least[path] = float(image.pixels.min())
+        refuse_odd_floats(image.stored, path)
+        self.claims[path] = image.claim
+        self.least[path] = float(image.stored.min()) / image.full_scale
         self.taken[path] = image.taken
         return image
 
 
-def _kind(pixels: Image) -> str:
-    return f"{pixels.shape[1]}x{pixels.shape[0]} {'grey' if pixels.ndim == 2 else 'RGB'}"
+def _kind(shape: tuple[int, ...]) -> str:
+    return f"{shape[1]}x{shape[0]} {'grey' if len(shape) == 2 else 'RGB'}"
 
 
 def _need_folder(folder: Path, needed: str) -> None:

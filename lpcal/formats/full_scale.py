@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Image
@@ -40,7 +42,7 @@ def full_scale(images: Image, step: float) -> FullScale:
     return _of_floats(float(images.max())) if step < 1 / IN_SIXTEEN else FullScale()
 
 
-def refuse_odd_floats(pixels: Image, path: Path) -> None:
+def refuse_odd_floats(pixels: npt.NDArray[Any], path: Path) -> None:
     """Refuse pixels that are no finite numbers.
 
     Raises
@@ -48,7 +50,7 @@ def refuse_odd_floats(pixels: Image, path: Path) -> None:
     InputError
         There are some; their count is said.
     """
-    odd = pixels.size - int(np.isfinite(pixels).sum())
+    odd = pixels.size - int(np.isfinite(pixels).sum()) if pixels.dtype.kind == "f" else 0
     if odd:
         raise InputError(f"{odd} pixels that are no finite numbers", where=str(path), needed="finite numbers", todo="write them anew")
 

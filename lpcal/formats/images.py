@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.errors import InputError
 from lpcal.formats.exif import GARBLED, TakenAt, taken_at
@@ -56,7 +57,6 @@ class StoredImage:
         return self.pixels.shape[1], self.pixels.shape[0]
 
 
-@reader("an image", "cv2", "PIL.Image")
 def read_image(path: Path) -> StoredImage:
     """Read an image of 8 or 16 bit, or of float (full scale 1); grey or RGB, alpha is dropped; turns by tags are not applied.
 
@@ -64,6 +64,38 @@ def read_image(path: Path) -> StoredImage:
     ------
     InputError
         Not there, of a kind that is not read, not an image that can be read whole, several in one file, or larger than any camera's.
+    """
+    return read_numbers(path).image
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """An image as its file stores it."""
+
+    stored: npt.NDArray[Any]
+    """(H, W) or (H, W, 3)."""
+    full_scale: float
+    """Largest number of its type; 1 for floats."""
+    step: float
+    """One step of the numbers as a fraction of full scale."""
+    claim: ToneClaim | None = None
+    taken: TakenAt | None = None
+
+    @property
+    def image(self) -> StoredImage:
+        """The same as fractions of full scale."""
+        pixels = np.ascontiguousarray(self.stored, dtype=np.float32) / np.float32(self.full_scale)
+        return StoredImage(pixels, self.step, self.claim, self.taken)
+
+
+@reader("an image", "cv2", "PIL.Image")
+def read_numbers(path: Path) -> Numbers:
+    """Read an image as `read_image` does, its numbers as they are stored.
+
+    Raises
+    ------
+    InputError
+        As `read_image`.
     """
     import cv2
 
@@ -74,7 +106,7 @@ def read_image(path: Path) -> StoredImage:
         raise InputError(other, where=str(path), needed=f"one of {', '.join(PICTURES)}")
     if raw_is_read() and path.suffix.lower() in RAWS:
         raw, step, taken = read_raw_photograph(path)
-        return StoredImage(raw, step, RAW_NUMBERS, taken)
+        return Numbers(raw, 1.0, step, RAW_NUMBERS, taken)
     data = path.read_bytes()
     refuse_cut(data, path)
     refuse_odd_head(data, path)
@@ -92,8 +124,7 @@ def read_image(path: Path) -> StoredImage:
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
-    pixels = np.ascontiguousarray(stored, dtype=np.float32) / np.float32(full_scale)
-    return StoredImage(pixels, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data), taken_at(data))
+    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data), taken_at(data))
 
 
 MOST_PIXELS = 250_000_000

@@ -127,13 +127,14 @@ def refuse_targets(tasks: list[Task], inputs: list[Path]) -> None:
 def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path, wishes: Wishes, progress: Progress) -> dict[str, Any]:
     """Reconstruct one capture and write its folder; the document is that of summary.json."""
     begun = time.perf_counter()
-    raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
+    with cores(wishes.jobs):
+        raw = read_capture(task.capture, [light.name for light in calibration.lights], name=task.name, use=wishes.use)
     saying = [(BY_COMMAND, wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
     saying.append(("panel.yaml", wishes.panel))
-    mask = read_mask(Path(wishes.mask), raw.images.shape[1:3]) if wishes.mask not in MASK_WORDS else wishes.mask
+    mask = read_mask(Path(wishes.mask), raw.size[::-1]) if wishes.mask not in MASK_WORDS else wishes.mask
     made_from = made_from_of(task, calibration_path, wishes)
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
-    calibration = calibration.of_images((raw.images.shape[2], raw.images.shape[1]))
+    calibration = calibration.of_images(raw.size)
     hints = wishes.hints
     made = partial(
         reconstruct,
@@ -151,7 +152,8 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     solved = time.perf_counter()
     document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
-    if document["flatness"] and wishes.near and wishes.method is None and calibration.lights[0].source_C is not None:
+    both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
+    if document["flatness"] and both_ways and raw.full is None:
         with cores(wishes.jobs):
             document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
     document["made_from"] = made_from

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.full_images import FullImages
 from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.records.shown import Shown
 
@@ -217,6 +218,14 @@ class RawCapture(Shown):
     """The panel's distance from the object, as capture.yaml says it."""
     notes: tuple[str, ...] = ()
     """What was made of the files, in words."""
+    full: FullImages | None = None
+    """The images in full size, where they are too large to be held: all arrays above are then in coarse pixels."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the images in full size, pixels."""
+        height, width = self.images.shape[1:3] if self.full is None else self.full.size
+        return width, height
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,11 @@ class FlatField:
 
     def response(self, shape: tuple[int, ...]) -> Image:
         """Response (H, W) of an image of shape (H, W)."""
-        y, x = np.linspace(-1, 1, shape[0]), np.linspace(-1, 1, shape[1])
+        return self.part(shape, slice(None), slice(None))
+
+    def part(self, shape: tuple[int, ...], rows: slice, columns: slice) -> Image:
+        """Response (h, w) of a part of such an image."""
+        y, x = np.linspace(-1, 1, shape[0])[rows], np.linspace(-1, 1, shape[1])[columns]
         return np.exp(np.polynomial.chebyshev.chebgrid2d(y, x, self.coefficients)).astype(np.float32)
 
 

@@ -77,16 +77,26 @@ class _States:
     chance: Array
 
 
-def solve(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, start: Estimate, before: Field | None, glossy: float | None) -> Field:
+def solve(
+    seen: Sight,
+    grid: Grid,
+    lit: Lit,
+    hidden: Mask | None,
+    start: Estimate | Field,
+    glossy: float | None = None,
+    rounds: int | None = None,
+) -> Field:
     """The field from estimates of single pixels, or from a field found before at a depth nearby.
 
     `hidden` (L, P) are samples whose light the depth hides; `glossy` is the reflectance of
-    the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not.
+    the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not. `rounds` is how many there
+    are, by default as many as such a start needs.
     """
     v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+    before = start if isinstance(start, Field) else None
     b = _begin(seen, grid, start.b) if before is None else before.b
     shine = None if before is None else before.gloss
-    rounds = ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * (glossy is not None)
+    rounds = rounds or (ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * (glossy is not None))
     some = gloss.sample(*seen.signal.shape[::-1])
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
     albedo = np.linalg.norm(b, axis=1)

@@ -68,6 +68,14 @@ class Hints:
         inside[y : y + height, x : x + width] = True
         return inside
 
+    def shrunk(self, factor: int) -> Hints:
+        """The same in coarse pixels of `factor` pixels a side."""
+        box = None
+        if self.box is not None:
+            (x, y), (right, below) = (np.array(self.box[:2]) // factor, -(-(np.array(self.box[:2]) + self.box[2:]) // factor))
+            box = (int(x), int(y), int(right - x), int(below - y))
+        return Hints(box, tuple((x // factor, y // factor) for x, y in self.points))
+
     def of(self, mask: Mask) -> Mask:
         """The part of a mask (H, W) in the box, and of that the connected components that the points lie on or close to."""
         from scipy import ndimage

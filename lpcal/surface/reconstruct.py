@@ -40,6 +40,7 @@ from lpcal.surface import (
     uncertainty,
     without_ambient,
 )
+from lpcal.surface.albedo import albedo_of
 from lpcal.surface.background import NOTHING, OBJECT
 from lpcal.surface.basins import Basins
 from lpcal.surface.exchanged import exchanged
@@ -81,8 +82,21 @@ class Options:
     """Whether nothing speaks against the signals being linear; else powers of lights that nobody measured are held, not estimated."""
 
 
-def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent) -> Surface:
-    """The surface of a capture.
+@dataclass(frozen=True)
+class Solved:
+    """A surface and all that it was made from."""
+
+    surface: Surface
+    scene: Scene
+    state: State
+    radiance: Radiance
+    """Without the room's light."""
+
+
+def reconstruct(
+    radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent, kept: list[Solved] | None = None
+) -> Surface:
+    """The surface of a capture; what it was made from is added to `kept`.
 
     Raises
     ------
@@ -91,7 +105,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
     DisagreementError
         The images are not of the calibrated camera's size.
     """
-    sight.agree_on_size(radiance, calibration.camera)
+    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
     lights = sight.lights_of(calibration, radiance)
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     central = calibration.camera is not None
@@ -105,7 +119,7 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         known = replace(options, ambient_known=True, ambient_pictured=False)
 
         def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
-            return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress)
+            return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress, kept)
 
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
@@ -146,7 +160,10 @@ def reconstruct(radiance: Radiance, calibration: Calibration, options: Options, 
         intensities_found=None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True)),
         images_exchanged=_exchanged(state, seen, radiance.lights) or None,
     )
-    return replace(surface, layer=layer, figures=figures)
+    surface = replace(surface, layer=layer, figures=figures)
+    if kept is not None:
+        kept.append(Solved(surface, scene, state, radiance))
+    return surface
 
 
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
@@ -283,10 +300,7 @@ def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     intensity = np.stack([np.broadcast_to(light.intensity if channels > 1 else light.intensity[0], channels) for light in lights])
 
     def of(at: slice) -> Array:
-        shading = lambert.predicted(state.lit.at(at).B, state.normals[at])
-        used = np.where(state.found.used[at] >= normals.LEAST, state.found.inliers[:, at], seen.usable[:, at])
-        matte = signal[:, inside[at]] / intensity[:, None] - (0.0 if state.found.gloss is None else state.found.gloss[:, at, None])
-        return np.einsum("kp,kpc->pc", used * shading, matte) / np.maximum(np.sum(used * shading**2, axis=0), 1e-12)[:, None]
+        return albedo_of(signal[:, inside[at]], intensity, state.lit.at(at), state.normals[at], state.found.at(at), seen.at(at))
 
     found = np.concatenate(bands.each(seen.pixels, len(lights), of))
     return found[:, 0] if channels == 1 else found

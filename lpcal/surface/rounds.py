@@ -186,6 +186,8 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
 def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
+    if before is not None:
+        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy)
     start = normals.estimate(seen, lit, usable, normals.variances(seen))
     lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:
@@ -195,4 +197,4 @@ def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before
             needed=f"{FEWEST_PIXELS} at least",
             todo="check the mask, the exposure and the ambient image",
         )
-    return field.solve(seen, scene.grid, lit, hidden, start, None if before is None else before.field, glossy)
+    return field.solve(seen, scene.grid, lit, hidden, start, glossy)

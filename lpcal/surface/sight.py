@@ -141,43 +141,52 @@ def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]
     return lights
 
 
-def agree_on_size(radiance: Radiance, camera: Camera | None) -> None:
-    """Refuse a capture of another image size than the calibrated camera's.
+def agree_on_size(name: str, size: tuple[int, ...], camera: Camera | None) -> None:
+    """Refuse a capture of another image size (H, W) than the calibrated camera's.
 
     Raises
     ------
     DisagreementError
         The sizes differ.
     """
-    height, width = radiance.signal.shape[1:3]
+    height, width = size
     if camera is not None and (width, height) != tuple(camera.image_size):
         raise DisagreementError(
             f"images of {width}x{height}",
-            where=radiance.name,
+            where=name,
             needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
             todo="take the capture with that camera and at its full size, or calibrate anew",
         )
 
 
-def grey(radiance: Radiance, lights: Sequence[Light]) -> Grey:
-    """One signal a light, a unit of intensity."""
-    extra = (1,) * (radiance.signal.ndim - 1)
-    colour = radiance.signal.ndim == 4
-    intensity = np.stack([light.intensity if colour else light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)
-    intensity = np.broadcast_to(intensity, (len(lights), 3)) if colour else intensity
-    factor = 1 / (intensity[:, None, None, :] if colour else intensity.reshape(-1, *extra))
+def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = None) -> Grey:
+    """One signal a light, a unit of intensity; colours are joined by `weight` (3,), by default by their noise (`colour_weight`)."""
+    factor = _factor(radiance, lights)
     shape = radiance.signal.shape[:3]
-    if not colour:
-        by = np.asarray(factor, np.float32)
-        return Grey(radiance.signal * by, radiance.sigma * by, ~radiance.saturated)
-    variance = np.mean([np.mean((std * by) ** 2, axis=(0, 1), dtype=float) for std, by in zip(radiance.sigma, factor, strict=True)], axis=0)
-    weight = 1 / np.maximum(variance, 1e-20)
-    weight = (weight / weight.sum()).astype(np.float32)
+    if radiance.signal.ndim == 3:
+        return Grey(radiance.signal * factor, radiance.sigma * factor, ~radiance.saturated)
+    weight = colour_weight(radiance, lights) if weight is None else weight
     signal, sigma = np.empty(shape, np.float32), np.empty(shape, np.float32)
     for k, by in enumerate(factor):
         signal[k] = (radiance.signal[k] * by) @ weight
         sigma[k] = np.sqrt((radiance.sigma[k] * by) ** 2 @ weight**2)
     return Grey(signal, sigma, ~radiance.saturated)
+
+
+def colour_weight(radiance: Radiance, lights: Sequence[Light]) -> Array:
+    """Weights (3,) of the colours of an RGB capture, by their noise."""
+    both = zip(radiance.sigma, _factor(radiance, lights), strict=True)
+    variance = np.mean([np.mean((std * by) ** 2, axis=(0, 1), dtype=float) for std, by in both], axis=0)
+    weight = 1 / np.maximum(variance, 1e-20)
+    return np.asarray((weight / weight.sum()).astype(np.float32))
+
+
+def _factor(radiance: Radiance, lights: Sequence[Light]) -> Image:
+    """What brings signals to a unit of intensity: (L, 1, 1), of colours (L, 1, 1, 3)."""
+    if radiance.signal.ndim == 3:
+        return np.asarray(1 / np.stack([light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)[:, None], np.float32)
+    intensity = np.stack([light.intensity for light in lights]).astype(np.float32)
+    return np.asarray(1 / np.broadcast_to(intensity, (len(lights), 3))[:, None, None, :])
 
 
 def room(radiance: Radiance) -> Image | None:

@@ -61,8 +61,13 @@ class Clues:
 
 def clues(grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_depth: Array, whole: Mask) -> Clues:
     """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold."""
-    from scipy import ndimage
+    noise, misfit = noise_deg(found, normals)
+    unseen = np.zeros(len(normals)) if lit.unseen is None else lit.unseen
+    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, thrown_share(lit, found), unseen)
 
+
+def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
+    """What the samples' variances make of normals (P, 3), degrees an axis, NaN where they are filled in; and chi2 a degree of freedom."""
     filled = ~np.isfinite(found.b[:, 0])
     b = np.where(filled[:, None], normals, found.b)
     albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
@@ -71,15 +76,32 @@ def clues(grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_
     noise = np.degrees(np.sqrt(np.maximum(np.trace(covariance, axis1=1, axis2=2) / 2, 0)))
     freedom = found.used - 3
     misfit = np.where(freedom > 0, found.chi2 / np.maximum(freedom, 1), 1.0)
+    return np.where(filled, np.nan, noise), misfit
+
+
+def clues_of(
+    grid: Grid,
+    mask: Mask,
+    normals: Array,
+    of_depth: Array,
+    whole: Mask,
+    noise: Array,
+    misfit: Array,
+    used: Array,
+    thrown: Array,
+    unseen: Array,
+) -> Clues:
+    """The clues of each pixel, those that come from its samples given."""
+    from scipy import ndimage
+
     bend = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(normals - of_depth, axis=1) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
     bend_round = np.sqrt(np.maximum(ndimage.uniform_filter(square, 5)[mask], 0) / np.maximum(ndimage.uniform_filter(inside, 5)[mask], 1e-3))
     rim = np.zeros(mask.shape, bool)
-    rim[mask] = np.bincount(grid.a[whole], minlength=len(b)) + np.bincount(grid.b[whole], minlength=len(b)) < 4
+    rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
     edge = ndimage.distance_transform_edt(~rim)[mask] <= EDGE_PX
-    unseen = np.zeros(len(b)) if lit.unseen is None else lit.unseen
-    return Clues(noise, misfit, bend, bend_round, edge, found.used, filled, thrown_share(lit, found), unseen)
+    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen)
 
 
 def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:

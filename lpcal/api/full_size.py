@@ -1,0 +1,175 @@
+"""A surface in full size, of a capture that is too large to be held: the coarse one first, the rest tile by tile upon it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from lpcal.detect.exposures import with_short_exposures
+from lpcal.detect.radiometry import noise_model, over_white, part_to_radiance
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.full_images import FullImages
+from lpcal.records.observations import Radiance, RawCapture
+from lpcal.records.outcome import Progress
+from lpcal.records.sensor import Sensor
+from lpcal.records.surface import Surface
+from lpcal.surface import cut, sight, uncertainty
+from lpcal.surface import full_size as solver
+from lpcal.surface.bands import shared
+from lpcal.surface.ground import Ground, between
+from lpcal.surface.reconstruct import AGREE_DEG, Solved
+
+NOISE_PARTS = 5
+"""Parts of the picture, along each side, that the noise is read off: they hold some 400,000 pixels of every image."""
+BAND_ROWS = 256
+"""Rows that are worked on at once where maps are made of coarse ones."""
+OUTLINE_PX = 2
+"""Coarse pixels on either side of a coarse outline that the picture in full size is asked for."""
+OUTLINE_SIDE, OUTLINE_MARGIN = 256, 32
+"""Pixels of the tiles in which that is done, and of their margins."""
+STIFFNESS = 0.6
+"""Evidence that a unit of outline must be worth where the picture shows no edge."""
+
+
+@dataclass(frozen=True)
+class BinnedCamera(Camera):
+    """A camera whose pixels are squares of another's."""
+
+    factor: int = 1
+
+    @staticmethod
+    def of(camera: Camera, factor: int) -> Camera:
+        """A camera with squares of so many pixels joined; what is left at the right and below is dropped."""
+        width, height = camera.image_size
+        own = {one.name: getattr(camera, one.name) for one in fields(Camera)} | {"image_size": (width // factor, height // factor)}
+        return BinnedCamera(**own, factor=factor)
+
+    def project(self, x_C: Array) -> Array:
+        """Pixels (..., 2) of points x_C (..., 3)."""
+        return (super().project(x_C) - (self.factor - 1) / 2) / self.factor
+
+    def unproject(self, pixels: Array) -> Array:
+        """Unit rays (..., 3) of pixels (..., 2)."""
+        return super().unproject(self.factor * np.asarray(pixels) + (self.factor - 1) / 2)
+
+
+def coarse_calibration(calibration: Calibration, factor: int) -> Calibration:
+    """The calibration for coarse pixels."""
+    return calibration if calibration.camera is None else replace(calibration, camera=BinnedCamera.of(calibration.camera, factor))
+
+
+def enlarged(
+    raw: RawCapture, full: FullImages, calibration: Calibration, coarse: Surface, solved: Solved, mask: Mask | None, progress: Progress
+) -> Surface:
+    """The surface in full size upon the coarse one; `mask` (H, W) is the user's, None where it was found."""
+    sensor = Sensor() if coarse.sensor is None else coarse.sensor.sensor
+    ground = Ground.of(solved.scene, solved.state, coarse.rays_C, coarse.normals, full.factor)
+    radiance_of = _parts(raw, full, sensor, solved)
+    inside = _outlined(full, coarse, radiance_of, solved) if mask is None else mask
+    colours = None if solved.radiance.signal.ndim == 3 else sight.colour_weight(solved.radiance, solved.scene.lights)
+    whole = solver.Full(radiance_of, inside, calibration.camera, solved.scene, solved.state.field.gloss, ground, colours)
+    found = whole.solve(progress)
+    solver.finished(whole, found, AGREE_DEG, uncertainty.calibration_deg(solved.scene.lights))
+    return _surface(whole, found, coarse)
+
+
+def _parts(raw: RawCapture, full: FullImages, sensor: Sensor, solved: Solved) -> Callable[[slice, slice], Radiance]:
+    """What makes parts of the images linear, the room's light taken away as it was from the coarse ones."""
+    white = min(sensor.white_level, full.saturated_from)
+    some = full.sampled(NOISE_PARTS)
+    noise = noise_model(
+        np.stack([sensor.linear(image) for image in some]), over_white(some, replace(sensor, white_level=white), raw.step), raw.step
+    )
+    room = _room_share(solved.radiance) if raw.ambient is None else None
+
+    def of(rows: slice, columns: slice) -> Radiance:
+        lights, ambient, short = full.read(rows, columns)
+        part = replace(raw, images=lights, ambient=ambient if raw.ambient is not None else None, short=short, mask=None, full=None)
+        flat = sensor.flat_field
+        response = np.ones(lights.shape[1:3], np.float32) if flat is None else flat.part(full.size, rows, columns)
+        found = part_to_radiance(part, sensor, noise, white, response)
+        found = with_short_exposures(found, part, sensor, response[..., None] if lights.ndim == 4 else response, noise)
+        if room is None:
+            return found
+        light = between(room, full.factor, rows, columns) * found.signal.mean(axis=0)
+        return replace(found, signal=found.signal - light.astype(np.float32))
+
+    return of
+
+
+def _room_share(radiance: Radiance) -> Image | None:
+    """The room's light (h, w[, 3]) by the mean of the images with it; None where there is none."""
+    if not radiance.ambient.any():
+        return None
+    return np.asarray(radiance.ambient / np.maximum(radiance.signal.mean(axis=0) + radiance.ambient, 1e-9), np.float32)
+
+
+def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, slice], Radiance], solved: Solved) -> Mask:
+    """The coarse mask in full size, its outline drawn to the edges of the picture there."""
+    shown = coarse.mask.astype(np.float32)
+    inside = np.zeros(full.size, bool)
+    rows_of_tiles = solver.tiles(full.size, OUTLINE_SIDE, OUTLINE_MARGIN)
+
+    def outlined(tile: solver.Tile) -> Mask:
+        share = between(shown, full.factor, *tile.outer)
+        if share.min() > 0.5 or share.max() <= 0.5:
+            return np.asarray(share > 0.5)[tile.within]
+        far = int(OUTLINE_PX * full.factor)
+        first = share > 0.5
+        said = np.where(first, 2.0, -2.0).astype(np.float32)
+        said[~cut.shrunk(first, far) & ~cut.shrunk(~first, far)] = 0.0
+        bright = sight.strength(sight.grey(radiance_of(*tile.outer), solved.scene.lights))
+        picture = np.log(np.maximum(bright, max(0.01 * float(np.percentile(bright, 99)), 1e-9))).astype(np.float32)
+        return cut.total_variation(np.where(said == 0, np.where(first, 1e-3, -1e-3), said).astype(np.float32), picture, STIFFNESS)[
+            tile.within
+        ]
+
+    for row in rows_of_tiles:
+        for tile, found in zip(row, shared(outlined, row), strict=True):
+            inside[tile.core] = found
+    return inside
+
+
+def _surface(whole: solver.Full, found: solver.Maps, coarse: Surface) -> Surface:
+    """The coarse surface with the maps in full size in place of its own."""
+    inside, ground = whole.mask, whole.ground
+    component, layer = np.zeros(inside.shape, np.uint8), np.zeros(inside.shape, np.uint8)
+    depth_std = np.full(inside.shape, np.nan, np.float32)
+    columns = slice(0, inside.shape[1])
+    rays_C: Any = np.broadcast_to(np.array([0.0, 0.0, 1.0]), (*inside.shape, 3))
+    if whole.camera is not None:
+        rays_C = np.empty((*inside.shape, 3), np.float32)
+    scale = np.float32(1.0 if whole.scene.seen.central else ground.factor)
+    for first in range(0, inside.shape[0], BAND_ROWS):
+        rows = slice(first, min(first + BAND_ROWS, inside.shape[0]))
+        here = inside[rows]
+        component[rows] = np.where(here, ground.at(coarse.component, rows, columns), 0)
+        layer[rows] = np.where(here, ground.at(coarse.layer, rows, columns), 0)
+        depth_std[rows] = np.where(here, scale * ground.at(coarse.depth_std, rows, columns), np.nan)
+        if whole.camera is not None:
+            rays_C[rows] = whole.rays_C(rows, columns)
+    pixels = np.bincount(component.ravel(), minlength=256)
+    components = tuple(replace(piece, pixels=int(pixels[piece.label])) for piece in coarse.components)
+    used = found.lights_used[inside]
+    three = int(np.sum(np.isfinite(found.normal_std_deg[inside]) & (used >= 3)))
+    figures = replace(coarse.figures, pixels=int(inside.sum()), pixels_with_three_lights=three, median_lights_used=float(np.median(used)))
+    return replace(
+        coarse,
+        normals=found.normals,
+        depth=found.depth,
+        albedo=found.albedo,
+        mask=inside,
+        normal_std_deg=found.normal_std_deg,
+        depth_std=depth_std,
+        lights_used=found.lights_used,
+        component=component,
+        rays_C=rays_C,
+        components=components,
+        figures=figures,
+        breaks=found.breaks,
+        layer=layer,
+    )

@@ -1,0 +1,136 @@
+"""A capture that is too large to be held: each image is read once, kept on the disk as it is stored, and in memory in coarse pixels.
+
+A coarse pixel is the mean of the numbers of a square of pixels. Where one of these is as bright as the numbers get, the whole counts as
+saturated, as one that is no longer a mean of light.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.formats.full_scale import FullScale, full_scale
+from lpcal.formats.images import Numbers
+from lpcal.formats.scratch import Scratch
+from lpcal.geometry.arrays import Image, Mask
+from lpcal.geometry.piled import piled
+from lpcal.records.full_images import FullImages
+from lpcal.records.observations import RawCapture
+
+HELD = 40_000_000
+"""Samples, lights times pixels times colours, that a capture may have to be held: its maps and the solver's lists then take a gigabyte."""
+COARSE_PIXELS = 160_000
+"""Coarse pixels of a picture: somewhat fewer than a LightPanel's camera has, at which methods were tuned."""
+CHUNK = 1 << 22
+"""Numbers that are counted at once: counting copies them."""
+
+
+def too_large(shape: tuple[int, ...], lights: int) -> bool:
+    """Whether so many images of a shape (H, W[, 3]) are not to be held."""
+    return lights * int(np.prod(shape)) > HELD
+
+
+def factor_for(shape: tuple[int, ...]) -> int:
+    """Pixels a coarse pixel, along a side, for images (H, W[, 3])."""
+    return max(2, int(np.ceil(np.sqrt(shape[0] * shape[1] / COARSE_PIXELS))))
+
+
+def blocks[T: np.generic](image: npt.NDArray[T], factor: int) -> npt.NDArray[T]:
+    """An image (H, W[, 3]) as (h, factor, w, factor[, 3]); what is left at the right and below is dropped."""
+    rows, columns = (side // factor for side in image.shape[:2])
+    return image[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor, *image.shape[2:])
+
+
+def coarse_mask(mask: Mask, factor: int) -> Mask:
+    """Coarse pixels most of which lie in a mask (H, W)."""
+    return np.asarray(blocks(mask, factor).mean(axis=(1, 3), dtype=np.float32) > 0.5)
+
+
+@dataclass
+class Sieve:
+    """Takes images one by one, in any order and from several threads; what it keeps in memory is coarse."""
+
+    store: Scratch
+    full_scale: float
+    step: float
+    factor: int
+    lights: int
+    """How many of the images are those of lights."""
+    counts: npt.NDArray[np.int64] = field(init=False)
+    """How often each number occurs in them (whole numbers only)."""
+    _coarse: dict[int, tuple[Image, Image]] = field(default_factory=dict)
+    _lock: Any = field(default_factory=threading.Lock)
+
+    def __post_init__(self) -> None:
+        """Nothing has been counted."""
+        self.counts = np.zeros(round(self.full_scale) + 1 if self.full_scale > 1 else 0, np.int64)
+
+    @staticmethod
+    def of(first: Numbers, images: int, lights: int) -> Sieve:
+        """For so many images like the first."""
+        shape = first.stored.shape
+        return Sieve(Scratch((images, *shape), first.stored.dtype), first.full_scale, first.step, factor_for(shape), lights)
+
+    def take(self, k: int, image: Numbers) -> None:
+        """Image k."""
+        stored = image.stored
+        self.store.keep(k, stored)
+        by = np.float32(self.full_scale)
+        mean = blocks(stored, self.factor).mean(axis=(1, 3), dtype=np.float32) / by
+        most = blocks(stored, self.factor).max(axis=(1, 3)).astype(np.float32) / by
+        counts = np.zeros_like(self.counts)
+        if k < self.lights and self.counts.size:
+            flat = np.ascontiguousarray(stored).reshape(-1)
+            for first in range(0, flat.size, CHUNK):
+                counts += np.bincount(flat[first : first + CHUNK], minlength=counts.size)
+        with self._lock:
+            self.counts += counts
+            self._coarse[k] = (mean, most)
+
+    def full(self) -> FullScale:
+        """What the lights' numbers are divided by."""
+        if not self.counts.size:
+            most = max(float(self._coarse[k][1].max()) for k in range(self.lights))
+            return full_scale(np.array([most], np.float32), self.step)
+        used = np.flatnonzero(self.counts)
+        return full_scale((used / np.float32(self.full_scale)).astype(np.float32), self.step)
+
+    def top(self, full: FullScale) -> float:
+        """The fraction of full scale at which the lights' numbers end: the white level, or where they pile up below it."""
+        white = full.white_level or 1.0
+        if not self.counts.size:
+            return white
+        used = np.flatnonzero(self.counts)
+        return piled(used / self.full_scale, self.counts[used], white, self.step) or white
+
+    def coarse(self, ks: Sequence[int], full: FullScale) -> Image:
+        """Some images in coarse pixels (N, h, w[, 3]), as fractions of full scale; saturated ones are as bright as the numbers get."""
+        divisor, top = np.float32(full.divisor), self.top(full)
+        found = []
+        for k in ks:
+            mean, most = (one / divisor for one in self._coarse[k])
+            found.append(np.where(most >= top - 0.5 * self.step, np.maximum(most, np.float32(top)), mean))
+        return np.stack(found) if found else np.empty(0, np.float32)
+
+
+def settled(raw: RawCapture, sieve: Sieve, full: FullScale, mask: Mask | None) -> RawCapture:
+    """The coarse capture with its images in full size beside it; `mask` (H, W) is the user's, in full size."""
+    counts = (len(raw.lights), 0 if raw.ambient is None else len(raw.ambient), len(raw.short))
+    images = FullImages(sieve.store, counts, tuple(raw.short), sieve.full_scale * full.divisor, sieve.factor, mask, sieve.top(full))
+    flat = None if raw.flat is None else blocks(raw.flat, sieve.factor).mean(axis=(1, 3))
+    return replace(raw, mask=None if mask is None else coarse_mask(mask, sieve.factor), flat=flat, full=images)
+
+
+def read_all(paths: Sequence[Path], read: Any, lights: int, first: Numbers) -> Sieve:
+    """A sieve that has taken the images of these paths, by threads that share them."""
+    from lpcal.surface.bands import shared
+
+    sieve = Sieve.of(first, len(paths), lights)
+    shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
+    return sieve

@@ -1,0 +1,309 @@
+r"""A capture in full size, tile by tile, upon what its coarse pixels tell.
+
+The coarse capture is solved as any other: object, distance, gloss, what surfaces throw on each other and hide. Here each tile takes its
+light from that, finds its own normals (surface.field, from the coarse normals and each pixel's own albedo), and integrates them to a depth
+that the coarse one holds over SCREEN coarse pixels: with steps g_ab of neighbours a, b and the coarse log depth h,
+
+    minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s)^2  +  sum_p ((u_p - h_p) / (s SCREEN factor))^2
+
+whose influence falls to 1/e over SCREEN coarse pixels, so that tiles which overlap by more agree; between them depths are blended.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.records.calibration import Camera
+from lpcal.records.observations import Radiance
+from lpcal.records.outcome import Progress
+from lpcal.surface import bands, field, reconstruct, sight, uncertainty
+from lpcal.surface.albedo import albedo_of
+from lpcal.surface.field import Field
+from lpcal.surface.gloss import Gloss
+from lpcal.surface.ground import Ground
+from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
+from lpcal.surface.normals import Estimate
+from lpcal.surface.pieces import BREAK_WEIGHT
+from lpcal.surface.rounds import Scene
+from lpcal.surface.sight import Lit
+
+SAMPLES = 1_500_000
+"""Samples, lights times pixels, of a tile: its lists of vectors then take some 200 MB a core."""
+LEAST_SIDE, MOST_SIDE = 128, 512
+"""Pixels of a tile's side, its margin apart."""
+MARGIN_PX = 10
+"""Pixels about a tile that are solved with it: neighbours tell of each other over a few."""
+ROUNDS = 3
+"""Rounds of a tile's field: normals begin at the coarse ones, albedos at each pixel's own."""
+SCREEN = 3.0
+"""Coarse pixels over which a fine depth is held to the coarse one."""
+INTEGRATED_SIDE = 768
+"""Pixels of a tile's side where depths are integrated."""
+BAND_ROWS = 256
+"""Rows of the tiles in which maps are finished."""
+LOOSELY = 1e-3
+"""Share of its hold that the coarse depth has beside its breaks, whose place it tells only to a coarse pixel."""
+WIDTH2 = 9.0
+"""Square of a residual, in standard deviations, at which a sample's weight for the first albedo has fallen to a quarter."""
+FACING = 0.1
+"""Least cosine of a light that a pixel's first albedo is told by."""
+
+
+NO_ESTIMATE = Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))
+"""Of a start that says nothing of single pixels."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A tile of a picture."""
+
+    rows: slice
+    """With its margin, where there is one in the picture."""
+    columns: slice
+    core: tuple[slice, slice]
+    """Its rows and columns without margin, in the picture."""
+
+    @property
+    def within(self) -> tuple[slice, slice]:
+        """The core within the tile."""
+        first = (self.rows.start, self.columns.start)
+        found = (slice(some.start - start, some.stop - start) for some, start in zip(self.core, first, strict=True))
+        low, high = found
+        return low, high
+
+    @property
+    def outer(self) -> tuple[slice, slice]:
+        """Its rows and columns with the margin, in the picture."""
+        return self.rows, self.columns
+
+
+def tiles(size: tuple[int, int], side: int, margin: int) -> list[list[Tile]]:
+    """Tiles of a picture (H, W), row by row."""
+
+    def cuts(length: int) -> list[tuple[slice, slice]]:
+        count = max(1, round(length / side))
+        ends = np.linspace(0, length, count + 1).round().astype(int).tolist()
+        return [(slice(max(low - margin, 0), min(high + margin, length)), slice(low, high)) for low, high in pairwise(ends)]
+
+    return [[Tile(rows, columns, (row, column)) for columns, column in cuts(size[1])] for rows, row in cuts(size[0])]
+
+
+@dataclass(frozen=True)
+class Maps:
+    """What is found in full size: (H, W) each, NaN or 0 outside the mask."""
+
+    normals: Image
+    """(H, W, 3)."""
+    depth: Image
+    albedo: Image
+    normal_std_deg: Image
+    lights_used: Labels
+    breaks: Mask
+    """(2, H, W)."""
+
+
+@dataclass(frozen=True)
+class Full:
+    """A capture in full size."""
+
+    radiance_of: Callable[[slice, slice], Radiance]
+    """Of a part of the picture."""
+    mask: Mask
+    """(H, W)."""
+    camera: Camera | None
+    scene: Scene
+    """The coarse one."""
+    gloss: Gloss | None
+    ground: Ground
+    weight: Array | None
+    """Of the colours in the grey signal, as in coarse pixels."""
+
+    def rays_C(self, rows: slice, columns: slice) -> Array:
+        """Rays (h, w, 3) of length 1 in z."""
+        rays = np.zeros((rows.stop - rows.start, columns.stop - columns.start, 3))
+        rays[..., 2] = 1.0
+        if self.camera is not None:
+            row, column = np.mgrid[rows, columns].astype(float)
+            unit_C = self.camera.unproject(np.stack([column, row], axis=-1).reshape(-1, 2))
+            rays[...] = (unit_C / unit_C[:, 2:]).reshape(rays.shape)
+        return rays
+
+    def solve(self, progress: Progress) -> Maps:
+        """All maps."""
+        found = self._blank()
+        side = int(np.clip(np.sqrt(SAMPLES / len(self.scene.lights)), LEAST_SIDE, MOST_SIDE))
+        rows_of_tiles = tiles(self.mask.shape, side, MARGIN_PX)
+        what = f"{self.scene.name}: normals in full size"
+        for k, row in enumerate(rows_of_tiles):
+            progress(what, k, len(rows_of_tiles))
+            bands.shared(lambda tile: self._shaded(tile, found), [tile for tile in row if self.mask[tile.core].any()])
+        progress(what, len(rows_of_tiles), len(rows_of_tiles))
+        self._integrated(found, progress)
+        return found
+
+    def _blank(self) -> Maps:
+        size = self.mask.shape
+        colours = () if self.weight is None else (len(self.weight),)
+
+        def map_of(*more: int) -> Image:
+            return np.full((*size, *more), np.nan, np.float32)
+
+        return Maps(map_of(3), map_of(), map_of(*colours), map_of(), np.zeros(size, np.uint8), np.ones((2, *size), bool))
+
+    def _shaded(self, tile: Tile, found: Maps) -> None:
+        """Normals, albedo and what noise makes of the normals."""
+        inside = self.mask[tile.outer]
+        radiance = self.radiance_of(*tile.outer)
+        rays_C = self.rays_C(*tile.outer)
+        maps = sight.grey(radiance, self.scene.lights, self.weight)
+        seen = sight.look_at(maps, rays_C, inside, central=self.scene.seen.central)
+        del maps
+        ground, near = self.ground, self.scene.near
+        u = ground.front(*tile.outer, rays_C)[inside]
+        depth = np.exp(u) if near else np.ones(seen.pixels)
+        thrown = unseen = hidden = None
+        if ground.thrown is not None:
+            thrown = np.ascontiguousarray(np.moveaxis(ground.between(ground.thrown, *tile.outer)[inside], 1, 0), float)
+        if ground.unseen is not None:
+            unseen = ground.between(ground.unseen, *tile.outer)[inside].astype(float)
+        if ground.hidden is not None:
+            hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
+        lit = Lit(*sight.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
+        n = lambert.unit(ground.between(ground.n, *tile.outer)[inside].astype(float))[0]
+        start = Field(_albedo_by(n, seen, lit, hidden)[:, None] * n, NO_ESTIMATE, self.gloss)
+        whole = field.solve(seen, Grid.of(inside), lit, hidden, start, rounds=ROUNDS)
+        n = lambert.unit(whole.b)[0]
+        signal = radiance.signal[:, inside].reshape(len(seen.signal), seen.pixels, -1)
+        intensity = np.stack([light.intensity if signal.shape[2] > 1 else light.intensity[:1] for light in self.scene.lights])
+        intensity = np.broadcast_to(intensity, (len(intensity), signal.shape[2]))
+        albedo = albedo_of(signal, intensity, lit, n, whole.estimate, seen)
+        core, within = tile.core, inside[tile.within]
+        noise, misfit = uncertainty.noise_deg(whole.estimate, n)
+        noise, used = noise * np.maximum(1, np.sqrt(misfit)), whole.estimate.used
+        for values, to in ((n, found.normals), (albedo, found.albedo), (noise, found.normal_std_deg), (used, found.lights_used)):
+            wide: npt.NDArray[np.generic] = np.zeros((*inside.shape, *values.shape[1:]), to.dtype)
+            wide[inside] = values
+            wide = wide[tile.within]
+            to[core][within] = (wide if to.ndim == wide.ndim else wide[..., 0])[within]
+
+    def _integrated(self, found: Maps, progress: Progress) -> None:
+        """Depth, breaks, and the normals and their standard deviations by both."""
+        reach = int(np.ceil(SCREEN * self.ground.factor))
+        margin, size = 3 * reach, self.mask.shape
+        total = np.zeros(size, np.float32)
+        found.depth[...] = 0.0
+        rows_of_tiles = tiles(size, max(INTEGRATED_SIDE, margin), margin)
+        what = f"{self.scene.name}: depth in full size"
+        for k, row in enumerate(rows_of_tiles):
+            progress(what, k, len(rows_of_tiles))
+            some = [tile for tile in row if self.mask[tile.core].any()]
+            for tile, u in zip(some, bands.shared(lambda tile: self._front(tile, found), some), strict=True):
+                ramp = _ramp(tile, size, margin)
+                found.depth[tile.outer] += ramp * u
+                total[tile.outer] += ramp
+        progress(what, len(rows_of_tiles), len(rows_of_tiles))
+        for row in tiles((size[0], 1), BAND_ROWS, 0):
+            rows = row[0].rows
+            depth = found.depth[rows] / np.maximum(total[rows], 1e-6)
+            found.depth[rows] = np.where(self.mask[rows], np.exp(depth) if self.scene.seen.central else depth, np.nan)
+
+    def _front(self, tile: Tile, found: Maps) -> Image:
+        """u (h, w) of a tile; where its core breaks is noted."""
+        inside, rays_C = self.mask[tile.outer], self.rays_C(*tile.outer)
+        begin = self.ground.front(*tile.outer, rays_C)[inside]
+        grid, central = Grid.of(inside), self.scene.seen.central
+        n = found.normals[tile.outer][inside].astype(float)
+        step, sigma = steps(grid, n, rays_C[inside], central=central)
+        loose = self.ground.at(self.ground.loose, *tile.outer)[inside]
+        hold = 1 / (SCREEN * self.ground.factor * float(np.median(sigma))) ** 2
+        own = Own(np.where(loose, LOOSELY * hold, hold), begin)
+        u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
+        u = settle(grid, step, sigma, own, u, weight)
+        holds = np.zeros((2, *inside.shape), bool)
+        first = np.flatnonzero(inside.ravel())[grid.a]
+        for axis, edges in enumerate((grid.horizontal, ~grid.horizontal)):
+            holds[axis].ravel()[first[edges & (weight > BREAK_WEIGHT)]] = True
+        found.breaks[:, *tile.core] = ~holds[:, *tile.within]
+        values = np.zeros(inside.shape, np.float32)
+        values[inside] = u
+        return values
+
+
+def finished(full: Full, found: Maps, agree_deg: float, calibration_deg: float) -> None:
+    """Normals drawn to those of the depth where both agree, and their standard deviations in place of what noise makes of them."""
+    size, margin = full.mask.shape, 4
+    before = np.zeros((0, size[1], 3), np.float32)
+    rows_of_tiles = tiles(size, BAND_ROWS, margin)
+    for row in rows_of_tiles:
+        rows = row[0].rows
+        measured = found.normals[rows].copy()
+        measured[: len(before)] = before[-min(len(before), len(measured)) :] if len(before) else measured[:0]
+        core = row[0].core[0]
+        before = measured[core.stop - rows.start - margin : core.stop - rows.start].copy()
+
+        def of(tile: Tile, measured: Image = measured) -> tuple[Image, Image]:
+            return _drawn(full, found, tile, measured[:, tile.columns], agree_deg, calibration_deg)
+
+        for tile, (n, sigma) in zip(row, bands.shared(of, row), strict=True):
+            found.normals[tile.core], found.normal_std_deg[tile.core] = n, sigma
+
+
+def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: float, calibration_deg: float) -> tuple[Image, Image]:
+    """Normals (h, w, 3) and sigma (h, w) of a tile's core."""
+    inside = full.mask[tile.outer]
+    n = np.full((*inside.shape, 3), np.nan, np.float32)
+    sigma = np.full(inside.shape, np.nan, np.float32)
+    if inside.any():
+        grid, rays_C = Grid.of(inside), full.rays_C(*tile.outer)
+        own = measured[inside].astype(float)
+        depth = found.depth[tile.outer][inside].astype(float)
+        if full.scene.seen.central:
+            points = depth[:, None] * rays_C[inside]
+        else:
+            points = np.stack([*np.nonzero(inside)[::-1], depth], axis=1).astype(float)
+        whole = ~np.where(grid.horizontal, *(found.breaks[k][tile.outer][inside][grid.a] for k in (0, 1)))
+        of_depth = reconstruct.normals_of(grid, points, whole)
+        of_depth = np.where(np.isfinite(of_depth), of_depth, own)
+        noise, used = (one[tile.outer][inside].astype(float) for one in (found.normal_std_deg, found.lights_used))
+        share = full.ground.at(full.ground.share, *tile.outer)[inside].astype(float)
+        around = full.ground.unseen
+        unseen = np.zeros(len(own)) if around is None else full.ground.at(around, *tile.outer)[inside].astype(float)
+        clues = uncertainty.clues_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen)
+        drawn = np.exp(-((clues.bend_deg / agree_deg) ** 2))[:, None]
+        n[inside] = lambert.unit(own + drawn * of_depth)[0]
+        sigma[inside] = uncertainty.normal_sigma_deg(clues, calibration_deg)
+    return n[tile.within], sigma[tile.within]
+
+
+def _albedo_by(n: Array, seen: sight.Sight, lit: Lit, hidden: Mask | None) -> Array:
+    """Albedo (P,) in the signals' units by normals (P, 3): the samples' factor on the shading, then of those that agree."""
+    shading = np.maximum(lambert.dot(lit.d, n), 0.0) * lit.E
+    counted = seen.usable & (shading > FACING * shading.max(axis=0))
+    if hidden is not None:
+        counted &= ~hidden
+    weight = counted * shading**2
+    total = np.maximum(weight.sum(axis=0), 1e-300)
+    albedo = np.einsum("kp,kp->p", counted * shading, seen.signal) / total
+    for _ in range(2):
+        square = (seen.signal - albedo * shading) ** 2 / (seen.sigma**2 + (field.MODEL * seen.signal) ** 2 + (0.1 * albedo * shading) ** 2)
+        robust = counted / (1 + square / WIDTH2) ** 2
+        albedo = np.sum(robust * shading * seen.signal, axis=0) / np.maximum(np.sum(robust * shading**2, axis=0), 1e-300)
+    return np.maximum(albedo, 1e-9)
+
+
+def _ramp(tile: Tile, size: Sequence[int], margin: int) -> Image:
+    """Weights (h, w) that add up to 1 with those of the neighbouring tiles: none at the outer half of the margin."""
+    sides = []
+    for some, length in zip(tile.outer, size, strict=True):
+        at = np.arange(some.start, some.stop)
+        low = np.clip((at - some.start + 0.5 - margin / 2) / margin, 0, 1) if some.start > 0 else np.ones(len(at))
+        high = np.clip((some.stop - at - 0.5 - margin / 2) / margin, 0, 1) if some.stop < length else np.ones(len(at))
+        sides.append(np.minimum(low, high))
+    return np.asarray(sides[0][:, None] * sides[1][None], np.float32)
