@@ -136,7 +136,7 @@ def test_near_lights_put_a_large_capture_where_they_put_a_small_one(small, tmp_p
     folder = written(tmp_path / "ball", raw.images, raw.ambient[0], on, names)
     large = read_capture(folder, names)
     assert large.full is not None
-    surface = lpcal.reconstruct(large, lights)
+    surface = lpcal.reconstruct(large, lights, distance_m=float(np.median(depth[on])))
     inner = on & (n[..., 2] < -0.4)
     assert abs(np.median(surface.depth[inner] / depth[inner]) - 1) < 0.006
     error = np.degrees(np.arccos(np.clip(np.sum(surface.normals * n, axis=-1)[inner], -1, 1)))

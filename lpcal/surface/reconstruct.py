@@ -149,18 +149,11 @@ def reconstruct(
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C, basins_found)
-    found_by = background if wanted else None
-    doubted = found_by if found_by is not None and found_by.doubt is not None else None
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
-    figures = replace(
-        surface.figures,
-        mask=_how(found_by, radiance, options),
-        mask_doubt=None if doubted is None else doubted.doubt,
-        mask_doubt_why=None if doubted is None else doubted.why,
-        intensities_found=None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True)),
-        images_exchanged=_exchanged(state, seen, radiance.lights) or None,
-    )
-    surface = replace(surface, layer=layer, figures=figures)
+    figures = _with_mask(surface.figures, background if wanted else None, radiance, options)
+    intensities = None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))
+    exchanged_images = _exchanged(state, seen, radiance.lights) or None
+    surface = replace(surface, layer=layer, figures=replace(figures, intensities_found=intensities, images_exchanged=exchanged_images))
     if kept is not None:
         kept.append(Solved(surface, scene, state, radiance))
     return surface
@@ -171,6 +164,14 @@ def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
     found = exchanged(matte, state.lit, state.found.b, seen.usable)
     return {names[image]: names[light] for image, light in found.items()}
+
+
+def _with_mask(figures: SurfaceFigures, found_by: mask.Found | None, radiance: Radiance, options: Options) -> SurfaceFigures:
+    """The figures with how the mask was found and how far that is in doubt."""
+    how = _how(found_by, radiance, options)
+    if found_by is None or found_by.doubt is None:
+        return replace(figures, mask=how)
+    return replace(figures, mask=how, mask_doubt=found_by.doubt, mask_doubt_why=found_by.why)
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
