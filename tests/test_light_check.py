@@ -9,7 +9,7 @@ import pytest
 
 import lpcal as library
 from lit_scene import K, Scene, calibration, draw, truth
-from lpcal.api.surfaces import contradicting, deviations
+from lpcal.api.surface_notes import contradicting, deviations
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import RawCapture

@@ -8,8 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.api.wishes import WAYS
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import noise_model, over_white, part_to_radiance
+from lpcal.errors import UsageError
+from lpcal.formats.full_size import coarse_mask
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.full_images import FullImages
@@ -21,6 +24,7 @@ from lpcal.surface import cut, sight, uncertainty
 from lpcal.surface import full_size as solver
 from lpcal.surface.bands import shared
 from lpcal.surface.ground import Ground, between
+from lpcal.surface.mask import Hints, Keep
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
 
 NOISE_PARTS = 5
@@ -33,6 +37,24 @@ OUTLINE_SIDE, OUTLINE_MARGIN = 256, 32
 """Pixels of the tiles in which that is done, and of their margins."""
 STIFFNESS = 0.6
 """Evidence that a unit of outline must be worth where the picture shows no edge."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a caller of `reconstruct` asks for."""
+
+    given: Mask | None
+    automatic: bool
+    """Whether the mask is the capture's, or found; else every pixel counts where none is given."""
+    hints: Hints
+    keep: Keep
+    method: str
+    integrator: str
+    distance_m: float | None
+
+
+type Solve = Callable[[RawCapture, Calibration, Asked, list[Solved]], Surface]
+"""Gives the surface of a coarse capture, and adds what it was made from to a list."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +82,33 @@ class BinnedCamera(Camera):
 def coarse_calibration(calibration: Calibration, factor: int) -> Calibration:
     """The calibration for coarse pixels."""
     return calibration if calibration.camera is None else replace(calibration, camera=BinnedCamera.of(calibration.camera, factor))
+
+
+def in_full_size(raw: RawCapture, full: FullImages, calibration: Calibration, asked: Asked, solve: Solve, progress: Progress) -> Surface:
+    """The surface of a capture that is too large to be held: `solve` gives the coarse one.
+
+    Raises
+    ------
+    UsageError
+        A method to compare with is asked for.
+    DisagreementError
+        The images are not of the camera's size.
+    """
+    if asked.method not in WAYS:
+        raise UsageError(
+            f"{len(raw.lights)} images of {full.size[1]}x{full.size[0]} are too large for a method to compare with",
+            where=asked.method,
+            needed="near or distant",
+            todo="compare on a smaller picture",
+        )
+    sight.agree_on_size(raw.name, full.size, calibration.camera)
+    kept: list[Solved] = []
+    mask = asked.given if asked.given is not None else full.mask if asked.automatic else np.ones(full.size, bool)
+    given = None if asked.given is None else coarse_mask(asked.given, full.factor)
+    of_fewer = replace(asked, given=given, hints=asked.hints.shrunk(full.factor))
+    coarse = solve(replace(raw, full=None), coarse_calibration(calibration, full.factor), of_fewer, kept)
+    solved = next(one for one in kept if one.surface.depth is coarse.depth)
+    return enlarged(raw, full, calibration, coarse, solved, None if mask is None else asked.hints.of(mask), progress)
 
 
 def enlarged(

@@ -13,7 +13,7 @@ is the object's (interreflection) lies in few pixels and does not move a median;
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -21,26 +21,24 @@ import numpy.typing as npt
 
 from lpcal.api import compared, stacks
 from lpcal.api.curve import settle_sensor
-from lpcal.api.full_size import coarse_calibration, enlarged
+from lpcal.api.full_size import Asked, in_full_size
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
-from lpcal.api.surface_notes import notes_of
+from lpcal.api.surface_notes import contradicting, notes_of
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError, UsageError
-from lpcal.formats.full_size import coarse_mask
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.errors import DegenerateError, InputError
+from lpcal.geometry.arrays import Image, Mask
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
-from lpcal.records.full_images import FullImages
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
-from lpcal.surface import convention, sight
+from lpcal.surface import convention
 from lpcal.surface import mesh as meshes
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.crop import Crop
@@ -152,7 +150,7 @@ def reconstruct(
     refuse_unknown_words(mask, method, integrator, keep, distance_m)
     refuse_unknown_lights(raw, calibration)
     refuse_hints(Hints(box, tuple((int(x), int(y)) for x, y in points)), raw.size[::-1], raw.name)
-    asked = _Asked(
+    asked = Asked(
         given=None if mask_given is None else stacks.of_image_size(mask_given, raw.size[::-1], "mask"),
         automatic=isinstance(mask, str) and mask == "auto",
         hints=Hints(box, tuple((int(x), int(y)) for x, y in points)),
@@ -165,27 +163,17 @@ def reconstruct(
     saying = _saying(sensor, raw, calibration)
     if raw.full is None:
         return _reconstructed(raw, calibration, asked, saying, progress)
-    return _in_full_size(raw, raw.full, calibration, asked, saying, progress)
 
+    def solve(fewer: RawCapture, coarse: Calibration, of_fewer: Asked, kept: list[solver.Solved]) -> Surface:
+        return _reconstructed(fewer, coarse, of_fewer, saying, progress, kept)
 
-@dataclass(frozen=True)
-class _Asked:
-    """What a caller of `reconstruct` asks for."""
-
-    given: Mask | None
-    automatic: bool
-    """Whether the mask is the capture's, or found; else every pixel counts where none is given."""
-    hints: Hints
-    keep: Keep
-    method: str
-    integrator: str
-    distance_m: float | None
+    return in_full_size(raw, raw.full, calibration, asked, solve, progress)
 
 
 def _reconstructed(
     raw: RawCapture,
     calibration: Calibration,
-    asked: _Asked,
+    asked: Asked,
     saying: Statements,
     progress: Progress,
     kept: list[solver.Solved] | None = None,
@@ -222,27 +210,6 @@ def _reconstructed(
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
     return replace(surface, warnings=notes, sensor=settled.used)
-
-
-def _in_full_size(
-    raw: RawCapture, full: FullImages, calibration: Calibration, asked: _Asked, saying: Statements, progress: Progress
-) -> Surface:
-    """`reconstruct` for a capture that is too large to be held: in coarse pixels first."""
-    if asked.method not in WAYS:
-        raise UsageError(
-            f"{len(raw.lights)} images of {full.size[1]}x{full.size[0]} are too large for a method to compare with",
-            where=asked.method,
-            needed="near or distant",
-            todo="compare on a smaller picture",
-        )
-    sight.agree_on_size(raw.name, full.size, calibration.camera)
-    by, kept = full.factor, list[solver.Solved]()
-    mask = asked.given if asked.given is not None else full.mask if asked.automatic else np.ones(full.size, bool)
-    coarse_asked = replace(asked, given=None if asked.given is None else coarse_mask(asked.given, by), hints=asked.hints.shrunk(by))
-    coarse = _reconstructed(replace(raw, full=None), coarse_calibration(calibration, by), coarse_asked, saying, progress, kept)
-    solved = next(one for one in kept if one.surface.depth is coarse.depth or one.surface.normals is coarse.normals)
-    inside = None if mask is None else asked.hints.of(mask)
-    return enlarged(raw, full, calibration, coarse, solved, inside, progress)
 
 
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
@@ -388,56 +355,3 @@ def _mesh_screen(found: Mesh) -> screens.RecordScreen:
     rows = [("vertices", str(len(found.vertices_C))), ("faces", str(len(found.faces)))]
     rows += [("size", " x ".join(f"{side:.4g}" for side in high - low) + " along x, y, z of C")] if len(found.vertices_C) else []
     return screens.RecordScreen("Mesh", rows)
-
-
-LIT = 0.3
-"""Cosine of the angle to a light, and share of the median signal, under which a pixel tells of shadow and its edges too."""
-FEWEST_PIXELS = 200
-"""Pixels that a light must be seen by: a median of so many is known to a percent where each is off by a tenth."""
-CONTRADICTS = 0.04
-"""Deviation from which a light is named: a lamp that is off by a tenth shows six per cent, drawn captures of right lights none, rendered
-ones with interreflection two."""
-SIGMAS = 5.0
-"""Stated standard deviations of the intensity that a deviation must exceed as well."""
-
-
-def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -> dict[str, float]:
-    """How much brighter (log) each light's image is than the surface found makes it, the median of all taken out; NaN: too few pixels."""
-    inside = surface.mask
-    x_C = surface.depth[inside].astype(float)[:, None] * surface.rays_C[inside] if surface.metric else surface.rays_C[inside]
-    n, albedo = surface.normals[inside].astype(float), _grey(surface.albedo[inside])
-    found = []
-    for k, name in enumerate(radiance.lights):
-        light = next(one for one in calibration.lights if one.name == name)
-        d, E = light.field(x_C)
-        cosine, signal = np.sum(d * n, axis=1), _grey(radiance.signal[k][inside])
-        good = (cosine > LIT) & ~radiance.saturated[k][inside] & (signal > LIT * np.median(signal))
-        expected = albedo * _grey(E) * cosine
-        good &= np.isfinite(expected) & (expected > 0)
-        found.append(float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan)
-    middle = np.nanmedian(found) if np.isfinite(found).any() else np.nan
-    return {name: float(value - middle) for name, value in zip(radiance.lights, found, strict=True)}
-
-
-def _grey(values: Array | Image) -> Array:
-    """Values (P,) or the mean (P,) of (P, C)."""
-    return np.asarray(values if values.ndim == 1 else values.mean(axis=-1), dtype=float)
-
-
-def contradicting(surface: Surface, radiance: Radiance, calibration: Calibration) -> tuple[str, ...]:
-    """What is to be said of a light whose image contradicts its calibration."""
-    figures = surface.figures
-    spoken_for = (figures.gloss, figures.intensities_found, figures.images_exchanged, figures.ambient)
-    if not surface.metric or any(one is not None for one in spoken_for):
-        return ()
-    found = deviations(surface, radiance, calibration)
-    stated = {light.name: light.intensity_std for light in calibration.lights}
-    worst = max((name for name in found if np.isfinite(found[name])), key=lambda name: abs(found[name]), default=None)
-    if worst is None or abs(found[worst]) < max(CONTRADICTS, SIGMAS * float(np.nan_to_num(stated[worst]))):
-        return ()
-    percent = 100 * np.expm1(found[worst])
-    how = f"{abs(percent):.0f} % {'brighter' if percent > 0 else 'darker'}"
-    return (
-        f"{worst} shines otherwise than its calibration says: its image is {how} than the others' make it (the lamp itself is off by "
-        "more): has it aged, moved, another current, or its image another exposure?",
-    )
