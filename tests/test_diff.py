@@ -12,8 +12,10 @@ import lpcal as library
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import Provenance
-from lpcal.geometry import se3
-from lpcal.records.calibration import Calibration, Light
+from lpcal.formats.lights_yaml import write_lights
+from lpcal.geometry import se3, sphere
+from lpcal.records.calibration import Calibration, Light, LightsSolution, SphereFinding
+from lpcal.records.comparison import CalibrationChange
 
 FOCUS = np.array([0.0, 0.0, 0.35])
 
@@ -103,6 +105,49 @@ def test_the_stated_scatter_is_what_unmoved_lights_show():
     assert 0.3 < np.std(ratios) < 1.3
 
 
+def spheres(true: Calibration, seed: int, count: int = 10) -> LightsSolution:
+    """What chrome spheres show of the lights: highlights to 0.005 px, outlines to 0.02 px."""
+    rng = np.random.default_rng([seed, 5])
+    camera, found = true.camera, []
+    for k in range(count):
+        centre = FOCUS + rng.uniform(-1, 1, 3) * [0.04, 0.03, 0.03]
+        outline = camera.project(sphere.outline(centre, 0.025, np.linspace(0, 2 * np.pi, 45, endpoint=False)))
+        outward = outline - outline.mean(axis=0)
+        outline += -0.31 * outward / np.linalg.norm(outward, axis=1, keepdims=True) + rng.normal(size=2) * 0.02
+        seen = {
+            one.name: camera.project(sphere.mirror_point(centre, 0.025, one.source_C)) + 5e-3 * rng.normal(size=2) for one in true.lights
+        }
+        found.append(SphereFinding(f"chrome_{k}", "chrome", centre, 0.025, True, None, outline_px=outline, highlights_px=seen))
+    return LightsSolution(true.lights, FOCUS, 0.35, np.eye(4), tuple(found))
+
+
+def seen_on_two_days(before: Calibration, after: Calibration, seed: int) -> CalibrationChange:
+    both = spheres(before, 2 * seed), spheres(after, 2 * seed + 1)
+    return library.compare_calibrations(measured(before, 2 * seed), measured(after, 2 * seed + 1), solutions=both)
+
+
+def test_with_the_spheres_of_both_days_an_unmoved_rig_is_silent_and_the_sigmas_are_those_of_the_moves():
+    true, ratios = rig(6), []
+    for seed in range(3):
+        found = seen_on_two_days(true, true, seed)
+        assert found.changed == ()
+        ratios += [light.moved_L / light.moved_L_std for light in found.lights]
+    assert 0.7 < np.sqrt(np.mean(np.square(ratios))) < 1.4
+    assert 0.004 < found.highlight_px < 0.006
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(axis):
+    true = rig(6)
+    for k in range(2):
+        by = 3e-4 * true.lights[k].H_CL[:3, axis]
+        changed = moved(true.lights[k], by)
+        found = seen_on_two_days(true, replace(true, lights=(*true.lights[:k], changed, *true.lights[k + 1 :])), k)
+        assert found.changed == (f"L{k}: moved",)
+        assert abs(found.lights[k].moved_L[axis] - 3e-4) < 4 * found.lights[k].moved_L_std[axis]
+        assert found.lights[k].moved_L_std[axis] < 1e-4
+
+
 def test_lights_that_were_exchanged_or_are_missing_are_named():
     true = rig(8)
     one, two = (replace(true.lights[a], name=true.lights[b].name) for a, b in ((1, 5), (5, 1)))
@@ -153,6 +198,9 @@ def test_the_command_says_it_and_draws_it(lpcal, tmp_path):
     code, told, _ = lpcal("diff", "old.yaml", "new", cwd=tmp_path)
     assert code == 0
     assert "changed beyond chance: L2: moved" in told
+    for name, one in (("lights.yaml", true), ("new/calib/lights.yaml", after)):
+        write_lights(tmp_path / name, replace(spheres(one, 3), lights=measured(one, int(one is after)).lights), Provenance())
+    assert "moves are by the chrome spheres of both days" in lpcal("diff", "old.yaml", "new", "-o", "seen.html", cwd=tmp_path)[1]
     page = (tmp_path / "diff.html").read_text()
     assert "L2: moved" in page
     scene = json.loads(page.partition('<script type="application/json">')[2].partition("</script>")[0])

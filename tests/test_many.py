@@ -266,17 +266,18 @@ def test_dask_arrays_are_taken(captures):
 
 
 def children_of(parent: int) -> list[int]:
-    """The processes that a process has started, but for Python's own tracker of resources."""
-    found = []
+    """The workers of a process: what the server that it has started has forked off."""
+    begun: dict[int, list[int]] = {}
+    servers = []
     for stat in Path("/proc").glob("[0-9]*/stat"):
         try:
             inside = stat.read_text().rpartition(")")[2].split()
             words = (stat.parent / "cmdline").read_bytes()
         except OSError:
             continue
-        if int(inside[1]) == parent and b"spawn_main" in words:
-            found.append(int(stat.parent.name))
-    return found
+        begun.setdefault(int(inside[1]), []).append(int(stat.parent.name))
+        servers += [int(stat.parent.name)] if int(inside[1]) == parent and b"multiprocessing.forkserver" in words else []
+    return [worker for server in servers for worker in begun.get(server, [])]
 
 
 def started(tmp_path: Path, captures: list[Path]) -> subprocess.Popen[str]:

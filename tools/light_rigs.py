@@ -14,7 +14,7 @@ from __future__ import annotations
 import hashlib
 import pickle
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -129,11 +129,21 @@ def _draw(
 
 
 def capture_rig(
-    rig: Rig, wings: list[Wing], sigma: np.ndarray, recipe: Recipe, margin: float | None = MARGIN
+    rig: Rig,
+    wings: list[Wing],
+    sigma: np.ndarray,
+    recipe: Recipe,
+    margin: float | None = MARGIN,
+    *,
+    day: int = 0,
+    moved: Callable[[Built], Built] = lambda built: built,
 ) -> tuple[Built, Camera, list[tuple[SphereView, tuple[int, int]]], Wings]:
-    """A rig built, its spheres rendered and seen; each view with the first column and row of its window."""
-    seed = recipe.seed
-    built, rng = build(rig, recipe), np.random.default_rng([seed, 78])
+    """A rig built, its spheres rendered and seen; each view with the first column and row of its window.
+
+    On another `day` the same rig has its spheres elsewhere, and other noise; `moved` is what has happened to it before.
+    """
+    seed, of_day = recipe.seed, [day] if day else []
+    built, rng = moved(build(rig, recipe)), np.random.default_rng([seed, 78, *of_day])
     lens, focus_m = built.lens, working_distance(rig)
     camera = Camera(lens.image_size, "opencv5", lens.K, lens.distortion)
     studio = Studio(built, recipe, Response(recipe.sensor, lens.vignetting(), BLACK), place_spheres(built, rig, rng))
@@ -143,7 +153,7 @@ def capture_rig(
     for index, ball in enumerate(studio.spheres):
         corner, window = _window(lens, studio.spheres[ball].centre_C, studio.spheres[ball].radius_m, margin)
         small = replace(studio, built=replace(built, lens=window), response=Response(recipe.sensor, window.vignetting(), BLACK))
-        capture = small.sphere(ball, np.random.default_rng([seed, 4, index]))
+        capture = small.sphere(ball, np.random.default_rng([seed, 4, index, *of_day]))
         rows, columns = (slice(start, start + size) for start, size in zip(corner[::-1], window.image_size[::-1], strict=True))
         radiance = _flattened(to_radiance(_raw(ball, capture), Sensor(BLACK)), response[rows, columns])
         expected = Expected(studio.spheres[ball].kind, studio.spheres[ball].radius_m, None, (0.4 * focus_m, 2.5 * focus_m))

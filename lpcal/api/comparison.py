@@ -1,11 +1,14 @@
 """Has my rig moved: two calibrations of one rig, part by part, each change beside what an unmoved rig shows.
 
-What one calibration's spheres are off by moves all its lights together: a shift, a turn and a scale. These seven are fitted and reported
-as what the lights share; each light is then held against the prediction by all others: their own scatter, with what
-is expected of it, says what an unmoved light shows. So errors that both calibrations share, as that of the drawing, cancel.
+Where both calibrations know what their chrome spheres showed, the spheres of both days are solved in one problem
+(`chain.refine_lights.moved_lights`): what is wrong with both alike cancels, and the highlights' own scatter says what is chance.
+`tools/moved_rigs.py` says what that can see.
 
-What that can see: on drawn rigs of six lights and four chrome spheres, placed anew for each calibration, a light's own scatter is 0.2 mm
-across and 0.6 mm along; one moved by 1.5 mm is named in half of the trials, by 2 mm in two thirds, and no unmoved one in 20 pairs.
+Calibrations alone: what one calibration's spheres are off by moves all its lights together, a shift, a turn and a scale. These seven are
+fitted and reported as what the lights share; each light is then held against the prediction by all others: their own
+scatter, with what is expected of it, says what an unmoved light shows. That sees less: on drawn rigs of six lights and four chrome
+spheres, placed anew for each calibration, a light's own scatter is 0.2 mm across and 0.6 mm along; one moved by 1.5 mm is named in half of
+the trials, by 2 mm in two thirds, and no unmoved one in 20 pairs.
 
 Which of many points has moved against the others: blocks of a linear model, each held against what the rest predicts.
 
@@ -22,15 +25,17 @@ all blocks share lie in x and cancel, whatever they are. Source: Cook and Weisbe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lpcal.chain.refine_lights.moved_lights import Day, moved_lights
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
-from lpcal.records.calibration import Calibration, Camera, Light
+from lpcal.records.calibration import Calibration, Camera, Light, LightsSolution
 from lpcal.records.comparison import UNLIKELY, CalibrationChange, LightChange, PartChange
 
 ALONG = 3.0
@@ -45,6 +50,8 @@ WORTH = 20.0
 """Degrees of freedom that the expected scatter is worth: as many as twelve lights have of their own."""
 FEWEST = 4
 """Lights that both must hold: three and the seven numbers that they share leave nothing to hold a fourth against."""
+SAME_CAMERA_PX = 0.5
+"""Two cameras without a covariance whose projections differ by less, rms over the image, are taken as one."""
 INVERTED_PX = 1e-3
 """A pixel whose ray does not project back to it this closely lies where the lens cannot be inverted, and is left out."""
 
@@ -54,6 +61,7 @@ def compare_calibrations(
     after: Calibration,
     *,
     H_PC_covariances: tuple[Array | None, Array | None] = (None, None),
+    solutions: tuple[LightsSolution | None, LightsSolution | None] = (None, None),
 ) -> CalibrationChange:
     """Compare two calibrations of one rig: what has moved, by how much, and whether it is more than chance.
 
@@ -63,6 +71,9 @@ def compare_calibrations(
         Two calibrations of one rig.
     H_PC_covariances : pair of ndarray (6, 6), optional
         Those of the camera in the tracked body, which a calibration does not hold.
+    solutions : pair of LightsSolution, optional
+        What the calibrations' lights rest on, as `refine_lights` returns it or lights.yaml holds it: with the chrome spheres of both days a
+        light's move is seen several times better.
 
     Returns
     -------
@@ -97,13 +108,17 @@ def compare_calibrations(
     if len(near) > 1:
         raise DisagreementError("near lights beside distant ones", where=f"{before.name}, {after.name}", needed="lights of one kind")
     exchanged = _exchanged(old, new)
-    places = _places(old, new) if near == {True} else _directions(old, new)
+    camera, said = _camera(before.camera, after.camera)
+    cameras = (before.camera, after.camera if _is_another(camera) else before.camera)
+    seen = _by_spheres(cameras, solutions, old, new, exchanged) if near == {True} else None
+    places = seen.places if seen is not None else _places(old, new) if near == {True} else _directions(old, new)
     axes = _axes(old, new) if near == {True} else None
     powers = _powers(old, new)
     lights = tuple(_light(k, name, places, axes, powers) for k, name in enumerate(names))
+    if seen is not None:
+        lights = tuple(_in_own_frame(one, k, seen, old[k], solutions[0]) for k, one in enumerate(lights))
     swapped = {name for pair in exchanged for name in pair}
     all_names = [*dict.fromkeys(light.name for one in (before, after) for light in one.lights)]
-    camera, said = _camera(before.camera, after.camera)
     return CalibrationChange(
         lights=tuple(light for light in lights if light.name not in swapped) if exchanged else lights,
         together=_together(places.common, old, new),
@@ -113,7 +128,58 @@ def compare_calibrations(
         exchanged=exchanged,
         missing=tuple(name for name in all_names if name not in names),
         notes=said,
+        highlight_px=float("nan") if seen is None else seen.scatter_px,
+        either=() if seen is None else tuple(names[k] for k in seen.either),
     )
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What the spheres of both days say."""
+
+    places: OddOnes
+    covariance: Array
+    """(L, 3, 3) of `places.off`."""
+    scatter_px: float
+    either: tuple[int, ...]
+
+
+def _by_spheres(
+    cameras: tuple[Camera | None, Camera | None],
+    solutions: tuple[LightsSolution | None, LightsSolution | None],
+    old: list[Light],
+    new: list[Light],
+    exchanged: Sequence[tuple[str, str]],
+) -> _Seen | None:
+    """The lights held against each other by the chrome spheres; None where they say too little."""
+    if solutions[0] is None or solutions[1] is None or cameras[0] is None or cameras[1] is None or exchanged:
+        return None
+    days = Day(solutions[0].spheres, cameras[0]), Day(solutions[1].spheres, cameras[1])
+    sources_C = np.array([[light.source_C for light in one] for one in (old, new)])
+    axes_C = np.array([np.full((3, 3), np.nan) if light.H_CL is None else light.H_CL[:3, :3] for light in new])
+    found = moved_lights(*days, sources_C, axes_C, [light.name for light in old], UNLIKELY)
+    if found is None:
+        return None
+    std = np.sqrt(np.diagonal(found.covariance, axis1=1, axis2=2))
+    return _Seen(OddOnes(found.common, found.moved_C, std, found.chance, found.freedom), found.covariance, found.scatter_px, found.either)
+
+
+def _is_another(camera: PartChange) -> bool:
+    """Whether the camera is to be taken as changed: if not, one of the two serves both days, and its errors cancel."""
+    return camera.chance < UNLIKELY if np.isfinite(camera.chance) else not camera.moved < SAME_CAMERA_PX
+
+
+def _in_own_frame(one: LightChange, k: int, seen: _Seen, light: Light, solution: LightsSolution | None) -> LightChange:
+    """A change along a light's arm, sideways and along its emission, and the turns that would do it."""
+    if light.H_CL is None:
+        return one
+    R = light.H_CL[:3, :3]
+    own = R.T @ seen.places.off[k]
+    setting = None if solution is None or not solution.evidence.settings else solution.evidence.settings.get(light.name)
+    if setting is not None:
+        reach_m = setting.d1_m + setting.d2_m * np.cos(np.radians(setting.joint_angle_deg))
+        one = replace(one, by_azimuth_rad=float(own[1] / reach_m), by_joint_rad=float(own[2] / setting.d2_m))
+    return replace(one, moved_L=own, moved_L_std=np.sqrt(np.diag(R.T @ seen.covariance[k] @ R)))
 
 
 def _places(old: list[Light], new: list[Light]) -> OddOnes:

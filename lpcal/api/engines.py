@@ -15,6 +15,7 @@ import importlib
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
@@ -36,6 +37,22 @@ THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 """The variables that hold a worker to one thread of linear algebra; the user's own word wins."""
 REPLY_S = 15.0
 """Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
+PRELOADED = (
+    *("lpcal.api.surfaces", "lpcal.api.files", "lpcal.formats.surface_files", "scipy.ndimage", "scipy.optimize", "scipy.sparse.linalg"),
+    *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "trimesh", "jinja2"),
+)
+"""What a worker that reconstructs would import, a second and more of processor time: where processes are forked off a server, the server
+imports it once for all workers and for those that take a lost one's place."""
+DASK_PRELOADED = ("distributed.nanny", "distributed.worker")
+"""And what dask's own do before that."""
+DASK_LEAN = {
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.scheduler.active-memory-manager.start": False,
+}
+"""Settings of a dask cluster that is started here, which nobody watches: by default each of its processes profiles itself a hundred times
+a second and looks at its clock fifty times, a tenth of a core together."""
 WORDS = "processes, dask, dask://HOST:PORT, slurm or slurm-trial"
 
 
@@ -179,6 +196,7 @@ def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) ->
     if word == "processes":
         return Engine("processes", lambda: processes(count), count)
     if word == "dask":
+        _begin_server()
         _package("distributed", "dask")
         return Engine("dask", lambda: _dask_here(count), 2 * count)
     if word.startswith("dask://"):
@@ -219,7 +237,7 @@ class Processes(Executor):
             except BrokenExecutor:  # killed while it had nothing to do
                 pool.shutdown(wait=False)
         with one_thread():
-            pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), begin_worker)
+            pool = ProcessPoolExecutor(1, _context(), begin_worker)
             return self._noted(pool, pool.submit(fn, *args, **kwargs))
 
     def _noted[T](self, pool: ProcessPoolExecutor, future: Future[T]) -> Future[T]:
@@ -234,6 +252,24 @@ class Processes(Executor):
         for pool, _ in self._pools:
             pool.shutdown(wait=wait, cancel_futures=cancel_futures)
         self._pools = []
+
+
+def _context() -> Any:
+    """How a process is started: forked off a server that has only imported, where the system can; never off this process."""
+    if not sys.platform.startswith("linux"):  # elsewhere libraries of the system may not be forked
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([*PRELOADED])
+    return context
+
+
+def _begin_server() -> None:
+    """Have the server import what dask's workers need while this process does what it has to before."""
+    context = _context()
+    if context.get_start_method() == "forkserver":
+        context.set_forkserver_preload([*DASK_PRELOADED, *PRELOADED])
+        with one_thread():
+            importlib.import_module("multiprocessing.forkserver").ensure_running()
 
 
 def _is_broken(future: Future[Any]) -> bool:
@@ -281,13 +317,24 @@ def _end_with(parent: Any) -> None:
 def _dask_here(count: int) -> Iterator[Executor]:
     """A dask cluster on this machine, reached over loopback alone."""
     distributed: Any = importlib.import_module("distributed")
+    dask: Any = importlib.import_module("dask")
     with (
         one_thread(),
-        distributed.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        dask.config.set(DASK_LEAN | {"distributed.worker.multiprocessing-method": _context().get_start_method()}),
+        _preloaded(distributed.utils.get_mp_context()),
+        distributed.LocalCluster(n_workers=count, threads_per_worker=1, memory_limit=0, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
         _undone_cancelled(client) as executor,
     ):
         yield executor
+
+
+@contextmanager
+def _preloaded(context: Any) -> Iterator[None]:
+    """Have dask's own processes forked off a server that has imported lpcal's packages beside dask's."""
+    if context.get_start_method() == "forkserver":
+        context.set_forkserver_preload([*DASK_PRELOADED, *PRELOADED])
+    yield
 
 
 @contextmanager

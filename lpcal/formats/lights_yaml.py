@@ -1,8 +1,9 @@
 """lights.yaml: the refined lights, as in calibration.yaml, and what they rest on.
 
 ``focus_m, d_object_m, H_CD, lights: [...], spheres: [{name, kind, centre_m, radius_m, used, why, directions: {L0: [..]}, residual,
-image_size, outline_px, highlights_px: {L0: [..]}}], warnings, evidence``; a sphere's residual is the rms of its highlights in px (chrome)
-or of its shading as a fraction (matte); outline and highlights are those found in the images.
+image_size, outline_px, highlights_px: {L0: [..]}, outline_sigma_px, highlight_sigma_px: {L0: ..}}], warnings, evidence``; a sphere's
+residual is the rms of its highlights in px (chrome) or of its shading as a fraction (matte); outline and highlights are those found in the
+images, with the scatter of the one's points and the standard deviation of the others.
 With covariances of left perturbations: ``H_CD_covariance``; ``H_PD, H_PD_covariance`` where the panel is tracked and no markers say it;
 with ``joint_solve`` also ``H_PC, H_PC_covariance`` and ``camera``, which then stand in calibration.yaml; left out otherwise.
 """
@@ -49,6 +50,8 @@ def write_lights(path: Path, solution: LightsSolution, provenance: Provenance) -
                 "image_size": sphere.image_size,
                 "outline_px": sphere.outline_px,
                 "highlights_px": sphere.highlights_px,
+                "outline_sigma_px": sphere.outline_sigma_px,
+                "highlight_sigma_px": sphere.highlight_sigma_px,
             }
             for sphere in solution.spheres
         ],
@@ -121,6 +124,8 @@ def lights_from_document(document: dict[str, Any]) -> LightsSolution:
                 outline_px=numbers(entry, "outline_px", -1, 2) if entry.get("outline_px") else np.zeros((0, 2)),
                 highlights_px={light: numbers(entry["highlights_px"], light, 2) for light in entry.get("highlights_px") or {}},
                 image_size=None if entry.get("image_size") is None else _size(entry),
+                outline_sigma_px=sigma(entry, "outline_sigma_px") if "outline_sigma_px" in entry else float("nan"),
+                highlight_sigma_px={light: sigma(entry["highlight_sigma_px"], light) for light in entry.get("highlight_sigma_px") or {}},
             )
             for entry in document["spheres"]
         ),

@@ -62,8 +62,8 @@ def reflect(u: Array, n: Array) -> Array:
     return u - 2 * np.sum(u * n, axis=-1, keepdims=True) * n
 
 
-def mirror_point(centre_C: Array, radius: float, light_C: Array) -> Array:
-    """Points (..., 3) of the sphere in which a camera at the origin sees lights at light_C (..., 3)."""
+def mirror_point(centre_C: Array, radius: float | Array, light_C: Array) -> Array:
+    """Points (..., 3) of spheres in which a camera at the origin sees lights at light_C (..., 3); one radius, or one each (...,)."""
     A = -np.broadcast_to(centre_C, light_C.shape)
     B = light_C - centre_C
     a, b = np.linalg.norm(A, axis=-1), np.linalg.norm(B, axis=-1)
@@ -77,4 +77,4 @@ def mirror_point(centre_C: Array, radius: float, light_C: Array) -> Array:
         f = a * b * np.sin(2 * th - gamma) - radius * (a * np.sin(th) - b * np.sin(gamma - th))
         slope = 2 * a * b * np.cos(2 * th - gamma) - radius * (a * np.cos(th) + b * np.cos(gamma - th))
         th = th - f / slope
-    return centre_C + radius * (np.cos(th)[..., None] * e_a + np.sin(th)[..., None] * e_b)
+    return np.asarray(centre_C + np.asarray(radius)[..., None] * (np.cos(th)[..., None] * e_a + np.sin(th)[..., None] * e_b))

@@ -25,13 +25,14 @@ from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, read_camera_solution
 from lpcal.formats.capture import read_mask
 from lpcal.formats.handeye_yaml import read_handeye
+from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.normal_map import read_depth, read_normals
 from lpcal.formats.outputs import marked, refuse_place, write_text
 from lpcal.formats.surface_files import read_surface
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.pipeline.workspace import Workspace
-from lpcal.records.calibration import Camera
+from lpcal.records.calibration import Calibration, Camera, LightsSolution
 from lpcal.records.comparison import CalibrationChange, LightChange, PartChange
 from lpcal.records.outcome import Outcome
 from lpcal.records.surface import Surface
@@ -52,7 +53,12 @@ def diff(one: Path, other: Path, page: Path) -> Outcome:
     files = [_file(path) for path in (one, other)]
     refuse_place(page, PAGE, files)
     before, after = (read_calibration(path) for path in files)
-    change = compare_calibrations(before, after, H_PC_covariances=(_covariance(files[0], before.H_PC), _covariance(files[1], after.H_PC)))
+    change = compare_calibrations(
+        before,
+        after,
+        H_PC_covariances=(_covariance(files[0], before.H_PC), _covariance(files[1], after.H_PC)),
+        solutions=(_solution(files[0], before), _solution(files[1], after)),
+    )
     lines = lines_of(change)
     write_text(page, diff_html((str(one), str(other)), (before, after), change, lines), PAGE)
     document = {"before": str(files[0]), "after": str(files[1]), "changed": list(change.changed), **asdict(change)}
@@ -75,6 +81,17 @@ def _covariance(path: Path, H_PC: Array | None) -> Array | None:
     return found.H_PC_covariance if same else None
 
 
+def _solution(path: Path, calibration: Calibration) -> LightsSolution | None:
+    """What the lights rest on, of the file beside the calibration, where it holds the same lights."""
+    try:
+        found = read_lights(path.with_name("lights.yaml"))
+    except LpcalError:
+        return None
+    own = {light.name: light.direction_C for light in found.lights}
+    same = all(light.name in own and np.allclose(own[light.name], light.direction_C, atol=1e-6) for light in calibration.lights)
+    return found if same else None
+
+
 def verdict(change: CalibrationChange) -> str:
     """The one sentence."""
     return f"changed beyond chance: {'; '.join(change.changed)}" if change.changed else "nothing has changed beyond chance"
@@ -82,8 +99,12 @@ def verdict(change: CalibrationChange) -> str:
 
 def lines_of(change: CalibrationChange) -> list[str]:
     """The table, for people: each figure beside what an unmoved rig shows."""
+    by_spheres = np.isfinite(change.highlight_px)
     lines = [f"{'light':<12} {'moved, mm':>18} {'axis turned, deg':>20} {'power, %':>18}"]
     lines += [_light_line(light) for light in change.lights]
+    if by_spheres:
+        lines.append(f"moves are by the chrome spheres of both days, whose highlights scatter by {change.highlight_px:.4f} px")
+        lines += [_own_line(light) for light in change.lights if "moved" in light.says and np.isfinite(light.moved_L).all()]
     lines.append(_part_line("all lights", change.together) + f", distances {100 * change.scale:+.2f} %")
     if np.isfinite(change.handeye.moved):
         lines.append(_part_line("hand-eye", change.handeye))
@@ -101,6 +122,15 @@ def _light_line(light: LightChange) -> str:
     cells = [f"{value:.2f} ({std:.2f})" if np.isfinite(value) else "-" for value, std in (across, turned)]
     power = f"{100 * light.power:+.2f} ({100 * light.power_std:.2f})"
     return f"{light.name:<12} {cells[0]:>18} {cells[1]:>20} {power:>18}" + (f"   <- {', '.join(light.says)}" if light.says else "")
+
+
+def _own_line(light: LightChange) -> str:
+    """How a light that has moved did, in its own frame."""
+    by = [f"{1e3 * moved:+.2f} ({1e3 * std:.2f}) mm" for moved, std in zip(light.moved_L, light.moved_L_std, strict=True)]
+    if np.isfinite(light.by_azimuth_rad):
+        by[1] += f" ({np.degrees(light.by_azimuth_rad):+.2f} deg of azimuth)"
+        by[2] += f" ({np.degrees(light.by_joint_rad):+.2f} deg of its joint)"
+    return f"  {light.name}: along its arm {by[0]}, sideways {by[1]}, along its emission {by[2]}"
 
 
 def _part_line(name: str, part: PartChange) -> str:

@@ -37,7 +37,7 @@ FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5
 """Spheres are looked for between these multiples of d_object."""
 OUTLINE_POINTS = 45
-"""About so many points of an outline are kept for the report's drawing: one in 8 degrees."""
+"""About so many points of an outline are kept for the report's drawing and for ``lpcal diff``: one in 8 degrees."""
 
 
 def wanted(workspace: Workspace) -> bool:
@@ -110,7 +110,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
     solution = with_handeye(workspace, solution)
     left_out = tuple(SphereFinding(name, spheres[name].kind, None, spheres[name].radius, False, error.found) for name, error in bad.items())
-    found = tuple(_with_outline(sphere, views) for sphere in solution.spheres)
+    found = tuple(_thinned(sphere) for sphere in solution.spheres)
     solution = replace(
         solution,
         spheres=(*found, *left_out),
@@ -131,11 +131,9 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
 
 
-def _with_outline(finding: SphereFinding, views: list[SphereView]) -> SphereFinding:
-    """A finding with what was seen of its sphere, as the report draws it."""
-    view = next(view for view in views if view.name == finding.name)
-    every = max(1, len(view.outline_px) // OUTLINE_POINTS)
-    return replace(finding, outline_px=view.outline_px[::every], highlights_px=view.highlights_px, image_size=view.image_size)
+def _thinned(finding: SphereFinding) -> SphereFinding:
+    """A finding with as many points of its outline as are written."""
+    return replace(finding, outline_px=finding.outline_px[:: max(1, len(finding.outline_px) // OUTLINE_POINTS)])
 
 
 def summary_of(solution: LightsSolution) -> list[str]:

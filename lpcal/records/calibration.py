@@ -300,6 +300,10 @@ class SphereFinding:
     """Chrome: where (2,) each light's mirror image was found."""
     image_size: tuple[int, int] | None = None
     """Of its images."""
+    outline_sigma_px: float = float("nan")
+    """Scatter of the outline's points."""
+    highlight_sigma_px: dict[str, float] = field(default_factory=dict)
+    """Of each highlight, an axis, as stated by the detection."""
 
 
 @dataclass(frozen=True, repr=False)

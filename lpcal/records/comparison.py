@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,6 +29,13 @@ class LightChange:
     power_std: float
     says: tuple[str, ...] = ()
     """What has changed beyond chance: moved, turned, power."""
+    moved_L: Array = field(default_factory=lambda: np.full(3, np.nan))
+    """(3,) the same in the light's own frame: along its arm, sideways, along its emission. NaN where no spheres of both days say it, or
+    the light has no frame."""
+    moved_L_std: Array = field(default_factory=lambda: np.full(3, np.nan))
+    by_azimuth_rad: float = float("nan")
+    """The turn of its wing about the disc's axis, and of its joint, that would move it as far sideways and along its emission."""
+    by_joint_rad: float = float("nan")
 
 
 @dataclass(frozen=True)
@@ -64,6 +71,10 @@ class CalibrationChange:
         Lights that only one of the two holds.
     notes : tuple of str
         What could not be compared, and why.
+    highlight_px : float
+        Scatter of the chrome spheres' highlights, an axis, where the spheres of both days say what has moved; else NaN.
+    either : tuple of str
+        Lights one of which has moved, where the data do not say which.
 
     Examples
     --------
@@ -81,11 +92,14 @@ class CalibrationChange:
     exchanged: tuple[tuple[str, str], ...] = ()
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    highlight_px: float = float("nan")
+    either: tuple[str, ...] = ()
 
     @property
     def changed(self) -> tuple[str, ...]:
         """What has changed beyond chance, in words."""
         said = [f"{light.name}: {what}" for light in self.lights for what in light.says]
+        said += [f"{' or '.join(self.either)}: moved"] if self.either else []
         said += [f"{one} and {other} stand where the other stood" for one, other in self.exchanged]
         said += [f"{name} is in one of the two only" for name in self.missing]
         for part, words in ((self.handeye, "the camera on the body"), (self.camera, "the camera itself"), (self.together, "all lights")):

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -275,15 +276,23 @@ def _finding(
     refused: dict[str, str],
     camera: Camera,
 ) -> SphereFinding:
+    seen = partial(
+        SphereFinding,
+        outline_px=view.outline_px,
+        highlights_px=view.highlights_px,
+        image_size=view.image_size,
+        outline_sigma_px=view.outline_sigma_px,
+        highlight_sigma_px=view.highlight_sigma_px,
+    )
     if centre_C is None:
-        return SphereFinding(view.name, view.kind, None, view.radius_m, used=False, why=refused.get(view.name))
+        return seen(view.name, view.kind, None, view.radius_m, used=False, why=refused.get(view.name))
     directions = {}
     for light, pixel in view.highlights_px.items():
         P, n = sphere.meet(camera.unproject(pixel), centre_C, view.radius_m)
         directions[light] = sphere.reflect(unit(P), n)
     residual = rms([px for (name, _), px in highlights.items() if name == view.name])
     residual = misfit.get(view.name, float("nan")) if view.kind == "matte" else residual
-    return SphereFinding(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
+    return seen(view.name, view.kind, centre_C, view.radius_m, used=True, why=None, directions_C=directions, residual=residual)
 
 
 def _setting_report(settings: Array, wings: Wings | None) -> dict[str, RefinedSetting]:
