@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 import pytest
 
+import ball_scenes
 from board_pictures import Pattern, Studio, exposed, poses
 from lpcal.api.watching import Watched, exposure_words
 from lpcal.errors import InputError, UsageError
@@ -83,6 +84,23 @@ def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark():
     assert session.judge_light("objects/vase", "L1", dark).tone == "fair"
     assert session.judge_light("spheres/ball", "L0", dark, chrome=True).tone == "good"
     assert session.following() == "spheres/ball: 2 of 3 lights are lacking, next L1"
+
+
+def test_a_sphere_is_looked_for_once_its_lights_have_come_and_a_bad_one_is_asked_for_again(tmp_path):
+    lights = [f"L{k}: {{}}" for k in range(6)]
+    spheres = [f"{name}: {{kind: matte, radius: 25 mm, images: spheres/{name}}}" for name in ("ball", "none", "later")]
+    (tmp_path / "panel.yaml").write_text(f"lpcal: 1\nlights: {{{', '.join(lights)}}}\nspheres: {{{', '.join(spheres)}}}\n")
+    shown = ball_scenes.picture([ball_scenes.matte(150, 110, 60)])
+    for k, signal in enumerate(shown.signal):
+        for name, pixels in (("ball", 255 * signal / shown.signal.max()), ("none", 120 + signal.std() * np.ones_like(signal))):
+            (tmp_path / "spheres" / name).mkdir(parents=True, exist_ok=True)
+            cv2.imwrite(str(tmp_path / f"spheres/{name}/L{k}.png"), np.clip(np.rint(pixels), 0, 255).astype(np.uint8))
+    said: list[str] = []
+    found = watch(tmp_path, read_rig(tmp_path / "panel.yaml").rig, said.append, port=None, idle_s=1.0).document
+    assert any(line.startswith("ok  spheres/ball: sphere found at (") for line in said), said
+    assert any(line.startswith("!!  spheres/none: ") for line in said)
+    assert found["spheres"]["spheres/none"]["tone"] == "poor"
+    assert found["next"].startswith("spheres/none again: ")
 
 
 def fetched(address: str, host: str | None = None) -> bytes:

@@ -13,8 +13,9 @@ from typing import Literal
 import numpy as np
 
 from lpcal.detect.board import find_board, glance
+from lpcal.errors import LpcalError
 from lpcal.geometry.arrays import Array, Image
-from lpcal.records.observations import Board
+from lpcal.records.observations import Board, SphereView
 
 WIDTH = 480
 """Pixels across at which the board is looked for: a glance takes some ten milliseconds, a search a tenth of a second."""
@@ -28,6 +29,8 @@ BLURRED = 0.5
 """Of the median sharpness of the boards before it, under which a board is called blurred."""
 TILT = 0.06
 """How far, in logarithm, opposite sides of the board differ where it is tilted by some ten degrees or more."""
+SMALL_SPHERE_PX = 25.0
+"""Radius of an outline, pixels, under which its place is much less sure: the outline's bias grows there."""
 BOARDS_WANTED, TILTED_WANTED = 12, 6
 """Boards for the intrinsics, and how many of them tilted: with fewer lpcal warns."""
 PLACES = (("top left", "top", "top right"), ("left", "middle", "right"), ("bottom left", "bottom", "bottom right"))
@@ -39,7 +42,7 @@ class Seen:
     """One image as it was judged."""
 
     name: str
-    kind: Literal["board", "light"]
+    kind: Literal["board", "light", "sphere"]
     tone: Tone
     words: tuple[str, ...]
     corners_share: Array | None = None
@@ -59,6 +62,10 @@ class Watched:
     """Light images by the folder that they lie in."""
     counted: Array = field(default_factory=lambda: np.zeros((CELLS[1], CELLS[0])))
     """Corners a cell, rows from the top."""
+    spheres: dict[str, Seen] = field(default_factory=dict)
+    """What the last look at each sphere said, by the folder of its images."""
+    awaited: tuple[str, ...] = ()
+    """Folders of the spheres that the rig names."""
 
     def judge_board(self, name: str, pixels: Image, *, look: bool = True) -> Seen:
         """An image that should show the board; `look`: whether there is time to search where a glance does not see it."""
@@ -89,6 +96,20 @@ class Watched:
             words, tone = (), "good"
         return self._noted(Seen(f"{folder}/{light}" if folder else light, "light", tone, words or ("exposure is right",)))
 
+    def judge_sphere(self, folder: str, found: SphereView | LpcalError) -> Seen:
+        """A capture of a sphere whose lights have all come, as it was found, or why it was not."""
+        if isinstance(found, LpcalError):
+            seen = Seen(folder, "sphere", "poor", (found.found,))
+        else:
+            middle, radius = found.outline_px.mean(axis=0), float(np.ptp(found.outline_px, axis=0).mean()) / 2
+            words = [f"sphere found at ({middle[0]:.0f}, {middle[1]:.0f}) px, radius {radius:.0f} px"]
+            lacking = [light for light in self.lights if light not in found.highlights_px] if found.kind == "chrome" else []
+            words += [f"no highlight of {', '.join(lacking)}"] if lacking else []
+            words += ["small: nearer to the camera, or a larger one"] if radius < SMALL_SPHERE_PX else []
+            seen = Seen(folder, "sphere", "fair" if len(words) > 1 else "good", (*words, *found.notes))
+        self.spheres[folder] = seen
+        return self._noted(seen)
+
     def _noted(self, seen: Seen) -> Seen:
         self.seen.append(seen)
         return seen
@@ -109,6 +130,12 @@ class Watched:
             lacking = [light for light in self.lights if light not in found]
             if lacking:
                 return f"{folder or 'the capture'}: {len(lacking)} of {len(self.lights)} lights are lacking, next {lacking[0]}"
+        for folder, sphere in self.spheres.items():
+            if sphere.tone == "poor":
+                return f"{folder} again: {sphere.words[0]}"
+        to_come = [folder for folder in self.awaited if folder not in self.folders]
+        if self.folders and to_come:
+            return f"the next sphere: {to_come[0]}"
         if self.board is None:
             return "every capture has all its lights"
         tilted = sum(one.tilted for one in self.boards)

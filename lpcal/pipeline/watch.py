@@ -1,7 +1,7 @@
 """``lpcal watch``: the folder is looked at five times a second, and each new image is judged as soon as it is whole.
 
 Where more come than can be searched for the board, the newest is searched first and the others are only measured: what is said is never
-far behind. The page is served to this machine alone.
+far behind. A sphere is looked for once all its lights have come, by a process of its own. The page is served to this machine alone.
 """
 
 from __future__ import annotations
@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
@@ -19,14 +20,18 @@ from typing import Any
 import numpy as np
 
 from lpcal.api.boards import board_of
+from lpcal.api.engines import processes
+from lpcal.api.spheres import find_sphere
 from lpcal.api.watching import Seen, Watched, lacking
 from lpcal.detect.board import find_board
 from lpcal.errors import InputError, LpcalError, UsageError
+from lpcal.formats.capture import read_capture
 from lpcal.formats.images import read_image
 from lpcal.formats.named_files import hidden, image_endings
 from lpcal.pipeline.workspace import natural
+from lpcal.records.observations import SphereView
 from lpcal.records.outcome import Outcome
-from lpcal.records.rig import Rig
+from lpcal.records.rig import Rig, SphereSection
 from lpcal.report.side_pages import watch_html
 
 LOOK_S = 0.2
@@ -48,6 +53,8 @@ class Watch:
     known: dict[Path, tuple[int, int]] = field(default_factory=dict)
     """Size and time of each image when it was last looked at."""
     done: set[tuple[Path, int, int]] = field(default_factory=set)
+    pending: dict[str, Future[SphereView | LpcalError]] = field(default_factory=dict)
+    """Spheres that are looked for, by their folders."""
     behind_s: float = 0.0
     """The longest that an image has waited from its last change to its verdict."""
 
@@ -55,7 +62,7 @@ class Watch:
         """Images that have come or changed, and did not change since the last look."""
         found = []
         for path in sorted(self.folder.rglob("*"), key=natural):
-            if path.suffix.lower() not in image_endings() or hidden(path):
+            if path.suffix.lower() not in image_endings() or hidden(path) or path.stem == "mask":
                 continue
             try:
                 state = path.stat()
@@ -79,16 +86,36 @@ class Watch:
             return seen
         stem = path.stem.removeprefix("short_")
         if stem in self.session.lights:
-            chrome = self._is_chrome(path.parent)
+            sphere = self._sphere(path.parent)
+            chrome = sphere is not None and sphere.kind == "chrome"
             seen = self.session.judge_light(path.parent.relative_to(self.folder).as_posix(), stem, pixels, chrome=chrome)
         else:
             seen = self.session.judge_board(name, pixels, look=look)
         self.behind_s = max(self.behind_s, time.time() - self.known[path][1] / 1e9)
         return seen
 
-    def _is_chrome(self, folder: Path) -> bool:
+    def _sphere(self, folder: Path) -> SphereSection | None:
         spheres = self.rig.spheres if self.rig else {}
-        return any(sphere.kind == "chrome" and Path(sphere.images).name == folder.name for sphere in spheres.values())
+        return next((sphere for sphere in spheres.values() if Path(sphere.images).name == folder.name), None)
+
+    def look_for_spheres(self, executor: Executor, touched: Iterable[Path]) -> None:
+        """Have a sphere looked for in each of these folders that is a sphere's and has all its lights."""
+        for folder in sorted(set(touched)):
+            name, sphere = folder.relative_to(self.folder).as_posix(), self._sphere(folder)
+            if sphere is not None and self.session.folders.get(name, set()) >= set(self.session.lights):
+                self.pending[name] = executor.submit(sphere_in, folder, self.session.lights, sphere)
+
+    def found_spheres(self) -> list[Seen]:
+        """The spheres that were looked for and are done."""
+        done = [name for name, future in self.pending.items() if future.done()]
+        found = []
+        for name in done:
+            future = self.pending.pop(name)
+            lost = future.exception()
+            found.append(
+                self.session.judge_sphere(name, future.result() if lost is None else InputError(str(lost) or "it was not looked for"))
+            )
+        return found
 
     def state(self) -> dict[str, Any]:
         """What the page shows."""
@@ -100,10 +127,20 @@ class Watch:
             "boards": len(session.boards),
             "covered": session.covered,
             "cells": session.counted.astype(int).tolist(),
+            "spheres": {folder: {"tone": one.tone, "words": "; ".join(one.words)} for folder, one in session.spheres.items()},
             "lacking": {folder or ".": list(names) for folder, names in lacking(session).items()},
             "seen": [{"name": one.name, "tone": one.tone, "words": "; ".join(one.words)} for one in session.seen[-SHOWN:][::-1]],
             "behind_s": round(self.behind_s, 2),
         }
+
+
+def sphere_in(folder: Path, lights: Sequence[str], sphere: SphereSection) -> SphereView | LpcalError:
+    """The sphere of a capture, without a camera; or why it was not found."""
+    try:
+        found = find_sphere(read_capture(folder, lights), sphere.kind, sphere.radius, hint_px=sphere.hint)
+    except LpcalError as error:
+        return error
+    return replace(found, shading=None)  # what is sent back is small
 
 
 def watch(
@@ -121,21 +158,25 @@ def watch(
     if not folder.is_dir():
         raise InputError("no such folder", where=str(folder), needed="a folder that images come into")
     board = None if rig is None or rig.board is None else board_of(rig.board)
-    at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else ()))
+    awaited = tuple(str(sphere.images) for sphere in rig.spheres.values()) if rig else ()
+    at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else (), awaited=awaited))
     if board is not None:
         find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
-    with _served(at, port) as address:
+    with _served(at, port) as address, processes(1) as executor:
         if address:
             say(f"watching {folder}; the page: {address}")
         last, told = time.monotonic(), ""
-        while idle_s is None or time.monotonic() - last < idle_s:
+        while idle_s is None or at.pending or time.monotonic() - last < idle_s:
             waiting = at.new()
             begun = time.monotonic()
             for path in reversed(waiting):
-                seen = at.judge(path, look=time.monotonic() - begun < BUDGET_S)
-                say(f"{'ok  ' if seen.tone == 'good' else '!   ' if seen.tone == 'fair' else '!!  '}{seen.name}: {'; '.join(seen.words)}")
-                last = time.monotonic()
-            if waiting and at.session.following() != told:
+                say(line_of(at.judge(path, look=time.monotonic() - begun < BUDGET_S)))
+            at.look_for_spheres(executor, [path.parent for path in waiting])
+            spheres = at.found_spheres()
+            for seen in spheres:
+                say(line_of(seen))
+            last = time.monotonic() if waiting or spheres else last
+            if (waiting or spheres) and at.session.following() != told:
                 told = at.session.following()
                 say(f"    next: {told}")
             sleep(LOOK_S)
@@ -143,6 +184,11 @@ def watch(
     lines = [f"{found['images']} images, {found['boards']} with the board, {100 * found['covered']:.0f} % of the image covered"]
     lines += [f"{where} lacks {', '.join(names)}" for where, names in found["lacking"].items() if names]
     return Outcome([*lines, f"next: {found['next']}"], found)
+
+
+def line_of(seen: Seen) -> str:
+    """A verdict for the terminal."""
+    return f"{'ok  ' if seen.tone == 'good' else '!   ' if seen.tone == 'fair' else '!!  '}{seen.name}: {'; '.join(seen.words)}"
 
 
 @contextmanager
