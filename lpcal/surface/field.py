@@ -8,7 +8,8 @@ it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviation::
 rho is Geman and McClure's. The samples of a pixel that three or more lights reach outweigh its neighbours. Where two lights reach it, the
 third direction comes from its neighbours' albedo and normal; in shadow, from the light that its surroundings throw on it. Solved in turn
 for the states of the samples (softly at first), for the weights, and for b by conjugate gradients, from the estimates of single pixels,
-without those so dark that they are taken for shadows. The gloss of the object is fitted on the way.
+without those so dark that they are taken for shadows. The gloss of the object is fitted on the way; the steps of b count how it changes
+with the normal (Gauss-Newton), as a highlight moves far where the normal turns a little.
 
 Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
 Cipolla 2008 (shadows, and the neighbours' part in what they hide).
@@ -191,6 +192,9 @@ def _gathered(
     in_shadow = _weights(seen, 1 - state.chance, state.shadow, state.shadow_spread2)
     J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
     B = np.where((lambert.dot(lit.direct, b) > 0)[..., None], lit.direct + J, J)
+    if shine is not None:
+        n, albedo = lambert.unit(b)
+        B = B + (shine.ks * lit.E / np.maximum(albedo, 1e-12))[..., None] * gloss.turned(lit.d, n, v, shine.roughness)
     signal = seen.signal if shown is None else seen.signal - shown
     own = np.einsum("kp,kpi,kpj->pij", as_lit, B, B) + np.einsum("kp,kpi,kpj->pij", in_shadow, J, J)
     right = np.einsum("kp,kpi->pi", as_lit * signal, B) + np.einsum("kp,kpi->pi", in_shadow * seen.signal, J)

@@ -42,6 +42,8 @@ FAINT = 0.01
 """Odds of a gloss under which none is taken off."""
 NEIGHBOURS = 25.0
 """How many samples are worth one: what the model lacks they have in common with those around."""
+STEEPEST = 0.05
+"""Least cosine to the viewer by which a lobe is reckoned."""
 DOUBT = 0.2
 """Standard deviation of a lobe, as a share of itself."""
 WIDTH2 = 9.0
@@ -76,13 +78,29 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
     a2 = roughness**2
     nh, nd = np.einsum("kpi,pi->kp", h, n), np.einsum("kpi,pi->kp", d, n)
-    nv = np.maximum(np.einsum("pi,pi->p", v, n), 0.05)
+    nv = np.maximum(np.einsum("pi,pi->p", v, n), STEEPEST)
     D = a2 / (np.pi * (np.maximum(nh, 0) ** 2 * (a2 - 1) + 1) ** 2)
 
     def smith(cosine: Array) -> Array:
         return 2 * cosine / (cosine + np.sqrt(a2 + (1 - a2) * cosine**2) + 1e-12)
 
     return np.asarray(np.where(nd > 0, D * smith(np.maximum(nd, 0)) * smith(nv) / (4 * nv), 0.0))
+
+
+def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
+    """How the lobe of `lobe` changes with the normal (L, P, 3), along the surface's tangents."""
+    h = d + v
+    h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
+    a2 = roughness**2
+    nh, nd = np.maximum(np.einsum("kpi,pi->kp", h, n), 0.0), np.maximum(np.einsum("kpi,pi->kp", d, n), 0.0)
+    nv = np.maximum(np.einsum("pi,pi->p", v, n), STEEPEST)
+    q = nh**2 * (a2 - 1) + 1
+    D, s_d, s_v = a2 / (np.pi * q**2), np.sqrt(a2 + (1 - a2) * nd**2), np.sqrt(a2 + (1 - a2) * nv**2)
+    S, V = 2 * nd / (nd + s_d + 1e-12), 0.5 / (nv + s_v)
+    by_h, by_d = 4 * D * nh * (1 - a2) / q * S * V, D * 2 * a2 / (s_d * (nd + s_d) ** 2 + 1e-12) * V
+    by_v = np.where(nv > STEEPEST, -D * S * V * (1 + (1 - a2) * nv / s_v) / (nv + s_v), 0.0)
+    found = np.where(nd > 0, by_h, 0.0)[..., None] * h + np.where(nd > 0, by_d, 0.0)[..., None] * d + by_v[..., None] * v
+    return np.asarray(found - np.einsum("kpi,pi->kp", found, n)[..., None] * n)
 
 
 def sample(pixels: int, lights: int) -> slice:
