@@ -42,8 +42,8 @@ GRAZING = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
 STEEPEST = 0.1
 """Least cosine to the viewer by which a pixel's area is told."""
-REFLECTANCES = tuple(np.arange(0.0, 0.951, 0.05))
-"""Of the object's median pixel."""
+REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
+"""Of the object's median pixel, from the darkest of paints on."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Shares of what is guessed that are tried: of the light of sides that are not seen, and of what goes on around out of sight."""
 COMMON, COMMON_SIGMA = 0.5, 0.25
@@ -193,7 +193,8 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, told: Told | None
         fit = np.log((1 - ELSE) * density + ELSE / top)
         return float(-2 * worth / max(len(pixel), 1) * fit.sum() + ((one - COMMON) / COMMON_SIGMA) ** 2)
 
-    trials = np.array(list(product([one for one in REFLECTANCES if one * bright <= middle], SHARES, SHARES)))
+    possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing throws on more than it gets
+    trials = np.array(list(product(possible, SHARES, SHARES)))
     costs = np.array([cost(*trial) for trial in trials])
     if told is not None:
         costs += told.cost(trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]]))
