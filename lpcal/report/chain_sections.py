@@ -11,7 +11,7 @@ from lpcal.geometry import camera as central
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
-from lpcal.records.evidence import CameraEvidence, HandEyeEvidence
+from lpcal.records.evidence import CameraEvidence, HandEyeEvidence, ProjectionUncertainty
 from lpcal.records.observations import BoardPoses
 from lpcal.report import charts
 from lpcal.report.rig_report import RigReport, origin_sigmas
@@ -22,6 +22,8 @@ type Row = tuple[str, str]
 
 CELLS = (9, 6)
 FEWEST_CORNERS = 8
+MOST_VECTORS = 3000
+"""Lines of a drawing of residuals: more are a blot, and a page of megabytes."""
 CORE = {"focal length x": "fx", "focal length y": "fy", "principal point x": "cx", "principal point y": "cy"}
 
 
@@ -54,6 +56,12 @@ class CameraPart:
     choice: LensChoice | None
     warp: str | None
     warp_mm: str | None
+    uncertainty: Drawing | None
+    """How sure the projection is over the image, and where the lens is known."""
+    vectors: Drawing | None
+    """What is left over of every corner."""
+    checks: list[Row]
+    """What other programs and other boards make of the same corners, the views that matter, and the next one."""
     views: str
     left_out: list[Row]
     warnings: tuple[str, ...]
@@ -79,6 +87,8 @@ class HandEyePart:
     clock: str | None
     used: str
     evidence: list[Row]
+    weakest: str | None
+    """The direction that is known worst, and the motion that mends it."""
     rms: list[Row]
     residuals: list[Row]
     """Titles and charts of those residuals that there are."""
@@ -119,6 +129,9 @@ def camera_section(report: RigReport) -> CameraPart | None:
         choice=None if solution is None else lens_choice(solution.evidence),
         warp=_warp(points_B),
         warp_mm=None if points_B is None else fixed(1000 * float(np.ptp(points_B[:, 2])), 2, "mm"),
+        uncertainty=None if solution is None else _uncertainty(solution.evidence.projection_uncertainty, camera.image_size),
+        vectors=None if seen is None else _vectors(*seen, camera.image_size),
+        checks=[] if solution is None else _checks(solution.evidence),
         views=plural(len(views), "view"),
         left_out=_left_out(views),
         warnings=() if solution is None else solution.warnings,
@@ -139,6 +152,7 @@ def handeye_section(report: RigReport) -> HandEyePart | None:
         clock=with_sigma(1000 * offset, None if std is None else 1000 * std, "ms") if offset is not None else None,
         used=f"{len(used)} of {plural(len(found.views), 'view')}",
         evidence=[] if found.evidence is None else _evidence(found.evidence),
+        weakest=None if found.evidence is None else found.evidence.weakest,
         rms=[(measure.name, number(_rms(used, measure), 3, measure.unit)) for measure in MEASURES],
         residuals=[
             (measure.name, _view_bars(found.views, measure))
@@ -157,10 +171,17 @@ def _evidence(found: HandEyeEvidence) -> list[Row]:
         ("mocap noise, rotation", fixed(found.mocap_sigma_deg, 3, "°")),
         ("mocap noise, position", fixed(1000 * found.mocap_sigma_m, 2, "mm")),
         ("corner noise", number(found.corner_sigma_px, 2, "px")),
+        ("the board's size by the mocap", _board_size(found)),
         ("moved from the closed form by", fixed(1000 * found.moved_from_closed_form_m, 2, "mm")),
         ("turned from the closed form by", fixed(found.moved_from_closed_form_deg, 3, "°")),
     )
     return [(label, value) for label, value in named if value not in {"", NOTHING}]
+
+
+def _board_size(found: HandEyeEvidence) -> str:
+    """The board's size by the mocap's metres over the stated one."""
+    size, std = found.board_size_by_mocap, found.board_size_by_mocap_std
+    return with_sigma(size, std) + " of the stated one" if np.isfinite(size) and np.isfinite(std) else NOTHING
 
 
 def _scaled(value: float | None, factor: float) -> float | None:
@@ -193,7 +214,7 @@ def _view_bars(views: Sequence[ViewVerdict], measure: Measure) -> str:
     for view in views:
         value = measure.of(view)
         label = f"{view.image}: {number(value, 3, measure.unit)}" + ("" if view.used else f" left out, {view.why or 'no reason given'}")
-        drawn.append(charts.Bar(value, label, "accent" if view.used else "fair"))
+        drawn.append(charts.Bar(value, label, "accent" if view.used else "fair", name=view.image.rpartition("/")[2].rpartition(".")[0]))
     return charts.bars(drawn, unit=measure.unit, across="views in order; amber: left out")
 
 
@@ -213,6 +234,59 @@ def _coverage(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawin
     note += f"; the longest is {number(longest, 2, 'px')}"
     note += f", noise alone leaves {number(noise, 2, 'px')}" if np.isfinite(noise) else ""
     return Drawing(charts.over_image(pixels, (w, h), arrows * [1, 1, factor, factor]), note)
+
+
+def _uncertainty(found: ProjectionUncertainty | None, image_size: tuple[int, int]) -> Drawing | None:
+    """How sure the projection is over the image, with a line round where the lens is known."""
+    if found is None or not np.isfinite(found.worst_direction_std_px).any():
+        return None
+    trusted = np.where(found.trusted, found.worst_direction_std_px, np.nan)
+    inside = float(np.nanmax(trusted)) if np.isfinite(trusted).any() else float("nan")
+    share = fixed(100 * found.trusted_share, 0, "%")
+    note = f"one standard deviation, in its worst direction; the line: where the lens is known, {share} of the image"
+    note += f", at most {number(inside, 2, 'px')} there" if np.isfinite(inside) else ""
+    drawn = charts.heat_map(
+        found.worst_direction_std_px,
+        unit="px",
+        aspect=image_size[0] / image_size[1],
+        outline=np.asarray(found.trusted, bool),
+        what="standard deviation of projection over the image",
+    )
+    return Drawing(drawn, f"{note}. Beyond the line hold the board there, or take no measurements there.")
+
+
+def _vectors(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing | None:
+    """What is left over of every corner, or of every n-th where there are many."""
+    kept = np.isfinite(left).all(axis=1)
+    pixels, left = pixels[kept], left[kept]
+    if len(pixels) < FEWEST_CORNERS:
+        return None
+    step = -(-len(pixels) // MOST_VECTORS)
+    pixels, left = pixels[::step], left[::step]
+    usual = float(np.percentile(np.linalg.norm(left, axis=1), 90))
+    factor = _round_down(0.03 * image_size[0] / max(usual, 1e-9))
+    note = f"what is left over of {'every corner' if step == 1 else f'one corner in {step}'}, × {factor:g}. "
+    note += "Lines that lie side by side and point alike are no noise: the lens model, the board or one view is wrong there."
+    return Drawing(charts.vectors(pixels, factor * left, image_size), note)
+
+
+def _checks(found: CameraEvidence) -> list[Row]:
+    """Rows of what else was made of the same corners."""
+    rows: list[Row] = []
+    for other in (found.independent_check, found.free_board_check):
+        if other is None:
+            continue
+        apart = f"{number(other.difference_rms_px, 2, 'px')} rms, {number(other.difference_worst_px, 2, 'px')} at most apart"
+        rows.append((f"the same corners by {other.by}", f"failed: {other.failed}" if other.failed else apart))
+    if found.coverage is not None:
+        rows.append(("coverage", found.coverage.in_words))
+    if found.views_that_matter:
+        told = ", ".join(f"{one.image} ({100 * (one.without_it - 1):.0f} %)" for one in found.views_that_matter[:3])
+        rows.append(("without it the camera is less sure by", told))
+    if found.next_view is not None:
+        then = f"{number(found.next_view.std_now_px, 2)} → {number(found.next_view.std_then_px, 2, 'px')}"
+        rows.append(("the next view", f"{found.next_view.hold_the_board} ({then})"))
+    return rows
 
 
 def _histogram(left: Array) -> Drawing | None:

@@ -13,10 +13,16 @@ from html import escape
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Mask
 
 WIDTH = 480
 LEFT, RIGHT, TOP, BOTTOM = 42, 10, 22, 32
+NAME_ROOM = 12
+"""Units of the drawing that a name under the axis takes across, turned by 60 degrees."""
+LONGEST_NAME, MOST_BELOW = 14, 68
+"""Letters of a name, and units under the axis that names may take."""
+BAR = 12
+"""Height of a colour bar."""
 
 
 @dataclass(frozen=True)
@@ -26,13 +32,20 @@ class Bar:
     value: float | None
     label: str
     tone: str = "accent"
+    name: str = ""
+    """What stands under the axis."""
 
 
 def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gate: float | None = None) -> str:
-    """Bars in the order given; an item without a value is a tick on the axis; `gate` is a dashed line."""
+    """Bars in the order given; an item without a value is a tick on the axis; `gate` is a dashed line.
+
+    Where the items have names they stand under the axis, as many of them as there is room for.
+    """
     measured = [item.value for item in items if item.value is not None]
     top = max([*measured, gate or 0.0, 1e-12]) * 1.06
-    plot = _Plot(height, (0, max(len(items), 1)), (0, top))
+    longest = max((len(item.name) for item in items), default=0)
+    below = 0 if not longest else min(10 + 5 * longest, MOST_BELOW)
+    plot = _Plot(height + below, (0, max(len(items), 1)), (0, top), bottom=BOTTOM + below)
     thick = plot.width / max(len(items), 1)
     parts = plot.y_axis("deg" if unit == "°" else unit)
     for k, item in enumerate(items):
@@ -42,6 +55,12 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
         parts.append(f'<rect {shape} class="fill-{item.tone}">{tip}</rect>')
     if gate is not None:
         parts.append(plot.rule(gate))
+    every = max(1, math.ceil(len(items) * NAME_ROOM / plot.width))
+    for k, item in enumerate(items):
+        if item.name and k % every == 0:
+            u, v = plot.u(k + 0.5) + 3, plot.v(0) + 9
+            shown = item.name if len(item.name) <= LONGEST_NAME else f"…{item.name[1 - LONGEST_NAME :]}"
+            parts.append(f'<text class="end name" x="{u:.1f}" y="{v:.1f}" transform="rotate(-60 {u:.1f} {v:.1f})">{escape(shown)}</text>')
     return plot.svg([*parts, plot.x_line(), plot.x_title(across)], f"bars, {across}, {unit}")
 
 
@@ -118,7 +137,67 @@ def signed_grid(points: Array, value: Array, *, unit: str) -> str:
         where = f'cx="{shift + (x - low[0]) * scale:.1f}" cy="{(y - low[1]) * scale:.1f}" r="{0.42 * pitch * scale:.1f}"'
         shade = f'class="fill-{tone}" opacity="{0.08 + 0.92 * abs(z) / strongest:.2f}"'
         parts.append(f"<circle {where} {shade}><title>{z:.3f} {escape(unit)}</title></circle>")
-    return _svg(round((high[1] - low[1]) * scale), parts, f"map of a grid, {unit}")
+    height = round((high[1] - low[1]) * scale)
+    parts += _colour_bar(height + 8, (-strongest, strongest), unit, signed=True)
+    return _svg(height + 8 + BAR + 18, parts, f"map of a grid, {unit}, from {-strongest:.2g} to {strongest:.2g}")
+
+
+def heat_map(value: Array, *, unit: str, aspect: float, outline: Mask | None = None, what: str = "map", low: float = 0.0) -> str:
+    """Values (R, C) as cells over a frame of width over height `aspect`, darker where larger, NaN left empty, with a colour bar.
+
+    `outline` (R, C) draws a line round the cells where it is true. The bar begins at `low`.
+    """
+    rows, columns = value.shape
+    high = float(np.nanmax(value, initial=low + 1e-12))
+    across, frame = (WIDTH - 4) / columns, (WIDTH - 4) / aspect
+    down = frame / rows
+    parts = [f'<rect x="2" y="2" width="{WIDTH - 4}" height="{frame:.1f}" class="plate"/>']
+    for (r, c), one in np.ndenumerate(value):
+        if np.isfinite(one):
+            shade = 0.04 + 0.96 * min(max((one - low) / max(high - low, 1e-12), 0.0), 1.0)
+            where = f'x="{2 + c * across:.1f}" y="{2 + r * down:.1f}" width="{across + 0.3:.1f}" height="{down + 0.3:.1f}"'
+            parts.append(f'<rect {where} class="fill-accent" opacity="{shade:.2f}"><title>{one:.3g} {escape(unit)}</title></rect>')
+    if outline is not None:
+        parts.append(f'<path class="border" d="{_border(outline, across, down)}"/>')
+    parts += _colour_bar(round(frame) + 12, (low, high), unit, signed=False)
+    return _svg(round(frame) + 12 + BAR + 18, parts, f"{what}, {unit}, from {low:.3g} to {high:.3g}")
+
+
+def _border(inside: Mask, across: float, down: float) -> str:
+    """The line between cells that are inside and those that are not, or the frame."""
+    padded = np.pad(inside, 1)
+    upright, level = np.argwhere(padded[:, 1:] != padded[:, :-1]), np.argwhere(padded[1:] != padded[:-1])
+    steps = [f"M{2 + c * across:.1f} {2 + (r - 1) * down:.1f}v{down:.1f}" for r, c in upright]
+    steps += [f"M{2 + (c - 1) * across:.1f} {2 + r * down:.1f}h{across:.1f}" for r, c in level]
+    return "".join(steps)
+
+
+def _colour_bar(top: float, span: tuple[float, float], unit: str, *, signed: bool) -> list[str]:
+    """A bar from the least to the largest value with its numbers under it."""
+    left, width, steps = 60, WIDTH - 120, 24
+    parts = []
+    for k in range(steps):
+        share = (k + 0.5) / steps
+        tone = "accent" if not signed else ("warm" if share > 0.5 else "cool")
+        shade = 0.04 + 0.96 * share if not signed else 0.08 + 0.92 * abs(2 * share - 1)
+        where = f'x="{left + k * width / steps:.1f}" y="{top}" width="{width / steps + 0.3:.1f}" height="{BAR}"'
+        parts.append(f'<rect {where} class="fill-{tone}" opacity="{shade:.2f}"/>')
+    for share, value in ((0.0, span[0]), (0.5, sum(span) / 2), (1.0, span[1])):
+        end = f" {escape(unit)}" if share == 1.0 else ""
+        parts.append(f'<text class="middle" x="{left + share * width:.1f}" y="{top + BAR + 14}">{value:.3g}{end}</text>')
+    return parts
+
+
+def vectors(points_px: Array, arrows_px: Array, image_size: tuple[int, int]) -> str:
+    """A line from each point (N, 2) by its arrow (N, 2), over the image's frame."""
+    w, h = image_size
+    scale = (WIDTH - 4) / w
+    height = round(h * scale) + 4
+    lines = "".join(
+        f"M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}" for (x, y), (dx, dy) in zip(points_px * scale + 2, arrows_px * scale, strict=True)
+    )
+    frame = f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>'
+    return _svg(height, [frame, f'<path class="vectors" d="{lines}"/>'], "what is left over of every corner, as lines over the image")
 
 
 def dot_rows(rows: Sequence[tuple[str, Sequence[tuple[float, str, str]]]], *, unit: str, gate: float | None = None) -> str:
@@ -160,15 +239,15 @@ def ticks(low: float, high: float, about: int = 4) -> list[float]:
 class _Plot:
     """Axes of one chart: data to drawing, and the marks along both."""
 
-    def __init__(self, height: int, x: tuple[float, float], y: tuple[float, float], left: int = LEFT) -> None:
-        self.height, self.x, self.y, self.left = height, x, y, left
+    def __init__(self, height: int, x: tuple[float, float], y: tuple[float, float], left: int = LEFT, bottom: int = BOTTOM) -> None:
+        self.height, self.x, self.y, self.left, self.bottom = height, x, y, left, bottom
         self.width = WIDTH - left - RIGHT
 
     def u(self, x: float) -> float:
         return self.left + (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width
 
     def v(self, y: float) -> float:
-        return self.height - BOTTOM - (y - self.y[0]) / (self.y[1] - self.y[0]) * (self.height - TOP - BOTTOM)
+        return self.height - self.bottom - (y - self.y[0]) / (self.y[1] - self.y[0]) * (self.height - TOP - self.bottom)
 
     def y_axis(self, unit: str) -> list[str]:
         parts = []

@@ -21,11 +21,12 @@ import numpy as np
 from lpcal import __version__
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import TABLED
-from lpcal.records.calibration import Light, SphereFinding
+from lpcal.records.calibration import Camera, Light, SphereFinding
+from lpcal.records.evidence import LightsEvidence
 from lpcal.records.provenance import Provenance
 from lpcal.records.surface import Component
 from lpcal.report import charts
-from lpcal.report.chain_sections import camera_section, handeye_section
+from lpcal.report.chain_sections import Drawing, camera_section, handeye_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport, designed
 from lpcal.report.scene import LineScene, layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.templates import environment
@@ -154,6 +155,8 @@ def _provenance(kind: str, stated: Provenance) -> ProvenanceSection:
 type Dot = tuple[float, str, str]
 """A value, its label and its tone."""
 
+FIELD_COLUMNS = 36
+"""Cells across a map of the light: it is smooth."""
 SHOWN_DEG = 80
 """Degrees from the axis up to which a lobe by a formula is drawn."""
 SEEN_LOBE = 0.01
@@ -188,6 +191,8 @@ class LightsPart:
     d_object: str | None
     intensities: str | None
     lobe: str | None
+    field: Drawing | None
+    """The light of all lamps together over the working plane."""
     warnings: tuple[str, ...]
 
 
@@ -213,6 +218,8 @@ class SpheresPart:
     largest: str | None
     directions: str | None
     outlines: list[str]
+    foretold: list[tuple[str, str]]
+    """How well a sphere that was held out is predicted by the others, and where one more tells most."""
     used: str
 
 
@@ -232,6 +239,7 @@ def lights_section(report: RigReport) -> LightsPart | None:
         d_object=fixed(1000 * found.d_object_m, 1, "mm") if found.d_object_m else None,
         intensities=charts.bars(_intensities(found.lights), unit="relative", across="lights in order") if measured else None,
         lobe=_lobe(found.lights),
+        field=_field(found.lights, report.lens, found.d_object_m, found.focus_C),
         warnings=found.warnings,
     )
 
@@ -256,8 +264,29 @@ def spheres_section(report: RigReport) -> SpheresPart | None:
         largest=fixed(max(angles), 2, "°") if angles else None,
         directions=charts.dot_rows(rows, unit="degrees from the refined light; amber: spheres not used") if angles else None,
         outlines=_outlines(spheres),
+        foretold=_foretold(report.lights.evidence),
         used=f"{sum(sphere.used for sphere in spheres)} of {plural(len(spheres), 'sphere')}",
     )
+
+
+def _foretold(found: LightsEvidence) -> list[tuple[str, str]]:
+    """Rows of what held-out spheres say, and of the next one."""
+    shading, free = found.foretold_shading_rms, found.foretold_shading_rms_albedo_free
+    rows = [
+        ("highlights in the solve", number(found.highlight_rms_px, 2, "px") + " rms"),
+        ("a chrome sphere held out: its highlights, foretold by the others", number(found.foretold_highlight_px, 2, "px") + " rms"),
+        ("shading in the solve", number(None if found.shading_rms is None else 100 * found.shading_rms, 2, "%") + " rms"),
+        (
+            "a matte sphere held out: its shading, foretold by the others",
+            number(None if shading is None else 100 * shading, 2, "%") + " rms",
+        ),
+        ("the same, its albedo free", number(None if free is None else 100 * free, 2, "%") + " rms"),
+    ]
+    rows = [(label, value) for label, value in rows if not value.startswith(NOTHING)]
+    if found.next_sphere is not None:
+        then = f"{number(found.next_sphere.direction_std_deg, 2)} → {number(found.next_sphere.with_it_deg, 2, '°')}"
+        rows.append(("one more chrome sphere tells most", f"{found.next_sphere.where} ({then})"))
+    return rows
 
 
 def _outlines(spheres: Sequence[SphereFinding]) -> list[str]:
@@ -314,9 +343,31 @@ def _row(light: Light, before: Light | None, *, measured: bool) -> LightRow:
     )
 
 
+def _field(lights: Sequence[Light], camera: Camera | None, distance_m: float | None, focus_C: Array | None) -> Drawing | None:
+    """What a white card at the working distance, facing the camera, gets of all lights, in per cent of the most."""
+    depth = float(focus_C[2]) if focus_C is not None else distance_m
+    if camera is None or depth is None or not depth > 0 or any(light.source_C is None for light in lights):
+        return None
+    width, height = camera.image_size
+    rows = max(2, round(FIELD_COLUMNS * height / width))
+    across, down = (np.arange(FIELD_COLUMNS) + 0.5) / FIELD_COLUMNS * width - 0.5, (np.arange(rows) + 0.5) / rows * height - 0.5
+    rays = camera.unproject(np.stack(np.meshgrid(across, down), axis=-1))
+    points_C = rays / rays[..., 2:] * depth
+    arrives = np.zeros(points_C.shape[:2])
+    for light in lights:
+        towards, irradiance = light.field(points_C)
+        arrives += irradiance.mean(axis=-1) * np.maximum(-towards[..., 2], 0)
+    share = 100 * arrives / arrives.max()
+    drawn = charts.heat_map(
+        share, unit="%", aspect=width / height, low=float(share.min()), what="light of all lamps over the working plane"
+    )
+    note = f"all lights together on a card that faces the camera, {1000 * depth:.0f} mm away, in per cent of the brightest place; "
+    return Drawing(drawn, note + f"the darkest place in view gets {share.min():.0f} %")
+
+
 def _intensities(lights: Sequence[Light]) -> list[charts.Bar]:
     means = [(light.name, float(light.intensity.mean())) for light in lights]
-    return [charts.Bar(mean, f"{name}: {number(mean, 4)}") for name, mean in means]
+    return [charts.Bar(mean, f"{name}: {number(mean, 4)}", name=name) for name, mean in means]
 
 
 def _lobe(lights: Sequence[Light]) -> str | None:

@@ -147,8 +147,9 @@ def _wings(wings: Wings | None) -> Verdict:
 
 def _lights(report: RigReport) -> Verdict:
     placed = report.placed
-    if placed is None:
-        return Verdict("lights", "Lights", "absent", "No lights: lpcal refine, or lpcal export.")
+    if placed is None or not placed.lights:
+        said = "No lights: lpcal refine, or lpcal export." if placed is None else "No lights: the rig states none."
+        return Verdict("lights", "Lights", "absent", said)
     lights, spheres = placed.lights, () if report.lights is None else report.lights.spheres
     direction = float(np.degrees(_worst([light.direction_std_rad for light in lights])))
     position = 1000 * _worst([light.position_std_m for light in lights])
@@ -177,4 +178,13 @@ def _surface(surface: SurfaceReport) -> Verdict:
     measured = (max(spread, default=float("nan")), "surface_percent")
     if spread and np.isfinite(depth := pieces[0].mean_depth_m):
         found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away"
-    return Verdict("surface", surface.name, _level(measured), found, _gate(measured))
+    level = _level(measured)
+    unsure = [
+        piece
+        for piece in pieces[1:]
+        if metric and np.isfinite(piece.scale_std) and _level((100 * piece.scale_std, "surface_percent")) == level
+    ]
+    if level not in {"good", "none"} and unsure:
+        worst = max(unsure, key=lambda piece: piece.scale_std)
+        found += f"; its piece {worst.label} of {plural(worst.pixels, 'pixel')} is known to {fixed(100 * worst.scale_std, 1, '%')} only"
+    return Verdict("surface", surface.name, level, found, _gate(measured))
