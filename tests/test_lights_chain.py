@@ -18,13 +18,18 @@ from lpcal.chain.refine_lights import refine
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.formats.calibration_yaml import light_document, light_from_document
+from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.capture import read_capture
 from lpcal.formats.field_csv import read_field
 from lpcal.formats.images import read_image
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3, sphere
+from lpcal.pipeline.refine import _looked
+from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Camera, LightsSolution, Wings
 from lpcal.records.observations import SphereView
+from lpcal.records.outcome import silent
+from lpcal.surface.bands import cores
 
 RIG = Path(__file__).resolve().parent.parent / "calib_data" / "demo_rig"
 Run = Callable[..., tuple[int, str, str]]
@@ -174,6 +179,25 @@ def test_a_dome_calibrates_from_spheres_alone(dome: Path, lpcal: Run) -> None:
     _, true = read_field(RIG / "truth" / "field.csv")
     angle = np.concatenate([np.degrees(np.arccos(np.clip(np.sum(found[k][0] * true[k][0], axis=1), -1, 1))) for k in true])
     assert np.sqrt(np.mean(angle**2)) < 1.0
+
+
+@pytest.mark.slow
+def test_spheres_look_the_same_to_any_number_of_cores(dome: Path) -> None:
+    workspace = Workspace(read_rig(dome / "panel.yaml"))
+    spheres = workspace.rig_file.rig.spheres
+    camera = read_camera_file(dome / "lens.cameramodel")
+    found = []
+    for count in (1, 3):
+        with cores(count):
+            found.append(_looked(workspace, spheres, camera, Sensor(black_level=0.008), None, silent))
+    one, several = found
+    assert list(one) == list(several) == list(spheres)
+    for name, view in one.items():
+        other = several[name]
+        assert isinstance(view, SphereView)
+        assert isinstance(other, SphereView)
+        assert view.outline_px.tobytes() == other.outline_px.tobytes()
+        assert all(at.tobytes() == other.highlights_px[light].tobytes() for light, at in view.highlights_px.items())
 
 
 def test_a_light_without_its_image_is_an_error_of_that_light(dome: Path, lpcal: Run, tmp_path: Path) -> None:

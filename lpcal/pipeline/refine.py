@@ -5,6 +5,7 @@ What the spheres say back to the stages before: the disc in the tracked body, an
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,8 @@ from lpcal.records.digits import fine
 from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
+from lpcal.records.sensor import Sensor
+from lpcal.surface.bands import shared
 
 FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5
@@ -82,19 +85,9 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     sensor = sensor_of_camera(camera) if camera else sensor_of_panel(workspace)
     swept = check_sweep(workspace, sensor)
     distance_m = None if wings is None or not np.isfinite(wings.d_object_m) else (NEAREST * wings.d_object_m, FARTHEST * wings.d_object_m)
-    views: list[SphereView] = []
-    bad: dict[str, LpcalError] = {}
-    for done, (name, section) in enumerate(spheres.items()):
-        progress("spheres", done, len(spheres))
-        raw = _images(workspace, name, section, lights, camera)
-        said = [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))]
-        try:
-            views.append(
-                find_sphere(raw, section.kind, section.radius, camera, hint_px=section.hint, distance_m=distance_m, sensor=said, name=name)
-            )
-        except (DegenerateError, DisagreementError) as error:
-            bad[name] = error
-    progress("spheres", len(spheres), len(spheres))
+    looked = _looked(workspace, spheres, camera, sensor, distance_m, progress)
+    views = [found for found in looked.values() if isinstance(found, SphereView)]
+    bad = {name: found for name, found in looked.items() if isinstance(found, LpcalError)}
     if not views:
         raise next(iter(bad.values()))
     panel = workspace.rig_file.rig.panel
@@ -129,6 +122,38 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         next_command="lpcal export",
         exit_code=next((error.exit_code for error in bad.values()), 0),
     )
+
+
+def _looked(
+    workspace: Workspace,
+    spheres: dict[str, SphereSection],
+    camera: Camera | None,
+    sensor: Sensor,
+    distance_m: tuple[float, float] | None,
+    progress: Progress,
+) -> dict[str, SphereView | LpcalError]:
+    """What the images of each sphere show, or what is wrong with them; the cores share the spheres."""
+    told, done = threading.Lock(), 0
+
+    def look(item: tuple[str, SphereSection]) -> SphereView | LpcalError:
+        nonlocal done
+        name, section = item
+        raw = _images(workspace, name, section, list(workspace.need("lights")), camera)
+        said = [(BY_CAPTURE, raw.sensor), ("the rig", unlike_plain(sensor))]
+        found: SphereView | LpcalError
+        try:
+            found = find_sphere(
+                raw, section.kind, section.radius, camera, hint_px=section.hint, distance_m=distance_m, sensor=said, name=name
+            )
+        except (DegenerateError, DisagreementError) as error:
+            found = error
+        with told:
+            done += 1
+            progress("spheres", done, len(spheres))
+        return found
+
+    progress("spheres", 0, len(spheres))
+    return dict(zip(spheres, shared(look, spheres.items()), strict=True))
 
 
 def _thinned(finding: SphereFinding) -> SphereFinding:
