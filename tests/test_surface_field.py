@@ -56,6 +56,28 @@ def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights):
     assert np.linalg.norm(bias) < np.radians(0.3)
 
 
+@pytest.mark.parametrize("shine", [None, (0.2, 0.15)])
+def test_rounds_end_where_the_rest_would_change_nothing(shine, monkeypatch):
+    seen, lit, _, _ = ball(6, shine=shine)
+    count, gathered = [0], field._all_gathered
+
+    def counted(*given):
+        count[0] += 1
+        return gathered(*given)
+
+    monkeypatch.setattr(field, "_all_gathered", counted)
+    early = found(seen, lit, glossy=0.5)[0]
+    taken = count[0]
+    monkeypatch.setattr(np, "array_equal", lambda *_: False)
+    late = found(seen, lit, glossy=0.5)[0]
+    assert count[0] - taken == field.FIRST_ROUNDS + field.GLOSS_ROUNDS
+    assert taken <= field.FIRST_ROUNDS + field.GLOSS_ROUNDS
+    assert early.b.tobytes() == late.b.tobytes()
+    assert early.gloss == late.gloss
+    if shine is None:
+        assert taken < 8
+
+
 @pytest.mark.parametrize("left", [(0, 1), (0, 3), (2, 4)])
 def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left):
     seen, lit, n, _ = ball(6)

@@ -102,15 +102,19 @@ def solve(
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
     albedo = np.linalg.norm(b, axis=1)
     for k in range(rounds):
-        if glossy is not None and (k > 1 or before is not None):
+        so_far, middle, last = (b, shine), np.median(albedo), k > 1 or before is not None
+        if glossy is not None and last:
             state = _states(few, few_lit, b[some], few_hidden, None, 1.0)
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
-            shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / np.median(albedo))
+            shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / middle)
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
         own_samples, right = _all_gathered(seen, lit, b, v, hidden, shine, warmth)
         b = _System.at(grid, b, own_samples).solved(right, b)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
         b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
+        same = shine == so_far[1] and np.median(albedo) == middle and np.array_equal(b, so_far[0])
+        if last and warmth == 1.0 and same:
+            break  # every further round would be this one again
 
     def own(at: slice) -> Estimate:
         return _by_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
