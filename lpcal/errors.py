@@ -29,10 +29,14 @@ class LpcalError(Exception):
 
     Parameters
     ----------
-    found : what was found, in words
-    where : file:line, key, image or light
-    needed : what would have been right
-    todo : what to do about it
+    found : str
+        What was found, in words.
+    where : str
+        File and line, key, image or light.
+    needed : str
+        What would have been right.
+    todo : str
+        What to do about it.
     """
 
     exit_code = 1

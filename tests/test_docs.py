@@ -68,3 +68,16 @@ def test_the_site_builds_strictly(tmp_path: Path) -> None:
     page = (tmp_path / "reference/handeye/index.html").read_text(encoding="utf-8")
     assert "solve_handeye" in page
     assert "seconds on the mocap" in page.lower()
+
+
+def test_a_lobe_of_ones_own_is_what_the_page_says(capsys: pytest.CaptureFixture[str]) -> None:
+    from lpcal.geometry.light_field import FORMULAS
+
+    page = (DOCS / "add-your-own.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    try:
+        exec(compile(code, "add-your-own.md", "exec"), {})
+    finally:
+        FORMULAS.pop("gaussian", None)
+    (said,) = re.findall(r"# (\[.*\])$", code, re.MULTILINE)
+    assert capsys.readouterr().out.split() == said.split()

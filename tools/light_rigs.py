@@ -23,8 +23,8 @@ import numpy as np
 from lpcal.api.lights import wing_of
 from lpcal.chain.h_pl_wings import design_lights
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
-from lpcal.chain.refine_lights.led_fit import DOME_M, POWER_SD, TILT_SD_RAD
 from lpcal.chain.refine_lights.measure import SCATTER_FACTOR, outline_errors
+from lpcal.chain.refine_lights.residuals import DOME_M, POWER_SD, TILT_SD_RAD
 from lpcal.chain.refine_lights.shading import MODEL_SD, TEXTURE_SD
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere

@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: ARG001
     """Do it."""
-    from lpcal.cli.reconstruct import length
+    from lpcal.cli.rig_option import length
     from lpcal.pipeline.reconstruct import integrate_file
 
     target = options.output or Path("surfaces") / options.normals.stem

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lpcal.cli.rig_option import add_rig_option, open_workspace
+from lpcal.cli.rig_option import add_rig_option, length, open_workspace
 from lpcal.errors import InputError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
@@ -157,18 +157,3 @@ def _rig_if_any(options: argparse.Namespace) -> Workspace | None:
         if options.calibration is None or options.rig != Path():
             raise
         return None
-
-
-def length(text: str | None) -> float | None:
-    """Metres of a word such as 352mm; None where there is none."""
-    from lpcal.records.quantities import parse
-
-    if text is None:
-        return None
-    try:
-        found = parse(text, "length")
-    except ValueError as error:
-        raise UsageError(str(error), where="--distance", needed="a length such as 352mm") from error
-    if found <= 0:
-        raise UsageError(f"{text} is not in front of the camera", where="--distance", needed="a length such as 352mm")
-    return found

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lpcal.cli.console import complain
+from lpcal.errors import UsageError
 
 if TYPE_CHECKING:
     from lpcal.pipeline.workspace import Workspace
@@ -31,3 +32,18 @@ def open_workspace(options: argparse.Namespace, panel: Path | None = None) -> Wo
     for folder in (workspace.folder, workspace.folder / "calib", workspace.folder / "calib" / ".cache", workspace.folder / "surfaces"):
         recover(folder)
     return workspace
+
+
+def length(text: str | None) -> float | None:
+    """Metres of a word such as 352mm; None where there is none."""
+    from lpcal.records.quantities import parse
+
+    if text is None:
+        return None
+    try:
+        found = parse(text, "length")
+    except ValueError as error:
+        raise UsageError(str(error), where="--distance", needed="a length such as 352mm") from error
+    if found <= 0:
+        raise UsageError(f"{text} is not in front of the camera", where="--distance", needed="a length such as 352mm")
+    return found

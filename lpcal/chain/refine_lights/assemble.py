@@ -18,7 +18,7 @@ from lpcal.records.calibration import Light, LightsSolution, Lobe, Wings
 
 DIRECTION_FLOOR_RAD, LEDS_FLOOR_RAD = float(np.radians(0.03)), float(np.radians(0.02))
 """What a point source cannot follow: the LEDs' gaps move it by 0.02 deg as seen from different places, their scatter to 0.03 in all
-(drawn from `led_fit`'s priors at 0.36 m); and what is left of it once the LEDs are found one by one."""
+(drawn from `residuals`' priors at 0.36 m); and what is left of it once the LEDs are found one by one."""
 COMMON_SHARE = 0.5
 """So much of what the blocks are off by is taken as common to all blocks of a light."""
 UNSURE = 0.3

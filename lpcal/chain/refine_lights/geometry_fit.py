@@ -192,7 +192,7 @@ class _Problem:
         seen: list[tuple[int, str]],
     ) -> Term:
         data = highlight_data(self.views, seen, self.camera, core=self.core > 0)
-        model = compile_residual(residual, (*sizes, *with_free_core(self.core)), data.shape[1])
+        model = compile_residual(residual, (*sizes, *residuals.with_free_core(self.core)), data.shape[1])
         return Term(model, (*names, *[Unknown.CORE] * (self.core > 0)), (*index, *[0] * (self.core > 0)), data, robust=ROBUST, group=2)
 
     def result(self, solution: Solution) -> GeometryFit:
@@ -259,16 +259,11 @@ class _Problem:
         return misses
 
 
-def with_free_core(core: int) -> tuple[int, ...]:
-    """The size of the block of the camera's parameters, if they are free."""
-    return (core,) if core else ()
-
-
 def outline_term(measured: Sequence[CentreMeasurement], kinds: Index) -> Term:
     """Centres against their outlines; `kinds` (S,) the row in KINDS of each sphere."""
     rows = [[m.centre_C, m.by_bias, np.linalg.inv(np.linalg.cholesky(m.covariance)).ravel(), m.by_core.ravel()] for m in measured]
     data, core = np.array([np.concatenate(row) for row in rows]), measured[0].by_core.shape[1]
-    model = compile_residual(residuals.outline, (3, 1, *with_free_core(core)), data.shape[1])
+    model = compile_residual(residuals.outline, (3, 1, *residuals.with_free_core(core)), data.shape[1])
     return Term(model, (Unknown.CENTRE, Unknown.BIAS, *[Unknown.CORE] * (core > 0)), (np.arange(len(data)), kinds, *[0] * (core > 0)), data)
 
 

@@ -1,6 +1,6 @@
 """The last fit: wings, sphere centres, highlights and shading together, every LED of every blob free within its scatter.
 
-Starts from the chrome's geometry and the shading's intensities (`geometry_fit`, `shading`); `led_fit` holds the residuals.
+Starts from the chrome's geometry and the shading's intensities (`geometry_fit`, `shading`); `residuals` holds what they miss by.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.chain.refine_lights import led_fit
+from lpcal.chain.refine_lights import residuals
 from lpcal.chain.refine_lights.free_camera import ray_slope
 from lpcal.chain.refine_lights.geometry_fit import BIAS_PX, KINDS, ROBUST, GeometryFit, highlight_data, outline_term, settings_of
-from lpcal.chain.refine_lights.led_fit import Cluster
 from lpcal.chain.refine_lights.measure import CentreMeasurement
+from lpcal.chain.refine_lights.residuals import Cluster
 from lpcal.chain.refine_lights.samples import Samples, sample_blocks
 from lpcal.chain.refine_lights.shading import KNOTS_RAD, MODEL_SD, TEXTURE_SD, ShadingFit
 from lpcal.chain.refine_lights.unknowns import LightUnknown as Unknown
@@ -107,7 +107,7 @@ class _Problem:
     wings: Wings
     intensity_sd: float
     scatter: tuple[float, float] = (1.0, 1.0)
-    """The LEDs' powers and tilts scatter so many times as much as `led_fit` states."""
+    """The LEDs' powers and tilts scatter so many times as much as `residuals` states."""
 
     @property
     def wing(self) -> Index:
@@ -140,9 +140,9 @@ class _Problem:
             own = samples.light == k
             log_lobe = first.log_lobe[own]
             rolls.append(
-                [led_fit.scan_roll(Cluster(leds), samples.angle_rad[own], samples.around_rad[own], log_lobe) if own.any() else 0.0]
+                [residuals.scan_roll(Cluster(leds), samples.angle_rad[own], samples.around_rad[own], log_lobe) if own.any() else 0.0]
             )
-        domes = [[fit.source_offset_m.get(mode, led_fit.DOME_M[0]), led_fit.DOME_M[1]] for mode in self.modes]
+        domes = [[fit.source_offset_m.get(mode, residuals.DOME_M[0]), residuals.DOME_M[1]] for mode in self.modes]
         # with the LEDs' sum normalised on the axis the lobe's own level is 1, but for the LEDs' distance
         blocks = {
             Unknown.H_CD: Block(fit.H_CD[None]),
@@ -164,7 +164,7 @@ class _Problem:
         terms = [
             prior(Unknown.H_CD, blocks[Unknown.H_CD], wings.H_CD, wings.H_CD_covariance),
             independent_prior(Unknown.SETTING, settings_of(wings), wings.setting_sigma),
-            independent_prior(Unknown.DOME, np.tile(led_fit.DOME_M, (len(self.modes), 1)), led_fit.DOME_SIGMA_M),
+            independent_prior(Unknown.DOME, np.tile(residuals.DOME_M, (len(self.modes), 1)), residuals.DOME_SIGMA_M),
             independent_prior(Unknown.ROLL, blocks[Unknown.ROLL].value, np.array([1.0])),
             independent_prior(Unknown.INTENSITY, np.zeros((count, 1)), np.array([self.intensity_sd])),
             independent_prior(Unknown.ALBEDO, blocks[Unknown.ALBEDO].value, np.array([ALBEDO_SD])),
@@ -179,7 +179,7 @@ class _Problem:
             terms.append(prior(Unknown.CORE, blocks[Unknown.CORE], np.zeros(self.core), self.camera.covariance))
         for mode in self.modes:
             cluster, rows = Cluster(mode), [k for k, leds in enumerate(self.leds) if leds == mode]
-            mean, covariance = led_fit.led_prior(count, mode, self.scatter)
+            mean, covariance = residuals.led_prior(count, mode, self.scatter)
             terms.append(independent_prior(leds_of(mode), mean, np.sqrt(np.diag(covariance))))
             terms += [term for term in (self._highlights(cluster, rows), self._shading(cluster, rows, samples)) if term is not None]
         return terms
@@ -190,7 +190,7 @@ class _Problem:
         for places in ([0], [1, 2]):
             squares, known = SCATTER_WEIGHT, SCATTER_WEIGHT
             for mode in self.modes:
-                sd = np.sqrt(np.diag(led_fit.led_prior(1, mode)[1]))
+                sd = np.sqrt(np.diag(residuals.led_prior(1, mode)[1]))
                 z = solution[leds_of(mode)] / sd
                 variance = np.diag(solution.covariance(leds_of(mode))).reshape(z.shape) / sd**2
                 squares += float(np.sum(z.reshape(-1, 3)[:, places] ** 2))
@@ -210,7 +210,7 @@ class _Problem:
         light = np.array([self.names.index(name) for _, name in seen])
         where = (light, self.wing[light], self.mode[light], np.array([s for s, _ in seen]))
         data = highlight_data(self.views, seen, self.camera, core=self.core > 0)
-        return led_fit.highlights(cluster, where, data, ROBUST, self.core)
+        return residuals.highlights(cluster, where, data, ROBUST, self.core)
 
     def _shading(self, cluster: Cluster, rows: list[int], samples: Samples) -> Term | None:
         own = np.isin(samples.light, rows)
@@ -224,7 +224,7 @@ class _Problem:
         rays = samples.ray_C[own]
         slope = ray_slope(self.camera, self.camera.project(rays)).reshape(len(rays), -1) if self.core else np.zeros((len(rays), 0))
         data = np.column_stack([rays, radius, target, 1 / np.hypot(samples.relative_sigma[own], MODEL_SD), slope])
-        return led_fit.shading(cluster, (light, self.wing[light], self.mode[light], which, which, block), data, ROBUST, self.core)
+        return residuals.shading(cluster, (light, self.wing[light], self.mode[light], which, which, block), data, ROBUST, self.core)
 
     def lights_of(self, blocks: dict[str, Block]) -> list[Light]:
         """The lights as they stand."""
