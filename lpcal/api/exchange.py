@@ -181,7 +181,7 @@ def _draft(one: ExchangeFormat, content: ExchangeContent, scratch: Path, *, stri
     except LpcalError as error:
         if strict:
             raise
-        return Exported(one.name, skipped=f"no {', no '.join(lacking)}" if lacking else str(error))
+        return Exported(one.name, skipped=f"no {', no '.join(lacking)}" if lacking else str(error).splitlines()[0])
     return Draft(one.name, target, tuple(notes))
 
 
