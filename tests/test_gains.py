@@ -80,7 +80,7 @@ def test_equal_lights_come_out_better_than_plain_least_squares(kind):
 
 @pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
 def test_a_curve_is_not_taken_up_by_powers(seed):
-    drawn = draw(replace(SMALL, lights=30, gamma=2.2), seed)
+    drawn = draw(Recipe(size=40, lights=30, gamma=2.2), seed)
     settled = settle_sensor(drawn.raw, drawn.calibration, [("told", StatedSensor(1.0))])
     assert not settled.linear
     radiance = to_radiance(drawn.raw, settled.used.sensor)

@@ -20,7 +20,7 @@ from lpcal.formats.surface_files import read_surface
 from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import FlatField, StatedSensor
 
-RECIPE = Recipe(lights=5, gamma="srgb", size=56)  # five lights cannot tell a curve: what is stated is all there is
+RECIPE = Recipe(lights=5, gamma="srgb", size=40)  # five lights cannot tell a curve: what is stated is all there is
 
 
 def write(folder: Path, drawn: Drawn, **stated: str) -> Path:
@@ -165,7 +165,7 @@ def fall_off(shape: tuple[int, int]) -> np.ndarray:
 
 @pytest.mark.parametrize("where", ["capture.yaml", "panel.yaml"])
 def test_a_flat_field_without_a_lens_divides_out_of_the_albedo(lpcal, tmp_path, where):
-    drawn = draw(replace(RECIPE, gamma=1.0), 3)
+    drawn = draw(replace(RECIPE, gamma=1.0, size=56), 3)
     fall = fall_off(drawn.mask.shape)
     dimmed = replace(drawn, raw=replace(drawn.raw, images=drawn.raw.images * fall))
     write(tmp_path / "cap", dimmed)

@@ -16,7 +16,7 @@ def write(folder: Path, order: list[int], signs: tuple[int, int, int] = (1, 1, 1
     (folder / "cap").mkdir()
     vectors, mask = [], np.zeros(0)
     for number, phase in enumerate((25.0, 45.0)):
-        conditions = Conditions(phase_deg=phase, noise=0.004, ambient=0.05, peak=0.75, pixels=64)
+        conditions = Conditions(phase_deg=phase, noise=0.004, ambient=0.05, peak=0.75, pixels=44)
         raw, _, mask = capture(conditions, number)
         for k, (image, light) in enumerate(zip(raw.images, ring(conditions), strict=True)):
             cv2.imwrite(str(folder / f"cap/L{6 * number + k}.png"), np.rint(255 * image).astype(np.uint8))
