@@ -27,6 +27,8 @@ from lpcal.records.surface import Component, Surface, SurfaceSummary
 from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
+BAND_ROWS = 512
+"""Rows of a picture that are made at once."""
 GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
 SUMMARY = "summary.json"
 PAGE = "relight.html"
@@ -170,9 +172,11 @@ def _component(entry: dict[str, Any]) -> Component:
 
 def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:
     """Normals (H, W, 3) as 16 bit RGB: x right, y up, z to the camera."""
-    turned = np.nan_to_num(surface.normals) * GLTF_FROM_C
-    found = np.rint((turned + 1) / 2 * 65535).astype(np.uint16)
-    found[~surface.mask] = 0
+    found = np.empty(surface.normals.shape, np.uint16)
+    for rows in _bands(found):
+        turned = np.nan_to_num(surface.normals[rows]) * GLTF_FROM_C
+        found[rows] = np.rint((turned + 1) / 2 * 65535).astype(np.uint16)
+        found[rows][~surface.mask[rows]] = 0
     return found
 
 
@@ -180,7 +184,15 @@ def albedo_16(surface: Surface) -> npt.NDArray[np.uint16]:
     """Albedo (H, W[, 3]) as 16 bit, linear; full scale is the 99.9th percentile."""
     inside = surface.albedo[surface.mask]
     top = float(np.nanpercentile(inside, 99.9)) if inside.size else 1.0
-    return np.asarray(np.rint(65535 * np.clip(np.nan_to_num(surface.albedo) / max(top, 1e-12), 0, 1)), np.uint16)
+    found = np.empty(surface.albedo.shape, np.uint16)
+    for rows in _bands(found):
+        found[rows] = np.rint(65535 * np.clip(np.nan_to_num(surface.albedo[rows]) / max(top, 1e-12), 0, 1))
+    return found
+
+
+def _bands(image: npt.NDArray[np.uint16]) -> list[slice]:
+    """Rows of an image that are turned into numbers at once: what that takes is several times the image."""
+    return [slice(first, first + BAND_ROWS) for first in range(0, len(image), BAND_ROWS)]
 
 
 def _write_images(draft: Path, surface: Surface, outputs: Collection[str]) -> None:

@@ -15,6 +15,8 @@ NEARLY = 0.2
 """Of its extent: a piece whose points stray more from a plane is not meant to be flat."""
 RIM_PX = 3
 FEWEST = 100
+MOST = 2_000_000
+"""Of a piece of more pixels only so many are asked, spread over it."""
 
 
 def flatness(surface: Surface) -> Flatness | None:
@@ -24,7 +26,9 @@ def flatness(surface: Surface) -> Flatness | None:
     inside = ndimage.binary_erosion(surface.component == 1, iterations=RIM_PX)
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
         return None
-    points = (surface.rays_C * surface.depth[..., None])[inside].astype(float)
+    places = np.flatnonzero(inside)
+    places = places[:: max(1, len(places) // MOST)]
+    points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
     centred = points - points.mean(axis=0)
     along = np.linalg.svd(centred.T @ centred)[0]
     deviation = centred @ along[:, 2]
