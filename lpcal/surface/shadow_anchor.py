@@ -51,7 +51,7 @@ def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mas
     """What the plane's pixels show; `seen` is the whole coarse image, `object_mask` (H, W) what is not plane in it."""
     m = planes.foretold(plane.q, seen.rays_C, lights)
     square, count = planes.misfit(seen, m)
-    strong = (m > planes.WEAK * np.nanmax(m, axis=0)) & seen.usable & (seen.sigma < 0.2 * np.nanmax(seen.signal, axis=0))
+    strong = (m > planes.WEAK * np.fmax.reduce(m, axis=0)) & seen.usable & (seen.sigma < 0.2 * np.fmax.reduce(seen.signal, axis=0))
     ratio = np.where(strong, seen.signal / np.maximum(m, 1e-9), -np.inf)
     albedo = np.sort(ratio, axis=0)[-2]
     shade = np.clip(1 - ratio / np.maximum(albedo, 1e-9), 0, 1)

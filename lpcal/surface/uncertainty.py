@@ -3,13 +3,12 @@ r"""How sure each pixel is: its normal, its depth, and the distance of each piec
 Symbols, degrees a pixel: s the error that the samples' own variances make, chi2 of dof; R the angle between the measured normal and that of
 the depth, R5 its rms over 5x5 pixels::
 
-    sigma^2 = (A s max(1, sqrt(chi2 / dof)))^2 + (B R5)^2 + (C R)^2 + SMOOTH^2 + calibration^2
-            + EDGE^2 [near an edge or a break] + THREE^2 [three lights] + FILLED^2 [filled] + (THROWN j)^2 + (UNSEEN h)^2
+    sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
-with j the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights, and h how much of what
-stands round it is a side that the camera does not see (surface.bounce). The factors were fitted on six rendered objects (83 to 95 % within
-two sigma where 86 are expected). What else smooth light from elsewhere does shows in nothing that is seen, hence SMOOTH. The
-calibration's part is common to the whole image.
+with the clues: s max(1, sqrt(chi2 / dof)); R5; R; whether an edge or a break is near; whether three lights were used; whether the normal is
+filled in; 1; the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights; and how much of
+what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by tools/fit_normal_sigma.py on drawn
+scenes. The calibration's part is common to the whole image.
 """
 
 from __future__ import annotations
@@ -25,10 +24,9 @@ from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, thrown_share
 from lpcal.surface.sight import Lit
 
-A, B, C = 0.40, 0.28, 0.62
-EDGE_DEG, THREE_DEG, FILLED_DEG = 4.0, 0.7, 20.0
-SMOOTH_DEG = 0.4
-THROWN_DEG, UNSEEN_DEG = 22.0, 5.0
+FACTORS = (0.16, 0.0784, 0.3844, 16.0, 0.49, 400.0, 0.16, 484.0, 25.0)
+"""What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
+tools/fit_normal_sigma.py."""
 EDGE_PX = 1.5
 MM_A_PERCENT = 4.0
 """Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
@@ -104,12 +102,16 @@ def clues_of(
     return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen)
 
 
+def squares(found: Clues) -> Array:
+    """The squares of the clues (P, 9)."""
+    noise = found.noise_deg * np.maximum(1, np.sqrt(found.misfit))
+    flags = [found.edge, found.used == 3, found.filled, np.ones(len(noise))]
+    return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.thrown, found.unseen], axis=1) ** 2
+
+
 def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:
     """Standard deviation (P,) of a normal per axis, degrees."""
-    square = (A * found.noise_deg * np.maximum(1, np.sqrt(found.misfit))) ** 2 + (B * found.bend_round_deg) ** 2 + (C * found.bend_deg) ** 2
-    square += EDGE_DEG**2 * found.edge + THREE_DEG**2 * (found.used == 3) + FILLED_DEG**2 * found.filled + SMOOTH_DEG**2
-    square += (THROWN_DEG * found.thrown) ** 2 + (UNSEEN_DEG * found.unseen) ** 2
-    return np.sqrt(square + calibration_deg**2)
+    return np.sqrt(squares(found) @ np.array(FACTORS) + calibration_deg**2)
 
 
 def calibration_deg(lights: Sequence[Light]) -> float:

@@ -1,0 +1,139 @@
+"""Fit the standard deviation of normals: how each clue of ``surface/uncertainty.py`` counts.
+
+``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--keep FILE.npz]``: SCENES are drawn scenes with truth (folders that hold ``capture`` with an ambient
+image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of such. Each is reconstructed within its true mask; the clues of its
+pixels stand beside the angle between its normals and the true ones. The variance is a sum of squared clues, each with a factor that is
+not negative; the factors are those of the greatest likelihood (Student's, so that wild pixels do not rule), every scene counting alike,
+scaled so that the median scene has the share of pixels within two sigma that is expected.
+
+``--keep`` writes the clues, or reads them where the file is there.
+
+Printed: the factors; for each scene the share of pixels within two sigma, by factors fitted on all the others (cross-validated by scene);
+the median and the worst tenth of these. 86 % are expected.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import numpy as np
+from scipy import ndimage, optimize
+
+from lpcal import read_calibration, read_capture, reconstruct
+from lpcal.geometry.arrays import Array
+from lpcal.surface import uncertainty
+
+FREEDOM = 4.0
+"""Degrees of freedom of Student's distribution: errors of normals have heavy tails."""
+EXPECTED = 86.5
+"""Share of two-dimensional normal errors within two standard deviations of an axis, per cent."""
+MOST_PIXELS = 4000
+"""Pixels of a scene that are used, spread over it: neighbours err alike."""
+DISAGREES = 5.0
+"""Spread of the true normals over 3x3 pixels, degrees, over which a pixel's true normal hangs on where in the pixel one looks."""
+NAMES = ("noise", "bend round", "bend", "edge", "three", "filled", "one", "thrown", "unseen")
+"""The clues, in the order of `uncertainty.squares`."""
+
+
+def scenes_of(paths: list[Path]) -> Iterator[Path]:
+    """The scenes among folders and folders of scenes."""
+    for path in paths:
+        if (path / "calibration.yaml").exists():
+            yield path
+        else:
+            yield from sorted(one for one in path.iterdir() if (one / "calibration.yaml").exists())
+
+
+def clues_of(scene: Path) -> tuple[str, Array, Array, float]:
+    """Squares of the clues (P, 9) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
+    seen: list[tuple[Array, float]] = []
+    plain = uncertainty.normal_sigma_deg
+
+    def heard(found: uncertainty.Clues, calibration_deg: float) -> Array:
+        seen.append((uncertainty.squares(found), calibration_deg))
+        return plain(found, calibration_deg)
+
+    with np.load(scene / "truth" / "surface.npz") as stored:
+        mask, truth = stored["mask"].astype(bool), stored["normals"]
+    uncertainty.normal_sigma_deg = heard
+    try:
+        calibration = read_calibration(scene / "calibration.yaml")
+        found = reconstruct(read_capture(scene / "capture", [light.name for light in calibration.lights]), calibration, mask=mask)
+    finally:
+        uncertainty.normal_sigma_deg = plain
+    square, calibration_deg = seen[-1]
+    error = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(found.normals - truth, axis=-1) / 2, 0, 1)))
+    steady = mask & (_spread_deg(truth, mask) < DISAGREES)
+    known = (steady & np.isfinite(error))[found.mask]
+    some = np.flatnonzero(known)
+    some = some[:: max(1, len(some) // MOST_PIXELS)]
+    return scene.name, square[some], error[found.mask][some], calibration_deg
+
+
+def _spread_deg(n: Array, mask: Array) -> Array:
+    """Rms angle (H, W) of normals (H, W, 3) about their mean over 3x3 pixels."""
+    inside = np.maximum(ndimage.uniform_filter(mask.astype(float), 3), 1e-9)
+    mean = np.stack([ndimage.uniform_filter(np.where(mask, n[..., axis], 0.0), 3) / inside for axis in range(3)], axis=-1)
+    return np.degrees(np.sqrt(np.maximum(1 - np.sum(mean**2, axis=-1), 0.0)))
+
+
+def fitted(scenes: list[tuple[str, Array, Array, float]]) -> Array:
+    """Factors (9,) of the greatest likelihood: an angle e has the density ``e / s^2 (1 + e^2 / (F s^2))^-(F/2+1)``."""
+    unit = np.mean([square.mean(axis=0) for _, square, _, _ in scenes], axis=0) + 1e-6
+
+    def cost(x: Array) -> tuple[float, Array]:
+        factor, total, slope = np.exp(x) / unit, 0.0, np.zeros(len(x))
+        for _, square, error, calibration in scenes:
+            variance = square @ factor + calibration**2 + 1e-4
+            e2 = error**2
+            total += float(np.mean(np.log(variance) + (FREEDOM / 2 + 1) * np.log1p(e2 / (FREEDOM * variance))))
+            by_variance = 1 / variance - (FREEDOM / 2 + 1) * e2 / (FREEDOM * variance**2 + e2 * variance)
+            slope += (square * by_variance[:, None]).mean(axis=0) * factor
+        return total / len(scenes), slope / len(scenes)
+
+    found = optimize.minimize(cost, np.zeros(len(unit)), jac=True, method="L-BFGS-B", bounds=[(-14.0, 8.0)] * len(unit))
+    factor = np.exp(found.x) / unit
+    scales = np.geomspace(0.25, 16.0, 121)
+    held = [float(np.median([within(scene, scale * factor) for scene in scenes])) for scale in scales]
+    return factor * scales[int(np.argmin(np.abs(np.array(held) - EXPECTED)))]
+
+
+def within(scene: tuple[str, Array, Array, float], factor: Array) -> float:
+    """Share of a scene's pixels within two sigma, per cent."""
+    _, square, error, calibration = scene
+    return float(100 * np.mean(error <= 2 * np.sqrt(square @ factor + calibration**2)))
+
+
+def main() -> None:
+    """Print the factors and what they hold."""
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("scenes", nargs="+", type=Path)
+    words.add_argument("--jobs", type=int, default=1)
+    words.add_argument("--keep", type=Path)
+    given = words.parse_args()
+    if given.keep is not None and given.keep.exists():
+        with np.load(given.keep) as kept:
+            names = sorted({key.rpartition(".")[0] for key in kept.files})
+            scenes = [(name, kept[f"{name}.square"], kept[f"{name}.error"], float(kept[f"{name}.calibration"])) for name in names]
+    else:
+        with ProcessPoolExecutor(given.jobs) as pool:
+            scenes = list(pool.map(clues_of, scenes_of(given.scenes)))
+        if given.keep is not None:
+            parts = ((f"{one[0]}.{key}", one[k]) for one in scenes for k, key in ((1, "square"), (2, "error"), (3, "calibration")))
+            np.savez(given.keep, **{key: np.asarray(value) for key, value in parts})
+    for name, factor in zip(NAMES, fitted(scenes), strict=True):
+        print(f"{name:<12}{factor:12.4g}")
+    print(f"\n{'scene':<14}{'now':>8}{'left out':>10}   within two sigma, %")
+    table = []
+    for k, scene in enumerate(scenes):
+        table.append((within(scene, np.array(uncertainty.FACTORS)), within(scene, fitted(scenes[:k] + scenes[k + 1 :]))))
+        print(f"{scene[0]:<14}{table[-1][0]:8.1f}{table[-1][1]:10.1f}")
+    for title, share in (("median", 50), ("worst tenth", 10)):
+        print(f"{title:<14}" + "".join(f"{value:9.1f}" for value in np.percentile(table, share, axis=0)))
+
+
+if __name__ == "__main__":
+    main()
