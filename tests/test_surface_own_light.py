@@ -253,7 +253,7 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
     seen, lit, depth, n, hidden, floor = ball_over_a_bright_floor(reflectance)
     grid, around = Grid.of(seen.mask), Around(floor, None, EMPTY)
     plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E) & ~hidden, normals.variances(seen))
-    found = alone = field.solve(seen, grid, lit, hidden, plain, None, None)
+    found = alone = field.solve(seen, grid, lit, hidden, plain)
     dark = np.zeros_like(hidden)
     reflects = bounce.Reflectance(bounce.COMMON, bounce.COMMON / float(np.median(np.linalg.norm(found.b, axis=1))), 0.0, 0.0)
     for _ in range(3):
@@ -262,7 +262,7 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
         told = bounce.Told(reflects.strengths, *field.told(seen, grid, begin, hidden, found, by.parts))
         reflects = bounce.reflectance(seen, by, found.b, dark, told)
         thrown = reflects.per_unit * by.J(reflects.sides, reflects.beyond)
-        found = field.solve(seen, grid, replace(lit, thrown=thrown), hidden, plain, found, None)
+        found = field.solve(seen, grid, replace(lit, thrown=thrown), hidden, found)
     assert abs(reflects.median - reflectance) < 0.12
     assert error_deg(alone.b, n) > 10
     assert error_deg(found.b, n) < 6
