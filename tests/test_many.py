@@ -155,6 +155,18 @@ def test_the_table_replaces_nothing_of_anybodys(lpcal, captures, tmp_path):
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["surfaces.csv"]
 
 
+def test_where_no_table_can_be_written_what_became_of_each_capture_is_said_all_the_same(lpcal, captures, tmp_path, monkeypatch):
+    def full(*_: object) -> None:
+        raise InputError("cannot write here: No space left on device", where="surfaces.html")
+
+    monkeypatch.setattr("lpcal.pipeline.many.write_collection", full)
+    (captures[1] / "L2.png").unlink()
+    code, told, warned = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
+    assert (code, "3 captures: 2 done, 1 failed" in told) == (6, True)
+    assert "c0001 was not reconstructed" in warned
+    assert "No space left" in warned
+
+
 @pytest.mark.parametrize(
     ("words", "error", "said"),
     [

@@ -131,10 +131,16 @@ def reconstruct_all(
     documents = [one.document for one in done if one.document]
     told += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
     summary = [_line(task, one) for task, one in zip(tasks, done, strict=True) if one.document]
+    codes = [one.exit_code for one in done if one.exit_code]
     if root is not None:
-        page = write_collection(root, [(task, one.state, one.document, one.error) for task, one in zip(tasks, done, strict=True)])
-        summary += [_counted(done), f"written {page}"]
-    return Outcome(summary, {"surfaces": documents}, told, exit_code=next((one.exit_code for one in done if one.exit_code), 0))
+        summary.append(_counted(done))
+        try:
+            page = write_collection(root, [(task, one.state, one.document, one.error) for task, one in zip(tasks, done, strict=True)])
+            summary.append(f"written {page}")
+        except LpcalError as error:  # a full disk has room for no table either; what became of each capture is said all the same
+            told.append(str(error))
+            codes.append(error.exit_code)
+    return Outcome(summary, {"surfaces": documents}, told, exit_code=next(iter(codes), 0))
 
 
 def _line(task: Task, done: Done) -> str:

@@ -6,7 +6,9 @@ far behind. A sphere is looked for once all its lights have come, by a process o
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -38,6 +40,8 @@ LOOK_S = 0.2
 """Seconds between two looks at the folder: ten in the two seconds that are allowed."""
 BUDGET_S = 0.4
 """Seconds after which the images that still wait are no longer searched for the board: with a look and what comes meanwhile, under two."""
+STANDS_BACK = 19
+"""The niceness of a process that looks for a sphere: the least urgent."""
 SHOWN = 60
 """Images that the page lists."""
 LOOPBACK = "127.0.0.1"
@@ -135,7 +139,9 @@ class Watch:
 
 
 def sphere_in(folder: Path, lights: Sequence[str], sphere: SphereSection) -> SphereView | LpcalError:
-    """The sphere of a capture, without a camera; or why it was not found."""
+    """The sphere of a capture, without a camera; or why it was not found. Its process stands back behind the one that judges images."""
+    with contextlib.suppress(AttributeError, OSError):  # not on Windows
+        os.setpriority(os.PRIO_PROCESS, 0, STANDS_BACK)
     try:
         found = find_sphere(read_capture(folder, lights), sphere.kind, sphere.radius, hint_px=sphere.hint)
     except LpcalError as error:
@@ -163,6 +169,8 @@ def watch(
     if board is not None:
         find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
     with _served(at, port) as address, processes(1) as executor:
+        if awaited:
+            executor.submit(os.getpid).result()  # a process that is there before the first image is
         if address:
             say(f"watching {folder}; the page: {address}")
         last, told = time.monotonic(), ""
