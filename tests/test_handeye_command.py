@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import yaml
 
+from handeye_rigs import image_rig, moving_rig
 from handeye_scene import moving_session, static_session
 from lpcal.formats.h_op_yaml import read_h_op
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
-from test_handeye_planted import image_rig, moving_rig
 
 
 @pytest.fixture

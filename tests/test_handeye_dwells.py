@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from handeye_rigs import FLIP, image_rig
 from handeye_scene import Noise, stop_and_shoot
 from lpcal.chain.h_op_panel import match_rests, rests_of, track_of
 from lpcal.errors import DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
-from test_handeye_planted import FLIP, image_rig
 
 
 def recorded(seed, views=24, **kwargs):

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lights_scene import CAMERA, DISC_SIGMA, DRAWN, RADIUS_M, SETTING_SIGMA, Scene
 from lpcal.chain.h_pl_wings import camera_in_disc, design_lights, share_correction
 from lpcal.chain.refine_lights.free_camera import ray_slope, with_core
 from lpcal.chain.refine_lights.geometry_fit import GeometryFit, fit_geometry
@@ -15,7 +16,6 @@ from lpcal.chain.refine_lights.samples import Samples
 from lpcal.chain.refine_lights.shading import fit_shading
 from lpcal.geometry import se3
 from lpcal.records.calibration import Camera, Light, Lobe
-from test_lights_geometry import CAMERA, DISC_SIGMA, DRAWN, RADIUS_M, SETTING_SIGMA, Scene
 
 NAMES = [wing.name for wing in DRAWN]
 CORE_SIGMA = np.array([4.0, 4.0, 3.0, 3.0])
