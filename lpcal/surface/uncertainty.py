@@ -24,7 +24,7 @@ from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, thrown_share
 from lpcal.surface.sight import Lit
 
-FACTORS = (0.16, 0.0784, 0.3844, 16.0, 0.49, 400.0, 0.16, 484.0, 25.0)
+FACTORS = (0.276, 0.0865, 0.70, 1.3, 98.0, 530.0, 0.01, 87.0, 3.1)
 """What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
 tools/fit_normal_sigma.py."""
 EDGE_PX = 1.5
