@@ -64,6 +64,17 @@ def test_a_module_says_what_it_is() -> None:
     assert not [name_of(path) for path in MODULES if not ast.get_docstring(tree_of(path))]
 
 
+def test_a_docstring_reads_alone() -> None:
+    """Editors and the documentation show it without the name before it: a sentence that begins with "Of" hangs in the air there."""
+    hanging = [
+        f"{name_of(path)}:{number}"
+        for path in MODULES
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if re.match(r'\s*r?"""Of ', line)
+    ]
+    assert not hanging
+
+
 def annotations(tree: ast.Module) -> Iterator[ast.expr]:
     """Every type that is written down: of arguments, results, variables and aliases."""
     for node in ast.walk(tree):

@@ -111,7 +111,7 @@ def test_each_mistake_is_named(tmp_path: Path, lpcal: Run, name: str) -> None:
 
 
 @pytest.mark.slow
-def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_foretold(tmp_path: Path, lpcal: Run) -> None:
+def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_predicted(tmp_path: Path, lpcal: Run) -> None:
     rig(tmp_path, ALL, wings=True)
     code, _, err = lpcal("refine", cwd=tmp_path)
     assert code == 0

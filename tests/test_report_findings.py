@@ -120,7 +120,7 @@ def test_the_light_field_over_the_working_plane() -> None:
     assert lights_section(report_of({"calibration": documents()["calibration"]})).field is None, "no camera: no view of it"
 
 
-def test_spheres_held_out_are_foretold() -> None:
+def test_spheres_held_out_are_predicted() -> None:
     report = report_of(documents())
     found = LightsEvidence(
         highlight_rms_px=0.02,
@@ -130,12 +130,12 @@ def test_spheres_held_out_are_foretold() -> None:
         next_sphere=NextSphere(where="at the left", centre_m=np.zeros(3), direction_std_deg=0.05, with_it_deg=0.04),
     )
     part = spheres_section(replace(report, lights=replace(report.lights, evidence=found)))
-    rows = {label: plain(value) for label, value in part.foretold}
-    assert rows["a chrome sphere held out: its highlights, foretold by the others"] == "0.031 px rms"
-    assert rows["a matte sphere held out: its shading, foretold by the others"] == "1.2% rms"
+    rows = {label: plain(value) for label, value in part.predicted}
+    assert rows["a chrome sphere held out: its highlights, predicted by the others"] == "0.031 px rms"
+    assert rows["a matte sphere held out: its shading, predicted by the others"] == "1.2% rms"
     assert rows["one more chrome sphere tells most"] == "at the left (0.050 → 0.040°)"
     assert "the same, its albedo free" not in rows
-    assert spheres_section(report).foretold == []
+    assert spheres_section(report).predicted == []
 
 
 def test_a_rig_without_lights_is_not_said_to_have_none_refined() -> None:

@@ -27,7 +27,7 @@ def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 
     rays, lights = ray_map((height, width), camera), calibration().lights
     signal = np.zeros((len(lights), height, width))
     for q, albedo, where in parts:
-        sent = np.nan_to_num(planes.foretold(q, rays.reshape(-1, 3), lights).reshape(len(lights), height, width))
+        sent = np.nan_to_num(planes.predicted(q, rays.reshape(-1, 3), lights).reshape(len(lights), height, width))
         signal[:, where] = (albedo * sent)[:, where]
     sigma = np.full_like(signal, 0.004 * np.median(signal))
     signal += sigma * np.random.default_rng(seed).standard_normal(signal.shape)

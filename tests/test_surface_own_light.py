@@ -13,7 +13,7 @@ from lpcal.records.calibration import Light
 from lpcal.surface import bounce, distance, field, normals, rounds, sides
 from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own
-from lpcal.surface.planes import Plane, foretold
+from lpcal.surface.planes import Plane, predicted
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
@@ -89,7 +89,7 @@ def test_the_wall_is_taken_up_as_it_is_seen():
     plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
     bare = sight_of(mask, np.zeros((3, mask.size)))
     lights = [lamp(f"L{k}", [0.2 * np.cos(a), 0.2 * np.sin(a), 0.03]) for k, a in enumerate(np.arange(3) * 2 * np.pi / 3)]
-    signal = 0.5 * foretold(plane.q, bare.rays_C, lights)
+    signal = 0.5 * predicted(plane.q, bare.rays_C, lights)
     hidden = np.zeros((90, 120), bool)
     hidden[30:60, 40:80] = True
     around = patches(Whole(sight_of(mask, signal), hidden, 1), [plane], lights)
@@ -101,11 +101,11 @@ def test_the_wall_is_taken_up_as_it_is_seen():
     whole_area = 0.5 * np.linalg.norm(np.cross(at[2] - at[0], at[3] - at[1]))
     left_out = 30 * 40 / (90 * 120)  # the margin about the object counts as the plane beside it
     assert abs(found.area.sum() / whole_area - (1 - left_out)) < 0.03
-    assert np.allclose(found.signal, 0.5 * foretold(plane.q, found.x_C / found.x_C[:, 2:], lights), rtol=0.08)
+    assert np.allclose(found.signal, 0.5 * predicted(plane.q, found.x_C / found.x_C[:, 2:], lights), rtol=0.08)
     beyond = around.unseen
     assert beyond is not None  # what the object hides, and what goes on outside the image, lit as the rest
     assert np.allclose(beyond.x_C @ plane.q, 1, atol=1e-3)
-    assert np.allclose(beyond.signal, 0.5 * foretold(plane.q, beyond.x_C / beyond.x_C[:, 2:], lights), rtol=0.05)
+    assert np.allclose(beyond.signal, 0.5 * predicted(plane.q, beyond.x_C / beyond.x_C[:, 2:], lights), rtol=0.05)
     pixel = beyond.x_C[:, :2] / beyond.x_C[:, 2:] * FOCAL + [59.5, 44.5]
     inside = np.all((pixel > [-0.5, -0.5]) & (pixel < [119.5, 89.5]), axis=1)
     assert inside.any()
@@ -118,7 +118,7 @@ def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights(
     plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
     bare = sight_of(mask, np.zeros((3, mask.size)))
     lights = [lamp(f"L{k}", [0.2 * np.cos(a), 0.2 * np.sin(a), 0.03]) for k, a in enumerate(np.arange(3) * 2 * np.pi / 3)]
-    full = 0.5 * foretold(plane.q, bare.rays_C, lights)
+    full = 0.5 * predicted(plane.q, bare.rays_C, lights)
     clipped = full[0] > np.quantile(full[0], 0.4)
     signal = full.copy()
     signal[0, clipped] = np.quantile(full[0], 0.4)
@@ -126,7 +126,7 @@ def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights(
     around = patches(Whole(seen, np.zeros((90, 120), bool), 1), [plane], lights)
     assert around is not None
     at = around.seen.x_C / around.seen.x_C[:, 2:]
-    assert np.allclose(around.seen.signal, 0.5 * foretold(plane.q, at, lights), rtol=0.05)
+    assert np.allclose(around.seen.signal, 0.5 * predicted(plane.q, at, lights), rtol=0.05)
 
 
 def test_a_table_hides_a_light_below_it():
@@ -137,7 +137,7 @@ def test_a_table_hides_a_light_below_it():
     lights = [lamp("left", [-0.2, -0.05, 0.03]), lamp("right", [0.2, -0.05, 0.03]), lamp("under", [0.0, 0.25, 0.03])]
     depth = 1 / np.maximum(bare.rays_C @ plane.q, 1e-9)
     table = (depth > 0.36) & (depth < 0.8)
-    signal = np.where(table, 0.5 * np.maximum(foretold(plane.q, bare.rays_C, lights), 0.0), 0.0)
+    signal = np.where(table, 0.5 * np.maximum(predicted(plane.q, bare.rays_C, lights), 0.0), 0.0)
     around = patches(Whole(sight_of(mask, signal), np.zeros((90, 120), bool), 1), [plane], lights)
     assert around is not None
     up = np.linspace(0.003, 0.08, 40)
@@ -324,7 +324,7 @@ def test_patches_that_light_from_elsewhere_misleads_do_not_move_the_piece():
         rng = np.random.default_rng(seed)
         u = np.full(mask.size, np.log(0.35))
         own = Own(np.full(mask.size, 1 / 0.1**2), u + 0.1 * rng.standard_normal(mask.size) - 0.08 * misled)
-        held = distance.of_one_mind(own, u, mask, np.ones(mask.size, np.uint8))
+        held = distance.downweight_discordant(own, u, mask, np.ones(mask.size, np.uint8))
         before, after = (np.average(one.optimum - u, weights=one.curvature) for one in (own, held))
         assert before < -0.01
         assert abs(after) < 0.5 * abs(before)

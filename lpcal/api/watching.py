@@ -26,7 +26,7 @@ SATURATED = 0.002
 DIM, BRIGHT = 0.25, 0.995
 """The 99.9th percentile under which an image is dim (two bits are lost), and from which its brightest parts saturate."""
 BLURRED = 0.5
-"""Of the median sharpness of the boards before it, under which a board is called blurred."""
+"""Share of the median sharpness of the boards before it under which a board is called blurred."""
 TILT = 0.06
 """How far, in logarithm, opposite sides of the board differ where it is tilted by some ten degrees or more."""
 SMALL_SPHERE_PX = 25.0

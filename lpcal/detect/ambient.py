@@ -19,15 +19,15 @@ ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
 DARKEST = 0.02
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
-"""Of the ambient light, in the shadows of one light: a change that is worth a word. Brighter ones may be shadows that are not."""
+"""Relative change of the ambient light in one light's shadows that is warned of; brighter pixels may in fact be lit, so more is needed."""
 IN_SHADOW = 0.15
-"""Of what the lamp that is brightest there does: a light that does more reaches the place, if aslant."""
+"""Share of the brightest lamp's light above which a light reaches a place, if aslant."""
 ALIKE = 0.3
 """Blocks in shadow are brighter by about the same share of the room's light; where the next darkest differ by more, none are in shadow."""
 SHADOWS_THROWN, BRIGHT = 0.05, 0.9
-"""Of what the light does to bright places (this quantile): less than this in its shadows may be what lit things throw there."""
+"""Share of a light's effect on bright places (their quantile) below which its shadows may be lit by what lit things throw."""
 DRIFT_SHARE = 0.05
-"""Of the ambient light, or of the light of the lamps where that is less: a change that is worth a word."""
+"""Change that is warned of, as a share of the ambient light or, where that is less, of the lamps' light."""
 BRIGHTER = 0.98
 """Lit images under this share of the ambient one are darker, beyond noise."""
 

@@ -59,7 +59,7 @@ SEARCH_S = 3.0
 LARGE_PX = 2000
 """Images of a longer side are searched at half size first."""
 SATURATED = 0.996
-"""Of full scale: as bright as an image gets."""
+"""Share of full scale from which a pixel is taken as saturated."""
 SMALL_SPACING_PX = 5.0
 """Corners closer than this cannot be refined."""
 

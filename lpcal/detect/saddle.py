@@ -43,7 +43,7 @@ LIKE = 0.75
 QUARTERS = 4
 """Times that light crosses its mean on the ring about a corner."""
 LEAST_STRENGTH = 1.0
-"""Of -det H times 16, in (steps of light per px^2)^2: a corner of 10 steps of contrast in focus has 20."""
+"""Least value of -det H times 16, in (steps of light per px^2)^2: a corner of 10 steps of contrast in focus has 20."""
 MOST = 4000
 """Saddles kept, the strongest: a board of 60x40 has 2400, and more only cost time."""
 LEAST_STEP = 4.0

@@ -41,9 +41,9 @@ from lpcal.geometry.tone_curve import not_linear
 from lpcal.records.observations import Radiance
 
 OUTSIDE_SHARE = 0.02
-"""Of the outline may lie outside the picture."""
+"""Share of the outline that may lie outside the picture."""
 BLURRED = 0.88
-"""Of the largest blur that is tried: a blur at that bound is larger still."""
+"""Share of the largest blur that is tried from which a blur counts as beyond it."""
 SOFT_PX = 1.6
 """Where no outline is found in a picture without an edge sharper than this, that is why."""
 SCATTER_PX, SCATTER_AND_FAINT = 1.2, (0.5, 15.0)

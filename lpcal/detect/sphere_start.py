@@ -13,7 +13,7 @@ RADIUS_SHARE = (0.03, 0.55)
 """Radii looked for, as shares of the image's shorter side, where nothing is known."""
 CANDIDATES = 12
 SEEN_SHARE, SEEN_SHARE_BEYOND = 0.6, 0.35
-"""Of a circle must lie in the image."""
+"""Share of a circle that must lie in the image."""
 
 
 def from_mask(mask: Mask) -> Array:

@@ -52,7 +52,7 @@ def write_ptm(content: ExchangeContent, folder: Path) -> list[str]:
     body = np.moveaxis(stored[:, ::-1], 0, -1)  # bottom row first, coefficients of a pixel side by side
     blocks = b"".join(np.ascontiguousarray(body[:, :, channel]).tobytes() for channel in range(3))
     (folder / "relight.ptm").write_bytes("\n".join(heading).encode() + b"\n" + blocks)
-    return [*said, _foretold(found)]
+    return [*said, _predicted(found)]
 
 
 def write_hsh(content: ExchangeContent, folder: Path) -> list[str]:
@@ -64,7 +64,7 @@ def write_hsh(content: ExchangeContent, folder: Path) -> list[str]:
     numbers = np.concatenate([scale, least]).astype("<f4")
     body = np.ascontiguousarray(stored.transpose(1, 2, 3, 0))
     (folder / "relight.rti").write_bytes(heading + numbers.tobytes() + body.tobytes())
-    return [*said, _foretold(found)]
+    return [*said, _predicted(found)]
 
 
 def write_openlime(content: ExchangeContent, folder: Path) -> list[str]:
@@ -92,7 +92,7 @@ def write_openlime(content: ExchangeContent, folder: Path) -> list[str]:
     for k, plane in enumerate(stored):
         settings = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY, cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444]
         (target / f"plane_{k}.jpg").write_bytes(cv2.imencode(".jpg", plane[..., ::-1], settings)[1].tobytes())
-    return [*said, _foretold(found)]
+    return [*said, _predicted(found)]
 
 
 def _thrice(values: Array) -> list[float]:
@@ -100,7 +100,7 @@ def _thrice(values: Array) -> list[float]:
 
 
 def _harmonics(content: ExchangeContent) -> tuple[RelightFit, list[str]]:
-    """The fit of the order that foretells held-out images best, of those that there are lights enough for."""
+    """The fit of the order that predicts held-out images best, of those that there are lights enough for."""
     directions, images, said = _given(content, relightable.HSH_TERMS[0])
     enough = [terms for terms in relightable.HSH_TERMS if terms + SPARE_LIGHTS <= len(images)]
     fits = [relightable.fit(relightable.hsh_basis(directions, terms), images, capture_of(content).mask) for terms in enough]
@@ -146,7 +146,7 @@ def _with_bias(coefficients: Image, scale: Array, bias: npt.NDArray[np.int64]) -
     return np.asarray(np.rint(np.clip(steps, 0, 255)), np.uint8)
 
 
-def _foretold(found: RelightFit) -> str:
+def _predicted(found: RelightFit) -> str:
     mean, worst = 100 * float(np.sqrt(np.mean(found.held_out**2))), 100 * float(found.held_out.max())
     terms = len(found.coefficients)
-    return f"{terms} terms foretell an image that is held out to {mean:.2g} % of full scale (rms; {worst:.2g} % the worst light)"
+    return f"{terms} terms predict an image that is held out to {mean:.2g} % of full scale (rms; {worst:.2g} % the worst light)"

@@ -25,7 +25,7 @@ from lpcal.records.calibration import Calibration, Camera, Light, Lobe
 FILE, CAMERA = "light.mat", "camera.mat"
 M_FROM_MM = 1e-3
 MISS = 0.35
-"""Of the lights' spread: axes that pass a point farther off than this (rms) do not meet there. Parallel axes miss every point by 1."""
+"""Share of the lights' spread: axes that pass a point farther off (rms) do not meet there. Parallel axes miss every point by 1."""
 NOMINAL = 3.0
 """Spreads of the lights before them: where an object is thought to be, for the lights' directions only, where no axes say it."""
 

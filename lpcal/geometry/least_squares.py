@@ -48,7 +48,7 @@ __all__ = [
 ]
 
 SETTLED = 0.05
-"""Of the cost, in whitened units: a fall over the last quarter of all steps by less is a flat valley, not a solve that runs."""
+"""If the cost, in whitened units, fell by less than this over the last quarter of all steps, the solve counts as converged."""
 NO_WAY_DOWN = 1e12
 """Damping at which the descent ends: no step, however short, lowers the cost."""
 

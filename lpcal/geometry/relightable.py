@@ -54,7 +54,7 @@ def hsh_basis(directions: Array, terms: int) -> Array:
 
 @dataclass(frozen=True)
 class RelightFit:
-    """Coefficients of images over the light's direction, and how well they foretell an image that they were not fitted to."""
+    """Coefficients of images over the light's direction, and how well they predict an image that they were not fitted to."""
 
     coefficients: Image
     """(K, ...) as the images' pixels."""

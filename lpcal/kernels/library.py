@@ -37,7 +37,7 @@ SIGNATURES = {
     "turns": "i i i f f n n f",
     "weighted": "i i f f f d f f",
 }
-"""Of each kernel: d a number, i a whole one; contiguous arrays: f, s of doubles and singles, n of 64-bit integers, b of booleans."""
+"""Arguments of each kernel: d a number, i a whole one; contiguous arrays: f, s doubles and singles, n 64-bit integers, b booleans."""
 
 
 def sources() -> list[Path]:

@@ -299,11 +299,11 @@ class SphereFinding:
     highlights_px: dict[str, Array] = field(default_factory=dict)
     """Chrome: where (2,) each light's mirror image was found."""
     image_size: tuple[int, int] | None = None
-    """Of its images."""
+    """Width and height of the sphere's images."""
     outline_sigma_px: float = float("nan")
     """Scatter of the outline's points."""
     highlight_sigma_px: dict[str, float] = field(default_factory=dict)
-    """Of each highlight, an axis, as stated by the detection."""
+    """Standard deviation of each highlight, an axis, as stated by the detection."""
 
 
 @dataclass(frozen=True, repr=False)

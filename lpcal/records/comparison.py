@@ -22,7 +22,7 @@ class LightChange:
     moved: float
     moved_std: float
     turned_rad: float
-    """Of its axis of emission; NaN where it has none."""
+    """Angle by which its axis of emission turned; NaN where it has none."""
     turned_std_rad: float
     power: float
     """Relative change of its intensity against the others'."""
@@ -48,7 +48,7 @@ class PartChange:
     turned_rad: float = float("nan")
     turned_std_rad: float = float("nan")
     chance: float = float("nan")
-    """Of so large a change where there is none."""
+    """Probability of so large a change where there is none."""
 
 
 @dataclass(frozen=True)

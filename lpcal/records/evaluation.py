@@ -20,7 +20,7 @@ class Evaluation(Shown):
     normal_p95_deg: float
     """95th percentile of the angles."""
     depth_rms_m: float
-    """Of the shape: each piece's depths scaled to the truth's median first; pixels of parallel rays shifted. NaN without a true depth."""
+    """Depth error of the shape, each piece scaled to the truth's median first (shifted, of parallel rays). NaN without a true depth."""
     depth_absolute_rms_m: float
     """Nothing scaled. NaN without a true depth."""
     scale: float

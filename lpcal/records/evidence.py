@@ -164,7 +164,7 @@ class HandEyeEvidence:
     """The camera's parameters after this solve, and less those of camera.yaml."""
     board_sigma_deg: float | None = None
     board_sigma_m: tuple[float, ...] | None = None
-    """Of board poses found elsewhere: two directions across, then depth."""
+    """Standard deviations of board poses found elsewhere: two directions across, then depth."""
     moved_from_closed_form_deg: float
     moved_from_closed_form_m: float
     weakest: str | None = None

@@ -48,7 +48,7 @@ class Curl:
     """What the curl of a normal map says of its convention."""
 
     likeness: float
-    """Of the slopes' changes: 1 for a surface, -1 for one upside down."""
+    """Correlation of the slopes' changes: 1 for a surface, -1 for one upside down."""
     sure: float
     """The likeness by its standard error."""
     twist_sure: float
@@ -96,7 +96,7 @@ class SurfaceFigures:
     """By the piece's label."""
     gloss: GlossFound | None = field(default=None, metadata=ALWAYS)
     reflectance: float | None = field(default=None, metadata=ALWAYS)
-    """Of the object, as light that it throws on itself shows it."""
+    """Reflectance of the object's median pixel, as light that it throws on itself shows it."""
     residual_sigmas_rms: float | None = None
     """Rms residual of the images in their own standard deviations: 1 where the noise model holds."""
     normals_away_from_the_camera: float | None = None

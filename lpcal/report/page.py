@@ -218,7 +218,7 @@ class SpheresPart:
     largest: str | None
     directions: str | None
     outlines: list[str]
-    foretold: list[tuple[str, str]]
+    predicted: list[tuple[str, str]]
     """How well a sphere that was held out is predicted by the others, and where one more tells most."""
     used: str
 
@@ -264,20 +264,20 @@ def spheres_section(report: RigReport) -> SpheresPart | None:
         largest=fixed(max(angles), 2, "°") if angles else None,
         directions=charts.dot_rows(rows, unit="degrees from the refined light; amber: spheres not used") if angles else None,
         outlines=_outlines(spheres),
-        foretold=_foretold(report.lights.evidence),
+        predicted=_predicted(report.lights.evidence),
         used=f"{sum(sphere.used for sphere in spheres)} of {plural(len(spheres), 'sphere')}",
     )
 
 
-def _foretold(found: LightsEvidence) -> list[tuple[str, str]]:
+def _predicted(found: LightsEvidence) -> list[tuple[str, str]]:
     """Rows of what held-out spheres say, and of the next one."""
     shading, free = found.foretold_shading_rms, found.foretold_shading_rms_albedo_free
     rows = [
         ("highlights in the solve", number(found.highlight_rms_px, 2, "px") + " rms"),
-        ("a chrome sphere held out: its highlights, foretold by the others", number(found.foretold_highlight_px, 2, "px") + " rms"),
+        ("a chrome sphere held out: its highlights, predicted by the others", number(found.foretold_highlight_px, 2, "px") + " rms"),
         ("shading in the solve", number(None if found.shading_rms is None else 100 * found.shading_rms, 2, "%") + " rms"),
         (
-            "a matte sphere held out: its shading, foretold by the others",
+            "a matte sphere held out: its shading, predicted by the others",
             number(None if shading is None else 100 * shading, 2, "%") + " rms",
         ),
         ("the same, its albedo free", number(None if free is None else 100 * free, 2, "%") + " rms"),

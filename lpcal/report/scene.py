@@ -83,7 +83,7 @@ CONE_M = 0.06
 DISTANT_M = (0.05, 0.3)
 """Metres from the focus between which the line of a distant light is drawn: it has a direction only, this is about a rig's size."""
 PLAIN_K = np.array([[1.2, 0, 0.5], [0, 1.2, 0.5], [0, 0, 1]])
-"""Of a camera that nothing is known of, drawn as one of about 45 degrees; its image is 1 by 1."""
+"""Matrix of a camera that nothing is known of, drawn as one of about 45 degrees; its image is 1 by 1."""
 HALF = 0.5
 """Share of the peak to which a lobe falls at its half angle."""
 FINELY = 9001

@@ -25,7 +25,7 @@ from lpcal.simulate.sensor import blur
 OVERSAMPLING = 4
 WHITE, BLACK, BACKGROUND = 0.55, 0.045, 0.05
 TEXELS = 40
-"""Of a charuco board's square."""
+"""Texels along the side of a charuco board's square."""
 FINER = 3
 """Places a side of a sample's square at which a charuco board is read."""
 

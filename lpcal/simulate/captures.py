@@ -43,7 +43,7 @@ from lpcal.simulate.sensor import Response, Stored, blur, splat
 
 EXPOSURE_S = 0.020
 BRIGHTEST = 0.60
-"""Of full scale: a white surface at the focus that faces the strongest light."""
+"""Signal of a white surface at the focus that faces the strongest light, as a share of full scale."""
 SHORT_PEAK = 0.6
 DEFAULT_SPHERE_M = 0.025
 SPHERE_WALL, OBJECT_WALL = 0.3, 0.32
@@ -84,7 +84,7 @@ class Studio:
 
     @property
     def focus_irradiance(self) -> Array:
-        """Of each light at the focus."""
+        """Irradiance of each light at the focus."""
         return np.array([np.linalg.norm(light.field(self.built.focus_C[None])) for light in self.built.lights])
 
     @property
@@ -265,7 +265,7 @@ OVERSAMPLING = 3
 
 @dataclass(frozen=True)
 class Conditions:
-    """Of one trial."""
+    """What is varied in one trial."""
 
     phase_deg: float = 30.0
     lights: int = 6

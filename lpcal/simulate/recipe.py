@@ -52,7 +52,7 @@ class Recipe:
     led_power: float = 0.04
     led_diameter_m: float = 0.005
     ambient: float = 0.16
-    """Of the mean irradiance at the focus."""
+    """Room light, as a share of the mean irradiance at the focus."""
     working_points: int = 200
     sensor: SensorRecipe = field(default_factory=SensorRecipe)
     tracking: Tracking = field(default_factory=Tracking)

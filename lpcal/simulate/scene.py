@@ -35,7 +35,7 @@ class DrawnScene:
     ambient: float
     chrome: bool = False
     panel_radius_m: float = 0.0
-    """Of the dark disc round the camera that chrome mirrors."""
+    """Radius of the dark disc round the camera that chrome mirrors."""
     rod_m: float = 0.0
     """Radius of the dark rod on which the shape stands, seen edge on."""
     card_half_m: float = 0.0

@@ -140,5 +140,5 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
         own = distance.own_distance(B, B_at, np.exp(u), seen, found)
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
-        u = settle(grid, step, sigma, distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)
+        u = settle(grid, step, sigma, distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)
     return Basin(u, cost)

@@ -36,14 +36,14 @@ from lpcal.surface.surroundings import Around, Patches
 PATCHES = 2000
 STEPS = 6
 OFF = 0.025
-"""Of the depth: so near to either end nothing is taken to stand between two patches that face each other: backs are rounder than told."""
+"""Share of the depth that is skipped at both ends of an occlusion ray, so that a patch does not hide itself."""
 BLOCK = 128
 GRAZING = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
 STEEPEST = 0.1
 """Least cosine to the viewer by which a pixel's area is told."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
-"""Of the object's median pixel, from the darkest of paints on."""
+"""Reflectances of the object's median pixel that are tried, from the darkest of paints on."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Shares of what is guessed that are tried: of the light of sides that are not seen, and of what goes on around out of sight."""
 COMMON, COMMON_SIGMA = 0.5, 0.25
@@ -98,7 +98,7 @@ class Reflectance:
     """How much of the light that is thrown goes on from the object, and what of the guessed is there."""
 
     median: float
-    """Of the object's median pixel."""
+    """Reflectance of the object's median pixel."""
     per_unit: float
     """The same by its albedo in the units of the signals: what makes J light."""
     sides: float

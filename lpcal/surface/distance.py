@@ -26,19 +26,19 @@ DELTA = 1e-3
 FURTHEST = 0.5
 """A pixel by itself moves log z by no more than this in a round."""
 SCORE = 3.0
-"""Nor by more than this many of its own sigmas."""
+"""Upper bound on that step, in the pixel's own standard deviations."""
 GLOSS_DOUBT = 2.0
-"""Of the gloss that was taken off: its lobe is a guess, and distances hang on small parts of the signal."""
+"""Standard deviation of the gloss that was taken off, as a share of it: distances depend on small parts of the signal."""
 ALIKE = 0.005
 """What neighbouring samples err by alike, of the signal."""
 UNSEEN_DOUBT, THROWN_DOUBT, SHINE_DOUBT = 0.3, 0.2, 0.5
-"""What they err by besides: of the share of unseen sides about a pixel, of the light that is known to be thrown on it, and of gloss."""
+"""Further correlated errors, as shares of: the unseen sides about a pixel, the light known to be thrown on it, and gloss."""
 PATCHES_ACROSS = 40
-"""Of an object: patches of this size are asked for their distance together."""
+"""Patches across an object whose pixels are asked for their distance together."""
 ESTRANGED = 1.5
 """Medians of the patches' differences beyond which a patch counts little."""
 LEAST_DIFFERENCE = 0.003
-"""Of the distance: patches that differ by less agree."""
+"""Relative difference of distances under which patches agree."""
 MIND_ROUNDS = 8
 WEAK = 1e-6
 """Curvature for pixels that know nothing, so that every piece is held somewhere."""
@@ -89,7 +89,7 @@ def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
     return Own(own.curvature / (1 + square / ALIKE**2), own.optimum)
 
 
-def of_one_mind(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
+def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
     """The own distances, less weight on patches that differ in theirs from most of their piece (P,): light from elsewhere misleads them.
 
     Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about what most of the piece says.

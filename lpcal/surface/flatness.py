@@ -12,11 +12,11 @@ from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
 
 NEARLY = 0.2
-"""Of its extent: a piece whose points stray more from a plane is not meant to be flat."""
+"""Share of its extent: a piece whose points stray more from a plane is not meant to be flat."""
 RIM_PX = 3
 FEWEST = 100
 MOST = 2_000_000
-"""Of a piece of more pixels only so many are asked, spread over it."""
+"""Pixels of a piece at most that take part, spread over it."""
 
 
 def flatness(surface: Surface) -> Flatness | None:

@@ -57,7 +57,7 @@ FACING = 0.1
 
 
 NO_ESTIMATE = Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))
-"""Of a start that says nothing of single pixels."""
+"""The estimate of a start that says nothing of single pixels."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class Full:
     """A capture in full size."""
 
     radiance_of: Callable[[slice, slice], Radiance]
-    """Of a part of the picture."""
+    """The radiance of a part of the picture."""
     mask: Mask
     """(H, W)."""
     camera: Camera | None
@@ -123,7 +123,7 @@ class Full:
     gloss: Gloss | None
     ground: Ground
     weight: Array | None
-    """Of the colours in the grey signal, as in coarse pixels."""
+    """Weights of the colours in the grey signal, as in coarse pixels."""
 
     def rays_C(self, rows: slice, columns: slice) -> Array:
         """Rays (h, w, 3) of length 1 in z."""

@@ -43,7 +43,7 @@ class Ground:
 
     @staticmethod
     def of(scene: Scene, state: State, rays_C: Array, normals_C: Image, factor: int) -> Ground:
-        """Of a solved scene in coarse pixels, the normals (h, w, 3) as they came out."""
+        """From a solved scene in coarse pixels, the normals (h, w, 3) as they came out."""
         from scipy import ndimage
 
         mask = scene.seen.mask

@@ -26,7 +26,7 @@ from lpcal.surface import multigrid
 from lpcal.surface.sight import Indices
 
 STEEPEST = 0.03
-"""Of n . v: steps are not believed to be steeper."""
+"""Smallest n . v used when normals become depth steps."""
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
 AGAIN = (100.0, 10.0, 1.0, 1.0)
 """Where the depth is known already."""
@@ -34,7 +34,7 @@ ROUGHLY, FINELY = 1e-3, 1e-5
 """Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 UNEVEN = 0.2
-"""Of the difference between the steps that the two normals of an edge foretell."""
+"""Standard deviation of a step, as a share of the difference between the steps that the two normals of an edge predict."""
 ROBUST = 3.0
 LEAST_WEIGHT = 1e-6
 SPREAD = 6.0
@@ -114,7 +114,7 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
 
 
 def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
-    """Of each edge, by how well u keeps its step."""
+    """Weight of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
     scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
     return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)

@@ -38,7 +38,7 @@ class LightSpace:
 
     @staticmethod
     def of(weight: Array, B: Array) -> LightSpace:
-        """Of weights (L, P), each pixel's good for n light vectors, and light vectors (L, P, n)."""
+        """From weights (L, P), each pixel's good for n light vectors, and light vectors (L, P, n)."""
         inverse = np.linalg.inv(np.einsum("lpi,lpj->pij", weight[..., None] * B, B))
         root = np.linalg.cholesky((inverse + inverse.swapaxes(1, 2)) / 2)
         return LightSpace(weight, weight[..., None] * np.einsum("lpi,pij->lpj", B, root))

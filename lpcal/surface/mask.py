@@ -220,7 +220,7 @@ def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> s
 
 def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:
     some = planes.thinned(seen.at(np.flatnonzero(own)))
-    square, _ = planes.misfit(some, planes.foretold(q, some.rays_C, lights))
+    square, _ = planes.misfit(some, planes.predicted(q, some.rays_C, lights))
     return planes.Plane(q, float(np.sqrt(np.median(square))))
 
 

@@ -27,7 +27,7 @@ MODEL = 0.015
 SHADOW = 0.15
 DARK_SIGMAS = 3.0
 DOUBT = 0.3
-"""Of the gloss."""
+"""Standard deviation of the gloss, as a share of itself."""
 OUTLIER = 3.0
 ROUNDS = 3
 LEAST = 3

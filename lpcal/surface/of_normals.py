@@ -4,7 +4,7 @@ Depth from normals alone, its jumps found from which side of a pixel is the flat
 
 Symbols: u = log z (central) or z in pixels (parallel rays); neighbours a, b a distance h apart, along an axis of the image; t = -n . r::
 
-    g_a = log((n_a . r_a) / (n_a . r_b))      the step that the normal of a foretells (parallel: -n_x / n_z), g_b likewise
+    g_a = log((n_a . r_a) / (n_a . r_b))      the step that the normal of a predicts (parallel: -n_x / n_z), g_b likewise
     gap of pixel a towards b:   (t_a (u_b - u_a) / h)^2
     w_a = 1 / (1 + exp(-k (gap on the other side - gap towards b)))
 

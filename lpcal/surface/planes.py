@@ -19,12 +19,12 @@ from lpcal.surface.sight import Sight, light_vectors
 MODEL = 0.03
 """Share of a signal that a plane's model may lack: light from elsewhere, ripples of the lobe."""
 SHADE = 0.5
-"""A signal under this share of what the second highest foretells is in shadow."""
+"""A signal under this share of what the second highest predicts is in shadow."""
 WEAK = 0.1
 """A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
 FIT_PIXELS = 700
 SPAN = (0.55, 3.5)
-"""Of the working distance: where planes are looked for."""
+"""Nearest and furthest planes that are tried, as shares of the working distance."""
 TRIED = 3
 SHADE_PRICE = 3.0
 """Sigmas that a sample costs which a plane takes for shadow: else one that fits nothing is as good as one that fits all."""
@@ -42,7 +42,7 @@ class Plane:
     """Root of the median of the pixels' mean square residuals."""
 
 
-def foretold(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
+def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
     """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
     slope = rays_C @ q
     depth = np.where(slope > BEHIND, 1 / np.maximum(slope, BEHIND), np.nan)
@@ -103,11 +103,11 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float) -> Plane | None
     fewer = some.at(np.arange(0, some.pixels, 3))
 
     def cost(q: Array) -> Array:
-        r, _ = residuals(some, foretold(q, some.rays_C, lights), shaded=False)
+        r, _ = residuals(some, predicted(q, some.rays_C, lights), shaded=False)
         return np.nan_to_num(r, posinf=1e2).ravel()
 
     def robust(q: Array) -> float:
-        m = foretold(q, fewer.rays_C, lights)
+        m = predicted(q, fewer.rays_C, lights)
         r, _ = residuals(fewer, m, shaded=False)
         shade = (r == 0) & strong(fewer, m)[0]
         return float(np.sum(np.log1p(np.where(shade, SHADE_PRICE, np.nan_to_num(r, posinf=1e2)) ** 2)))
@@ -117,7 +117,7 @@ def fit(seen: Sight, lights: Sequence[Light], distance_m: float) -> Plane | None
     best = sorted(starts, key=robust)[:TRIED]
     q = min((np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=6).x) for q in best), key=robust)
     q = np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=25).x)
-    return Plane(q, float(np.sqrt(np.median(misfit(some, foretold(q, some.rays_C, lights), shaded=False)[0]))))
+    return Plane(q, float(np.sqrt(np.median(misfit(some, predicted(q, some.rays_C, lights), shaded=False)[0]))))
 
 
 def thinned(seen: Sight) -> Sight:

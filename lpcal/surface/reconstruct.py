@@ -286,7 +286,7 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
 
 
 def _model_std(state: State, inside: Mask) -> float:
-    """Of a piece (P,): see uncertainty.model_std."""
+    """What the model lacks in the distance of a piece (P,): see uncertainty.model_std."""
     shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
     shine = state.field.gloss
     return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
@@ -338,13 +338,13 @@ def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
 
 
 SPAN = (0.5, 40.0)
-"""Of the lights' spread: where the object is looked for. Nearer, lights graze it; farther, they are all alike."""
+"""Nearest and furthest object that is tried, as shares of the lights' spread: nearer, lights graze it; farther, they are all alike."""
 STEPS = 27
 """Distances of the sweep, each 18 per cent beyond the last: the rounds find the rest from there."""
 PIXELS = 600
 """Pixels that are asked, evenly over the object."""
 BRIGHT = 0.2
-"""Of the image's 99th percentile: pixels brighter than this under some light are asked where no mask is given."""
+"""Share of the image's 99th percentile above which a pixel under some light takes part where no mask is given."""
 
 
 def distance_m(maps: sight.Grey, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:

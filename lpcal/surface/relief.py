@@ -15,9 +15,9 @@ from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Indices, Sight, powers
 
 TOLERANCE = 0.003
-"""Of the depth: by how much a point must lie behind the surface to be hidden."""
+"""Share of the depth by which a point must lie behind the surface to be hidden."""
 THICKNESS = 0.2
-"""Of the depth: how far behind its front a body still counts."""
+"""Share of the depth that a body is taken to reach behind its front."""
 FIT_PIXELS = 2000
 
 
@@ -32,7 +32,7 @@ class Relief:
 
     @staticmethod
     def of(seen: Sight, depth: Array, *, to_rim: bool = False) -> Relief:
-        """Of depths (P,) at the pixels of a camera; `to_rim` tells whether pixels on the rim count, which on round bodies turn away."""
+        """From depths (P,) at the pixels of a camera; `to_rim` tells whether pixels on the rim count, which on round bodies turn away."""
         from scipy import ndimage
 
         outside = -np.inf if to_rim else np.inf

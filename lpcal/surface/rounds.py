@@ -49,14 +49,14 @@ class State:
     u: Array
     """log depth, or depth in pixels without a camera."""
     weight: Array
-    """Of the edges."""
+    """Weights of the edges."""
     normals: Array
     found: Estimate
     own: Own
     lit: Lit
     """The light that the normals were found in."""
     field: Field
-    """Of the normals, and the gloss of the object."""
+    """The field of the normals, with the gloss of the object."""
     reflects: bounce.Reflectance | None = None
     """By the light that its parts throw on each other; None where that was not asked."""
     anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
@@ -135,13 +135,13 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     if scene.near:
         own = distance.own_distance(lit, partial(scene.B_at, lit.thrown), depth, seen, found)
         own = distance.doubted(own, lit, seen, found)
-        own = own if shaped is None else distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
+        own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
         own = Own(np.full(seen.pixels, distance.WEAK), u)
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
     weight = pieces.without_slivers(grid, weight, seen.mask)
     if scene.near and shaped is None:
-        own = distance.of_one_mind(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
+        own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1

@@ -2,9 +2,9 @@ r"""The distance of a piece from the edge of its shadow on the plane behind it; 
 
 Symbols: plane ``q . y = 1`` (see surface.planes), point X of the piece, d the direction to the light there; its shadow falls on
 ``y = X - t d`` with ``t = (q.X - 1) / (q.d)``. The piece is scaled about the camera by s and the shadow that its pixels would throw is
-compared with the one that is seen, over the plane's pixels and the lights: ``cost(s) = sum(foretold and lit) + sum(dark, not
-foretold, beyond)``. Only the side of a shadow away from its object is thrown by parts that the camera sees; what is dark on the near side
-of a foretold shadow may be thrown by what the camera does not see, and says nothing.
+compared with the one that is seen, over the plane's pixels and the lights: ``cost(s) = sum(predicted and lit) + sum(dark, not
+predicted, beyond)``. Only the side of a shadow away from its object is thrown by parts that the camera sees; what is dark on the near side
+of a predicted shadow may be thrown by what the camera does not see, and says nothing.
 
 The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. An error of
 the lights' intensities moves plane and piece alike, which no shadow shows; so the shadow mends only what the model lacks at the piece
@@ -49,7 +49,7 @@ class Screen:
 
 def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mask: Mask, factor: int) -> Screen:
     """What the plane's pixels show; `seen` is the whole coarse image, `object_mask` (H, W) what is not plane in it."""
-    m = planes.foretold(plane.q, seen.rays_C, lights)
+    m = planes.predicted(plane.q, seen.rays_C, lights)
     square, count = planes.misfit(seen, m)
     strong = (m > planes.WEAK * np.fmax.reduce(m, axis=0)) & seen.usable & (seen.sigma < 0.2 * np.fmax.reduce(seen.signal, axis=0))
     ratio = np.where(strong, seen.signal / np.maximum(m, 1e-9), -np.inf)
@@ -74,8 +74,8 @@ def anchored(
         if own_std < shadow_std:
             continue
         inside = label == one
-        rest = _foretold(shown, lights, camera, x_C[~inside])
-        costs = np.array([_cost(shown, rest, _foretold(shown, lights, camera, scale * x_C[inside])) for scale in SCALES])
+        rest = _predicted(shown, lights, camera, x_C[~inside])
+        costs = np.array([_cost(shown, rest, _predicted(shown, lights, camera, scale * x_C[inside])) for scale in SCALES])
         scale = _lowest(costs, NEEDED_RISE * float(np.sqrt(shown.shade.sum())))
         if scale is None:
             continue
@@ -86,14 +86,14 @@ def anchored(
 
 
 @dataclass(frozen=True)
-class Foretold:
+class Predicted:
     """Shadows (L, H, W), and the pixels on their near sides, of which they say nothing."""
 
     dark: Mask
     near_side: Mask
 
 
-def _cost(shown: Screen, rest: Foretold, own: Foretold) -> float:
+def _cost(shown: Screen, rest: Predicted, own: Predicted) -> float:
     dark = rest.dark | own.dark
     beyond = ~dark & ~rest.near_side & ~own.near_side
     return float(np.sum(shown.weight * (dark * (1 - shown.shade) + beyond * shown.shade)))
@@ -109,13 +109,13 @@ def _lowest(costs: Array, needed_rise: float) -> float | None:
     return float(SCALES[k] + np.clip(shift, -0.5, 0.5) * (SCALES[1] - SCALES[0]))
 
 
-def _foretold(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array) -> Foretold:
+def _predicted(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array) -> Predicted:
     """Shadows of points x_C (P, 3) on the screen."""
     from scipy import ndimage
 
     dark, near_side = np.zeros(shown.shade.shape, bool), np.zeros(shown.shade.shape, bool)
     if not len(x_C):
-        return Foretold(dark, near_side)
+        return Predicted(dark, near_side)
     own_px = camera.project(x_C[::NINTH])
     for k, light in enumerate(lights):
         d, _ = light.field(x_C)
@@ -128,7 +128,7 @@ def _foretold(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array
         dark[k] = ndimage.binary_closing(dark[k])
         away = np.median(shadow_px[::NINTH] - own_px, axis=0)
         near_side[k] = _behind(dark[k], away / max(np.linalg.norm(away), 1e-9), int(np.linalg.norm(away) / shown.factor) + 1)
-    return Foretold(dark, near_side)
+    return Predicted(dark, near_side)
 
 
 def _behind(dark: Mask, away: Array, reach: int) -> Mask:

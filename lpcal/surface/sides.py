@@ -23,13 +23,13 @@ from lpcal.surface.sight import Indices, light_vectors
 
 DIRECTIONS = 64
 REACHES = np.geomspace(0.01, 0.35, 12)
-"""Of the depth: how far off it is asked whether the body stands in the way."""
+"""Distances along a ray at which occlusion by the body is tested, as shares of the depth."""
 HALVINGS = 4
 UNSEEN = 0.008
-"""Of the depth: who enters the body so far behind its front came in by a side that is not seen."""
+"""Share of the depth: a ray that enters the body this far behind the visible front came through a side that is not seen."""
 GRAZING = 0.1
 OFF = 0.004
-"""Of the depth: the side's shadow is asked for so far before it."""
+"""Share of the depth by which shadow rays start in front of the side."""
 SHADOW_STEPS = 24
 
 

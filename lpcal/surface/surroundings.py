@@ -104,7 +104,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     albedo: list[float] = []
     signal = seen.signal.copy()
     for k, plane in enumerate(found):
-        m = planes.foretold(plane.q, seen.rays_C, lights)
+        m = planes.predicted(plane.q, seen.rays_C, lights)
         square, count = planes.misfit(seen, m)
         better = free & (count >= 2) & (square < least)
         of_plane[better], least[better] = k, square[better]

@@ -186,7 +186,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: floa
     h = intensities(lights)
 
     def cost(x: Array) -> Array:
-        r, _ = planes.residuals(some, planes.foretold(x[:3], some.rays_C, lights) + x[3] / h, shaded=False)
+        r, _ = planes.residuals(some, planes.predicted(x[:3], some.rays_C, lights) + x[3] / h, shaded=False)
         return np.nan_to_num(r, posinf=1e2).ravel()
 
     nearest, furthest = planes.SPAN
@@ -197,7 +197,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: floa
     ]
     best = sorted(starts, key=lambda x: float(np.sum(np.log1p(cost(x) ** 2))))[:3]
     x = np.asarray(min((optimize.least_squares(cost, one, loss="cauchy", max_nfev=25) for one in best), key=lambda one: one.cost).x)
-    lamps = planes.foretold(x[:3], some.rays_C, lights)
+    lamps = planes.predicted(x[:3], some.rays_C, lights)
     m = lamps + x[3] / h
     if (
         x[3] < 0
@@ -211,7 +211,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: floa
 def on_wall(wall: Wall, maps: Grey, rays_C: Array, lights: Sequence[Light]) -> Image:
     """A (H, W) of every pixel as if it were the wall's."""
     seen = look_at(maps, rays_C, np.ones(maps.signal.shape[1:], bool), central=True)
-    m = np.nan_to_num(planes.foretold(wall.q, seen.rays_C, lights)) + wall.ratio / intensities(lights)
+    m = np.nan_to_num(planes.predicted(wall.q, seen.rays_C, lights)) + wall.ratio / intensities(lights)
     r, _ = planes.residuals(seen, m, shaded=True)
     weight = ((r != 0) & np.isfinite(r)) / (seen.sigma**2 + (planes.MODEL * seen.signal) ** 2)
     albedo = np.sum(weight * m * seen.signal, axis=0) / np.maximum(np.sum(weight * m**2, axis=0), 1e-30)

@@ -40,10 +40,10 @@ SETTLED = 0.01
 SETTLED_S = 2e-6
 FIRST = SolverOptions(iterations=5, strict=False)
 THEN = SolverOptions(iterations=1, damping=1e-12, strict=False)
-"""Of the solves between which the sigmas still change: a Gauss-Newton step each, once near. Undamped: what the mocap determines is known
-a million times worse than what the corners do, and a damping in proportion to these would hold it."""
+"""Options of the solves between which the sigmas still change: one Gauss-Newton step each, once near. Undamped: what the mocap
+determines is known a million times worse than what the corners do, and damping in proportion to these would freeze it."""
 OUTLIER_CHI2 = 33.0
-"""Of six degrees of freedom: one of a hundred thousand sound views."""
+"""Chi-square of six degrees of freedom that one of a hundred thousand sound views exceeds."""
 CORNER_SIGMAS = 6.0
 READMIT = 5.0
 """Times the rms misfit of the chosen views, less a margin, up to which a view is taken in again."""

@@ -39,7 +39,7 @@ from lpcal.records.evidence import CameraEvidence, ChosenModel, ShapeTerm, Tried
 from lpcal.records.observations import Board, BoardViews
 
 DEGENERATE_SHARE, WEAK_SHARE = 0.03, 0.005
-"""Of a focal length, or of the image's width for the principal point: a sigma above is refused, warned of."""
+"""Sigma, as a share of a focal length (of the image's width for the principal point), above which a camera is refused, warned of."""
 UNEQUAL_SHARE, UNEQUAL_SIGMAS = 0.03, 3.0
 """fx and fy that differ by this share, and by so many sigmas, are said: sensors' pixels are square within a tenth of a per cent."""
 SPLINE_SHARE = 0.5

@@ -25,7 +25,7 @@ from lpcal.geometry.camera_difference import pixel_grid
 from lpcal.geometry.hull import inside_hull
 
 COLUMNS, ROWS = 12, 8
-"""Of the grid over the imager."""
+"""Columns and rows of the grid over the imager."""
 TRUSTED = 3.0
 """A place is trusted where the worst direction's sigma is under so many times the median of what corners cover."""
 INVERTED_PX = 1e-3
@@ -59,7 +59,7 @@ class Information:
     state: Unknowns
 
     def covariance(self, total: Array) -> Array:
-        """Of the lens (P, P), from the sum of the views' information."""
+        """Covariance of the lens (P, P), from the sum of the views' information."""
         total = total + np.diag(self.prior)
         scale = 1 / np.sqrt(np.maximum(np.diag(total), 1e-300))
         inverse = np.linalg.pinv(total * scale[:, None] * scale, hermitian=True) * scale[:, None] * scale
@@ -67,7 +67,7 @@ class Information:
 
 
 def information(problem: CornerProblem, fit: CameraFit) -> Information:
-    """Of each view, at the fit."""
+    """Information of each view, at the fit."""
     terms = shape_terms(problem.board, fit.board)
     bundle = Bundle(problem.corners_px, problem.board.points_B(), terms, free_lens=True, sigma_px=fit.sigma_px)
     state = Unknowns(fit.camera.K, fit.camera.distortion, fit.H_CB, np.array([fit.shape[name][0] for name in terms.names]))

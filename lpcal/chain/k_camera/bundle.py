@@ -211,7 +211,7 @@ def _step(system: _System, damping: float) -> tuple[Array, Array]:
 
 
 def _covariance(system: _System) -> Array:
-    """Of the shared unknowns; the prior counts as knowledge."""
+    """Covariance of the shared unknowns; the prior counts as knowledge."""
     shared, coupling, poses, _, _ = system
     reduced = shared - (coupling @ np.linalg.solve(poses, np.swapaxes(coupling, 1, 2))).sum(axis=0)
     scale = 1 / np.sqrt(np.diag(reduced))

@@ -40,7 +40,7 @@ from lpcal.records.evidence import CameraEvidence, Coverage, NextView, OtherSolv
 from lpcal.records.observations import BoardView
 
 CELLS = (6, 4)
-"""Of the image, in which corners are counted."""
+"""Columns and rows of the image's cells in which corners are counted."""
 MOST_NAMED = 5
 MUCH_BLUR, LEAST_BLUR_PX, MUCH_GLARE = 2.0, 1.5, 0.03
 """A view is blurred over so many times the usual blur and so many px; it shines where more than this share of the board is white."""

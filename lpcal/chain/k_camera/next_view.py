@@ -31,7 +31,7 @@ from lpcal.records.calibration import Camera
 
 PLACES = {"at the left": -0.6, "in the middle": 0.0, "at the right": 0.6}
 HEIGHTS = {"top": -0.6, "middle": 0.0, "bottom": 0.6}
-"""Of the board's middle, in half image sides."""
+"""Places of the board's middle that are proposed, in half image sides."""
 SENSIBLE = 30.0
 """Beyond the corners' hull a place counts where its sigma is under so many times the median within: above, the lens means nothing there."""
 WORTH_SAYING = 0.98
@@ -45,7 +45,7 @@ TILTS = {
     "its bottom edge turned away by 35 degrees": (1.0, 0.0),
 }
 SIZES = (0.35, 0.55, 0.8)
-"""Of the board's longer side, in units of the image's width."""
+"""Lengths of the board's longer side that are proposed, in units of the image's width."""
 LEAST_SEEN = 1.0
 """Share of the corners that must be in the image."""
 

@@ -1,6 +1,6 @@
 r"""What the matte spheres' shading and a chrome sphere held out say of the lights found.
 
-Symbols: block b of sphere s under light k; data over what the lights foretell, m = log data - log model, each sphere's albedo removed
+Symbols: block b of sphere s under light k; data over what the lights predict, m = log data - log model, each sphere's albedo removed
 (median over its blocks)::
 
     drift       mean of m by (s, k), both medians removed: a light brighter at one sphere than at another
@@ -46,7 +46,7 @@ class Shaded:
 
 
 def diagnose(solution: LightsSolution, used: Measured, camera: Camera, wings: Wings | None) -> LightsSolution:
-    """The solution with what is wrong among its warnings, and how well it foretells in its evidence."""
+    """The solution with what is wrong among its warnings, and how well it predicts in its evidence."""
     names = [light.name for light in solution.lights]
     kept = {finding.name: finding for finding in solution.spheres if finding.used and finding.centre_C is not None}
     placed = [(view, m, np.asarray(kept[view.name].centre_C)) for view, m in used if view.name in kept]
@@ -71,7 +71,7 @@ def diagnose(solution: LightsSolution, used: Measured, camera: Camera, wings: Wi
 
 
 def shading_misfit(placed: Sequence[tuple[SphereView, Array]], lights: Sequence[Light], camera: Camera) -> Shaded | None:
-    """Log of data over what the lights foretell, a level a sphere removed; None without matte spheres."""
+    """Log of data over what the lights predict, a level a sphere removed; None without matte spheres."""
     views = [view for view, _ in placed]
     if not any(view.shading for view in views):
         return None
@@ -191,45 +191,47 @@ def _held_out_highlights(lights: Sequence[str], used: Measured, camera: Camera, 
     start_C = measured.centre_C + others.bias_px[view.kind] * measured.by_bias
     rows = [others.lights.index(name) for name in names]
     blocks = [others.source_covariance[3 * row : 3 * row + 3, 3 * row : 3 * row + 3] for row in rows]
-    expected = np.hypot(sigma, _foretold_sigma(start_C, view.radius_m, source_C, blocks, camera))
+    expected = np.hypot(sigma, _predicted_sigma(start_C, view.radius_m, source_C, blocks, camera))
     miss = _miss_px(replace(measured, centre_C=start_C), view.radius_m, source_C, seen, sigma, camera)
     return miss, max(GATE_PX, EXPECTED_GATES * float(expected))
 
 
-def _foretold_sigma(centre_C: Array, radius_m: float, source_C: Array, covariance: Sequence[Array], camera: Camera) -> float:
-    """Standard deviation (px, of the distance) of foretold highlights that the sources' own uncertainty gives."""
+def _predicted_sigma(centre_C: Array, radius_m: float, source_C: Array, covariance: Sequence[Array], camera: Camera) -> float:
+    """Standard deviation (px, of the distance) of predicted highlights that the sources' own uncertainty gives."""
     step = 1e-5
 
-    def foretold(source: Array) -> Array:
+    def predicted(source: Array) -> Array:
         return camera.project(sphere.mirror_point(centre_C, radius_m, source))
 
     variances = []
     for x, block in zip(source_C, covariance, strict=True):
-        J = np.stack([(foretold(x + step * axis) - foretold(x - step * axis)) / (2 * step) for axis in np.eye(3)], axis=-1)
+        J = np.stack([(predicted(x + step * axis) - predicted(x - step * axis)) / (2 * step) for axis in np.eye(3)], axis=-1)
         variances.append(np.trace(J @ block @ J.T))
     return float(np.sqrt(np.mean(variances)))
 
 
 def _miss_px(measured: CentreMeasurement, radius_m: float, source_C: Array, seen: Array, sigma: float, camera: Camera) -> float:
-    """Rms (px) between highlights seen and foretold, the centre free within what its outline allows."""
+    """Rms (px) between highlights seen and predicted, the centre free within what its outline allows."""
     prior = np.linalg.inv(measured.covariance)
     centre_C, step = measured.centre_C, 1e-6
 
-    def foretold(centre: Array) -> Array:
+    def predicted(centre: Array) -> Array:
         return camera.project(sphere.mirror_point(centre, radius_m, source_C))
 
     for _ in range(CENTRE_STEPS):
-        J = np.stack([(foretold(centre_C + step * axis) - foretold(centre_C - step * axis)).ravel() / (2 * step) for axis in np.eye(3)], 1)
-        rest = (seen - foretold(centre_C)).ravel()
+        J = np.stack(
+            [(predicted(centre_C + step * axis) - predicted(centre_C - step * axis)).ravel() / (2 * step) for axis in np.eye(3)], 1
+        )
+        rest = (seen - predicted(centre_C)).ravel()
         N = J.T @ J / sigma**2 + prior
         centre_C = centre_C + np.linalg.solve(N, J.T @ rest / sigma**2 - prior @ (centre_C - measured.centre_C))
-    return float(np.sqrt(np.mean(np.sum((seen - foretold(centre_C)) ** 2, axis=1))))
+    return float(np.sqrt(np.mean(np.sum((seen - predicted(centre_C)) ** 2, axis=1))))
 
 
 def _gates(px: float | None, gate_px: float, shading: float | None) -> list[str]:
     told = []
     if px is not None and px > gate_px:
-        told.append(f"the highlights of a sphere held out are foretold to {px:.2f} px only, where {gate_px:.2f} is the gate")
+        told.append(f"the highlights of a sphere held out are predicted to {px:.2f} px only, where {gate_px:.2f} is the gate")
     if shading is not None and shading > GATE_SHADING:
-        told.append(f"the shading of a sphere held out is foretold to {100 * shading:.1f} % only, where {100 * GATE_SHADING} is the gate")
+        told.append(f"the shading of a sphere held out is predicted to {100 * shading:.1f} % only, where {100 * GATE_SHADING} is the gate")
     return told

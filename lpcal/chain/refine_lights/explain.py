@@ -194,13 +194,13 @@ def _orders(lights: Sequence[str], used: Measured, camera: Camera, wings: Wings 
 def _apart_px(
     names: Sequence[str], view: SphereView, measured: CentreMeasurement, others: GeometryFit | None, camera: Camera
 ) -> Array | None:
-    """Squares (N, N) of the distances between the highlights seen and those that the other spheres' lights foretell."""
+    """Squares (N, N) of the distances between the highlights seen and those that the other spheres' lights predict."""
     if others is None:
         return None
     source_C = np.array([others.source_C[others.lights.index(name)] for name in names])
-    foretold = camera.project(sphere.mirror_point(measured.centre_C, view.radius_m, source_C))
+    predicted = camera.project(sphere.mirror_point(measured.centre_C, view.radius_m, source_C))
     seen = np.array([view.highlights_px[name] for name in names])
-    return np.asarray(np.sum((seen[:, None] - foretold[None]) ** 2, axis=2))
+    return np.asarray(np.sum((seen[:, None] - predicted[None]) ** 2, axis=2))
 
 
 def _rays_apart(

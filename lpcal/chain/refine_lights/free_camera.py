@@ -16,7 +16,7 @@ from lpcal.records.calibration import Camera
 
 CORE = ("fx", "fy", "cx", "cy")
 STEP = 1e-3
-"""Of a parameter's standard deviation: rays are smooth, and a parameter moves by one or two of them."""
+"""Step of a difference quotient, as a share of the parameter's standard deviation: rays are smooth over one or two of these."""
 
 
 def core_size(camera: Camera) -> int:

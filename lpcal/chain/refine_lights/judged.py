@@ -1,7 +1,7 @@
-r"""The lights as `refine` finds them, judged: what the spheres leave open, what contradicts them, how well they foretell a sphere.
+r"""The lights as `refine` finds them, judged: what the spheres leave open, what contradicts them, how well they predict a sphere.
 
 Free lights whose distance the spheres do not tell become distant ones; when the fit does not settle, or settles badly, the
-mistake that explains it is looked for (`explain`); the shading and a sphere held out are compared with what the lights foretell
+mistake that explains it is looked for (`explain`); the shading and a sphere held out are compared with what the lights predict
 (`diagnosis`).
 
 Lights that spheres cannot tell from distant ones: directions without positions.
@@ -40,7 +40,7 @@ from lpcal.records.observations import SphereView
 
 SURE_SIGMAS = 2.0
 SHADING_SIGMA_RAD = float(np.radians(1.0))
-"""Of a direction from a matte sphere's shading."""
+"""Standard deviation of a direction from a matte sphere's shading."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ def _mirrored(view: SphereView, measured: CentreMeasurement, camera: Camera, lig
 
 
 def _ray_sigma(view: SphereView, measured: CentreMeasurement, camera: Camera, light: str) -> float:
-    """Of a mirrored ray: twice that of the normal where pixel and centre are uncertain across the line of sight."""
+    """Sigma of a mirrored ray: twice that of the normal where pixel and centre are uncertain across the line of sight."""
     distance_m = float(np.linalg.norm(measured.centre_C))
     forward = measured.centre_C / distance_m
     across = np.eye(3) - np.outer(forward, forward)
@@ -259,7 +259,7 @@ def refine_judged(
     DisagreementError
         Images under each other's names, a sphere of another radius, a moved camera, images that are not linear.
     ConvergenceError
-        The highlights or a sphere held out are nowhere near what the lights foretell, and nothing explains it.
+        The highlights or a sphere held out are nowhere near what the lights predict, and nothing explains it.
     """
     if camera is None or not views:
         return refine(views, lights, camera, wings)

@@ -46,7 +46,7 @@ ROUNDS = 5
 STEP = 1e-7
 """Metres and radians of a difference quotient."""
 STIFF = 1e-12
-"""Of the largest singular value: directions that the data leave open so far are not moved along."""
+"""Share of the largest singular value under which a direction counts as left open by the data and is not moved along."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class MovedLights:
     common: Array
     """(7,) shift of the middle, turn, scale of all lights together."""
     scatter_px: float
-    """Of the highlights, an axis."""
+    """Scatter of the highlights, an axis."""
     freedom: int
     either: tuple[int, ...] = ()
     """Two lights one of which has moved beyond chance, but which of them the data do not say; their `chance` is 1."""
@@ -150,7 +150,7 @@ class _Problem:
     """(3,) of the first day's lights, about where they start."""
 
     def highlights(self, x: Array, own: Array) -> Array:
-        """(N, 2) pixels that the highlights lie off what x and moves (L, 3) of single lights foretell."""
+        """(N, 2) pixels that the highlights lie off what x and moves (L, 3) of single lights predict."""
         sources, centres = self.sources(x, own), self.centres(x)
         found = np.empty_like(self.seen_px)
         for day, camera in enumerate(self.cameras):

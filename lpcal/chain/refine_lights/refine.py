@@ -308,12 +308,12 @@ def _setting_report(settings: Array, wings: Wings | None) -> dict[str, RefinedSe
 
 PLACES = {"left": -0.55, "": 0.0, "right": 0.55}
 HEIGHTS = {"top": -0.55, "": 0.0, "bottom": 0.55}
-"""Of the sphere's middle, in half image sides."""
+"""Places of the sphere's middle that are proposed, in half image sides."""
 DISTANCES = (0.8, 1.0, 1.2)
 """Over that of the focus."""
 MARGIN_PX = 8
 HIGHLIGHT_PX, OUTLINE_PX, COMMON_BIAS_PX = 0.015, 0.05, 0.05
-"""Of a highlight, of a point of the outline, and what is left of the bias that all chrome outlines share."""
+"""Standard deviations of a highlight, of a point of the outline, and of the bias that all chrome outlines share."""
 STEP = 1e-6
 
 

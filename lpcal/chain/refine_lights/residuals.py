@@ -112,7 +112,7 @@ class Cluster:
 
     @property
     def exponent(self) -> float:
-        """Of one LED's lobe."""
+        """Exponent of one LED's lobe."""
         return led_cluster.exponent(led_cluster.HALF_POWER_RAD)
 
     def axes_of(self, roll: float, led: Array) -> tuple[Array, Array]:

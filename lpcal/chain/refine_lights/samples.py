@@ -32,9 +32,9 @@ class Samples:
     sphere: Index
     block: Index
     log_data: Array
-    """Of the mean over the block."""
+    """Logarithm of the mean over the block."""
     relative_sigma: Array
-    """Of that mean, from image noise."""
+    """Relative standard deviation of that mean, from image noise."""
     log_geometry: Array
     """log(mean(n . d / r^2)) from the light's source."""
     angle_rad: Array
@@ -95,7 +95,7 @@ class _Sphere:
         self.u_C, self.P_C, self.n_C = u_C[facing], P_C[facing], n_C[facing]
 
     def samples(self, lights: Sequence[Light]) -> Samples | None:
-        """Of every light that the sphere's images show; None where no block is lit."""
+        """The samples of every light that the sphere's images show; None where no block is lit."""
         names = [light.name for light in lights]
         parts = [
             self._under(names.index(name), lights[names.index(name)], k) for k, name in enumerate(self.shading.lights) if name in names

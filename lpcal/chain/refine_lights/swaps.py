@@ -1,6 +1,6 @@
 """Lights whose images bear each other's names: each highlight is nearest to where another wing would put it.
 
-For every light as drawn the highlight in every chrome sphere is foretold; the assignment of names to wings with the least sum of squared
+For every light as drawn the highlight in every chrome sphere is predicted; the assignment of names to wings with the least sum of squared
 distances is found (Kuhn 1955, by scipy). Another than the stated one is believed when it explains the highlights many times better.
 
 Wings whose joint stands one click from where the drawing has it.
@@ -58,10 +58,10 @@ def refuse_swapped(
     seen = np.zeros(len(names))
     source_C = wings.H_CL[rows, :3, 3] + SOURCE_OFFSET_M * wings.H_CL[rows, :3, 2]
     for view, centre in zip(views, measured, strict=True):
-        foretold = camera.project(sphere.mirror_point(centre.centre_C, view.radius_m, source_C))
+        predicted = camera.project(sphere.mirror_point(centre.centre_C, view.radius_m, source_C))
         for k, name in enumerate(names):
             if name in view.highlights_px:
-                cost[k] += np.sum((foretold - view.highlights_px[name]) ** 2, axis=1)
+                cost[k] += np.sum((predicted - view.highlights_px[name]) ** 2, axis=1)
                 seen[k] += 1
     if not seen.all() or np.array_equal(np.argmin(cost, axis=1), np.arange(len(names))):  # each nearest to its own: nothing is swapped
         return
