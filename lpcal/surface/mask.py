@@ -17,6 +17,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import background, cut, flats, layers, planes
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of, joined
+from lpcal.surface.openings import openings
 from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, Sight, strength
 
@@ -170,7 +171,8 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
-    fine = hints.of(_to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C))
+    fine = _to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C)
+    fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
