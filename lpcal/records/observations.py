@@ -126,7 +126,7 @@ class BoardPoses(Shown):
 
 @dataclass(frozen=True, repr=False)
 class PoseStream(Shown):
-    """A tracked body: H_AB (N, 4, 4) at times t_s (N,), increasing; lost samples are left out.
+    """A tracked body: H_OP (N, 4, 4) at times t_s (N,), increasing; lost samples are left out.
 
     Parameters
     ----------
@@ -139,7 +139,15 @@ class PoseStream(Shown):
     error_m : ndarray (N,)
         The system's own mean marker error, metres; NaN where it gives none.
     markers_O : dict of str to ndarray (N, 3)
-        Markers in the room, metres, NaN where not seen.
+        Markers in the room, metres, NaN where not seen; by name without the body's.
+    lost : int
+        Samples of the file without a pose.
+    rate_hz : float
+        Samples a second; NaN: `read_mocap` finds it from the times.
+    notes : tuple of str
+        What the reader had to decide or repair, in words.
+    covariance : ndarray (N, 6, 6), optional
+        Of the left perturbations, where the poses come from markers; white noise of the markers alone.
 
     Examples
     --------
