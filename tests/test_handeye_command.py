@@ -82,7 +82,8 @@ def test_rig_a(data, tmp_path, lpcal):
     """Every board found, the camera and the hand-eye within the contract's figures of the truth."""
     import shutil
 
-    from lpcal.formats.camera_yaml import read_camera, read_h_cb
+    from lpcal.formats.camera_yaml import read_camera
+    from lpcal.formats.h_cb_yaml import read_h_cb
     from lpcal.geometry import camera as central
     from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 
