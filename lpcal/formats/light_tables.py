@@ -15,7 +15,7 @@ from lpcal.errors import InputError
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import FORMULAS, TABLED
-from lpcal.records.calibration import Calibration, Light
+from lpcal.records.calibration import Calibration, Light, Lobe
 from lpcal.records.rig import reserved
 
 C_FROM_UP = np.array([1.0, -1.0, -1.0])
@@ -29,6 +29,8 @@ FARTHEST_M = 100.0
 """Metres beyond which no near light is believed."""
 SHARPEST = 5000.0
 """The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
+ON_AXIS = 0.02
+"""Difference from 1 that a lobe's table may have on the axis: more than rounding and smoothing leave."""
 """The lobes of calibration.yaml."""
 
 
@@ -170,32 +172,45 @@ def sane_lights(calibration: Calibration, where: str) -> Calibration:
         raise InputError("holds no lights", where=where, needed="lights")
     names = [light.name for light in calibration.lights]
     for light in calibration.lights:
-        found = _wrong(light) or ("two lights of one name" if names.count(light.name) > 1 else "")
+        found, needed = _wrong(light)
+        if not found and names.count(light.name) > 1:
+            found, needed = "two lights of one name", "a name of its own for each light"
         if found:
-            raise InputError(found, where=f"{where}, light {light.name}", needed="a light as there can be", todo="correct it")
+            raise InputError(found, where=f"{where}, light {light.name}", needed=needed, todo="correct it")
     return calibration
 
 
-def _wrong(light: Light) -> str:
-    """What is wrong with a light, in words; empty where nothing is."""
+def _wrong(light: Light) -> tuple[str, str]:
+    """What is wrong with a light, and what it should be, in words; empty where nothing is."""
     if not light.name.strip() or set(light.name) & set("/\\\0") or light.name in {".", ".."}:
-        return f"the name {light.name!r}, which no image can have"
+        return f"the name {light.name!r}, which no image can have", "a name that a file can have"
     if reserved(light.name):
-        return f"the name {light.name!r}: an image of that name is no light's"
+        return f"the name {light.name!r}: an image of that name is no light's", "another name"
     if not np.isfinite(light.direction_C).all() or not np.any(light.direction_C):
-        return "a direction that is none"
+        return "a direction that is none", "three numbers, not all zero"
     if not np.isfinite(light.intensity).all() or np.any(light.intensity < 0) or not np.any(light.intensity > 0):
-        return f"an intensity of {', '.join(f'{value:g}' for value in light.intensity)}"
+        return f"an intensity of {', '.join(f'{value:g}' for value in light.intensity)}", "a number above 0, or three"
     if light.source_C is not None and not (np.abs(light.source_C) <= FARTHEST_M).all():
-        return f"a source at {', '.join(f'{value:g}' for value in light.source_C)} m"
+        return f"a source at {', '.join(f'{value:g}' for value in light.source_C)} m", f"a place within {FARTHEST_M:g} m"
     if light.axis_C is not None and (not np.isfinite(light.axis_C).all() or not np.any(light.axis_C)):
-        return "an emission axis that is none"
-    lobe = light.lobe
-    if lobe.kind not in {*FORMULAS, *TABLED} or not 0 <= lobe.exponent <= SHARPEST:
-        return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}"
+        return "an emission axis that is none", "three numbers, not all zero"
+    return _wrong_lobe(light.lobe)
+
+
+def _wrong_lobe(lobe: Lobe) -> tuple[str, str]:
+    """What is wrong with a lobe, and what it should be, in words; empty where nothing is."""
+    known = sorted({*FORMULAS, *TABLED})
+    if lobe.kind not in known:
+        return f"a lobe of kind {lobe.kind!r}", f"one of {', '.join(known)}"
+    if not 0 <= lobe.exponent <= SHARPEST:
+        return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}", f"an exponent of 0 to {SHARPEST:g}"
     if len(lobe.value) != len(lobe.angle_rad) or np.any(np.diff(lobe.angle_rad) <= 0) or (lobe.kind in TABLED and len(lobe.value) < 2):
-        return "a lobe whose angles do not grow, or with unlike numbers of angles and values"
-    return ""
+        return "a lobe whose angles do not grow, or with unlike numbers of angles and values", "two or more angles that grow, a value each"
+    if not np.isfinite(lobe.value).all() or np.any(lobe.value < 0):
+        return "a lobe with a value that is negative or no number", "values of 0 and more"
+    if lobe.kind == "table" and lobe.angle_rad[0] == 0 and abs(lobe.value[0] - 1) > ON_AXIS:
+        return f"a lobe of {lobe.value[0]:g} on its axis", "1 on the axis: how strong a light is stands in its intensity"
+    return "", ""
 
 
 def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Array | None = None) -> Calibration:
