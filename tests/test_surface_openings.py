@@ -60,6 +60,16 @@ def test_a_wall_that_is_seen_through_a_hole_is_no_object():
     assert (found & ~HOLE).sum() < 0.1 * HOLE.sum()
 
 
+def test_what_no_lamp_reaches_is_an_opening_where_the_same_is_seen_around_the_object():
+    maps, disc = pictures(0.45, 0.08, HOLE)
+    dim = np.where(disc & ~HOLE, 1.0, 0.02).astype(np.float32)
+    found = openings(Grey(maps.signal * dim, maps.sigma, maps.usable), rays(), LIGHTS, disc, [])
+    assert (found & HOLE).sum() > 0.85 * HOLE.sum()
+    assert (found & ~HOLE).sum() < 0.1 * HOLE.sum()
+    inside = np.where(HOLE, 0.02, 1.0).astype(np.float32)  # the same, but all around it is lit: a part of the object in shadow
+    assert not openings(Grey(maps.signal * inside, maps.sigma, maps.usable), rays(), LIGHTS, disc, []).any()
+
+
 def test_a_dome_that_rises_out_of_the_wall_stays(monkeypatch: pytest.MonkeyPatch):
     """Its middle lies and faces as the wall does, but nothing steps at the middle's rim."""
     maps, disc = pictures(WALL_M + 0.395, 0.40)

@@ -1,4 +1,4 @@
-"""Background that is seen through an object, which the labels of coarse pixels lose where it is small and half in shadow.
+"""Background that is seen through an object, which the labels of coarse pixels lose where it is small and half in shadow, or dim.
 
 A pixel of the mask may show a plane of the background where its samples fit the plane, with an albedo like that of the plane elsewhere.
 So may a pixel of the object that happens to face as the plane does; but the object goes on smoothly beside it, while at the rim of an
@@ -11,11 +11,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import planes
 from lpcal.surface.coarse import coarse_of, factor_of
-from lpcal.surface.sight import Grey, look_at
+from lpcal.surface.sight import Grey, look_at, strength
 
 PIXELS = 200_000
 """Pixels of the image in which openings are looked for, at most: finer ones show no more of them."""
@@ -25,6 +25,8 @@ APART = 4
 """Pixels from the mask from which a plane shows itself alone."""
 ALIKE = 0.5
 """Difference of the logarithms of albedos under which a pixel may show the plane."""
+DIM, DIM_AROUND = 0.1, 0.2
+"""Share of the object's median strength under which a pixel is dim, and share of the picture around it that must be so."""
 SMALLEST = 0.004
 """Share of the mask under which an opening is left as it is."""
 INSIDE, OUTSIDE = (2.0, 4.0), (3.0, 5.0)
@@ -43,8 +45,9 @@ def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, fou
     rows, columns = image.shape
     inside = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3)) > 0.5
     shown = np.zeros(inside.shape, bool)
-    for plane in found:
-        label, count = ndimage.label(_like(image.maps, image.image(image.rays_C), lights, inside, plane))
+    like = [_like(image.maps, image.image(image.rays_C), lights, inside, plane) for plane in found]
+    for candidates in (*like, _dim(strength(image.maps), inside)):
+        label, count = ndimage.label(candidates)
         for one in range(1, count + 1):
             region = label == one
             if region.sum() >= SMALLEST * inside.sum() and _step(image.image(image.signal.T), region, inside) > STEP:
@@ -70,6 +73,16 @@ def _like(maps: Grey, rays_C: Array, lights: Sequence[Light], inside: Mask, plan
     ratio = np.log(np.maximum(_albedo(seen.signal, m), 1e-12) / max(common, 1e-12))
     found[inside] = (count >= 2) & (square < planes.TRUSTED**2) & (np.abs(ratio) < ALIKE)
     return np.asarray(ndimage.binary_opening(ndimage.binary_closing(found) & inside, iterations=2))
+
+
+def _dim(level: Image, inside: Mask) -> Mask:
+    """Pixels (H, W) of the mask that are as dim as what no lamp reaches around it; none where all is lit."""
+    from scipy import ndimage
+
+    dim = level < DIM * np.median(level[inside])
+    if np.mean(dim[~inside]) < DIM_AROUND:
+        return np.zeros(inside.shape, bool)
+    return np.asarray(ndimage.binary_opening(ndimage.binary_closing(dim & inside) & inside, iterations=2))
 
 
 def _albedo(signal: Array, m: Array) -> Array:
