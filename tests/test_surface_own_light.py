@@ -259,8 +259,8 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
     for _ in range(3):
         by = bounce.thrown(seen, depth, replace(plain, b=found.b), n, [HIGH] * 6, around)
         begin = replace(lit, thrown=reflects.per_unit * by.J(reflects.sides, reflects.beyond))
-        told = bounce.Told(reflects.strengths, *field.told(seen, grid, begin, hidden, found, by.parts))
-        reflects = bounce.reflectance(seen, by, found.b, dark, told)
+        evidence = bounce.LitEvidence(reflects.strengths, *field.strengths_seen(seen, grid, begin, hidden, found, by.parts))
+        reflects = bounce.reflectance(seen, by, found.b, dark, evidence)
         thrown = reflects.per_unit * by.J(reflects.sides, reflects.beyond)
         found = field.solve(seen, grid, replace(lit, thrown=thrown), hidden, found)
     assert abs(reflects.median - reflectance) < 0.12

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 
-from lpcal.errors import InputError, UsageError
+from lpcal.errors import UsageError
+from lpcal.formats.installed import installed
 from lpcal.records.calibration import Calibration
 from lpcal.records.exchange import ExchangeContent, Part
 
@@ -85,23 +84,12 @@ def known_formats() -> dict[str, ExchangeFormat]:
     """
     from lpcal.formats.exchange_own import OWN
 
-    return {one.name: one for one in (*OWN, *installed())} | ADDED
+    return {one.name: one for one in (*OWN, *of_packages())} | ADDED
 
 
-@cache
-def installed() -> tuple[ExchangeFormat, ...]:
+def of_packages() -> tuple[ExchangeFormat, ...]:
     """The formats of installed packages."""
-    found = []
-    for point in entry_points(group=GROUP):
-        where = f"entry point {point.name} of {point.dist.name if point.dist else 'a package'}"
-        try:
-            one = point.load()
-        except Exception as error:
-            raise InputError(f"cannot be loaded: {error}", where=where, needed="an ExchangeFormat", todo="mend or uninstall it") from error
-        if not isinstance(one, ExchangeFormat):
-            raise InputError(f"is a {type(one).__name__}", where=where, needed="an ExchangeFormat", todo="mend or uninstall it")
-        found.append(one)
-    return tuple(found)
+    return installed(GROUP, ExchangeFormat, "an ExchangeFormat")
 
 
 def formats_of(names: list[str]) -> list[ExchangeFormat]:

@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -60,12 +61,12 @@ def taken_at(data: bytes) -> TakenAt | None:
     return None if time is None else TakenAt(time, _positive(stored.get(ISO)), _positive(stored.get(F_NUMBER)))
 
 
-def _positive(value: object) -> float | None:
+def _positive(value: Any) -> float | None:
     """A tag as a number above zero."""
     if isinstance(value, tuple):
         value = value[0] if value else None
     try:
-        number = float(value)  # type: ignore[arg-type]
+        number = float(value)
     except (TypeError, ValueError, ZeroDivisionError):
         return None
     return number if np.isfinite(number) and number > 0 else None

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from lpcal.formats.camera_colmap import is_colmap
-from lpcal.formats.exchange import ADDED, installed, known_formats
+from lpcal.formats.exchange import ADDED, known_formats, of_packages
 from lpcal.formats.export_cameras import read_camera_alone
 from lpcal.formats.import_lights import Imported, import_lights
 from lpcal.formats.reading import reading
@@ -53,7 +53,7 @@ def import_other(path: Path, vectors: str | None = None) -> Imported:
     DisagreementError
         Parts of it contradict each other.
     """
-    added = {one.name for one in (*installed(), *ADDED.values())}
+    added = {one.name for one in (*of_packages(), *ADDED.values())}
     for one in sorted(known_formats().values(), key=lambda each: each.name not in added):
         if one.read is None or one.recognise is None or (one.name in LIGHTS_ALONE and one.name not in added):
             continue

@@ -8,7 +8,7 @@ from pathlib import Path
 from lpcal.errors import InputError
 from lpcal.formats import mocap_c3d, mocap_generic, mocap_motive, mocap_qualisys, mocap_ros, mocap_trc, mocap_tum, mocap_vicon
 from lpcal.formats.marker_table import MarkerTable, markers_of
-from lpcal.formats.mocap_added import MocapFormat, format_of, installed
+from lpcal.formats.mocap_added import MocapFormat, format_of, of_packages
 from lpcal.formats.pose_table import PoseTable, stream_of
 from lpcal.formats.reading import reader, reading
 from lpcal.formats.text import decimal_points, read_text, with_commas
@@ -41,7 +41,7 @@ def read_mocap(
     DegenerateError
         It holds no pose.
     """
-    installed()  # before the memory is bounded: what packages load is not what the file asks for
+    of_packages()  # before the memory is bounded: what packages load is not what the file asks for
     return _read(path, body, quaternion, units, direction)
 
 

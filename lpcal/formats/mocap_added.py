@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 
 from lpcal.errors import InputError
+from lpcal.formats.installed import installed
 from lpcal.records.observations import MarkerStream, PoseStream
 
 GROUP = "lpcal.mocap"
@@ -57,23 +56,12 @@ def added_formats() -> Iterator[MocapFormat]:
         An installed package names what is no format.
     """
     yield from reversed(ADDED.values())
-    yield from (one for one in installed() if one.name not in ADDED)
+    yield from (one for one in of_packages() if one.name not in ADDED)
 
 
-@cache
-def installed() -> tuple[MocapFormat, ...]:
+def of_packages() -> tuple[MocapFormat, ...]:
     """The formats of installed packages."""
-    found = []
-    for point in entry_points(group=GROUP):
-        where = f"entry point {point.name} of {point.dist.name if point.dist else 'a package'}"
-        try:
-            one = point.load()
-        except Exception as error:
-            raise InputError(f"cannot be loaded: {error}", where=where, needed="a MocapFormat", todo="mend or uninstall it") from error
-        if not isinstance(one, MocapFormat):
-            raise InputError(f"is a {type(one).__name__}", where=where, needed="a MocapFormat", todo="mend or uninstall it")
-        found.append(one)
-    return tuple(found)
+    return installed(GROUP, MocapFormat, "a MocapFormat")
 
 
 def format_of(head: bytes, path: Path) -> MocapFormat | None:

@@ -8,9 +8,9 @@ p to j at the distance r. A patch of reflectance a emits its signal, so point p 
 with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
-camera does not see are guessed (surface.sides). s, and what shares of the guessed are there, are told by the samples in shadow, which
-show nothing but thrown light, and by what lit samples and the smoothness of the surface say together (surface.field): posterior means over
-a grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
+camera does not see are guessed (surface.sides). s, and the shares of what is guessed, are estimated from the samples in shadow, which show
+interreflected light alone, and from the lit samples together with the smoothness of the surface (surface.field): posterior means over a
+grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
 Greenberg 1985 (form factors).
 """
 
@@ -151,8 +151,8 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
 
 
 @dataclass(frozen=True)
-class Told:
-    """What lit samples and the smoothness of the surface tell of the strengths x (3,) of the three parts of J: a quadratic cost."""
+class LitEvidence:
+    """Evidence of lit samples and of the surface's smoothness for the strengths x (3,) of the three parts of J: a quadratic cost."""
 
     x0: Array
     """The strengths at which the next two hold."""
@@ -169,12 +169,12 @@ class Told:
         return np.asarray(np.einsum("ni,ij,nj->n", off, np.linalg.inv(np.linalg.inv(curvature) + doubt**2 * np.eye(3)), off))
 
 
-def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, told: Told | None = None) -> Reflectance:
-    """The reflectance that the shadows show, and what lit samples tell of it.
+def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
+    """The reflectance by the samples in shadow, and by the evidence of the lit ones.
 
     `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is thrown, ``s J_k . b``. A lit sample by
     itself says next to nothing, since b takes up most of what is thrown on it; together with its neighbours in other lights it does, which
-    is what `told` holds. What is found are posterior means: where both say little the place of the least cost would jump.
+    is what `lit` holds. What is found are posterior means: where both say little the place of the least cost would jump.
     """
     albedo = np.linalg.norm(b, axis=1)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
@@ -196,8 +196,8 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, told: Told | None
     possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing throws on more than it gets
     trials = np.array(list(product(possible, SHARES, SHARES)))
     costs = np.array([cost(*trial) for trial in trials])
-    if told is not None:
-        costs += told.cost(trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]]))
+    if lit is not None:
+        costs += lit.cost(trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]]))
     odds = np.exp(-(costs - costs.min()) / 2)
     one, sides, beyond = np.average(trials * np.stack([np.ones(len(trials)), trials[:, 0], trials[:, 0]], axis=1), axis=0, weights=odds)
     return Reflectance(float(one), float(one / middle), float(sides / max(one, 1e-9)), float(beyond / max(one, 1e-9)))

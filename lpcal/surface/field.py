@@ -245,8 +245,8 @@ class _System:
         return np.asarray(found.reshape(-1, 3))
 
 
-def told(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]) -> tuple[Array, Array]:
-    """What lit samples and the field's smoothness tell of how strong parts of the light are, each an array of light vectors (L, P, 3).
+def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]) -> tuple[Array, Array]:
+    """Evidence of lit samples and of the field's smoothness for how strong parts of the light are, each of light vectors (L, P, 3).
 
     With b taken out (Schur complement of the normal equations) the energy at strengths x more than those in `lit` is the quadratic
     ``x . curvature x - 2 slope . x``: curvature (N, N) and slope (N,) are returned. Where a shadow ends on a smooth surface, or few lights

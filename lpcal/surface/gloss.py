@@ -40,6 +40,8 @@ MATTE = 0.5
 """Share of objects taken to have no gloss."""
 FAINT = 0.01
 """Odds of a gloss under which none is taken off."""
+UNLIKELY = 1e-6
+"""Odds, as a share of the greatest, under which a strength and roughness are left out of the means."""
 NEIGHBOURS = 25.0
 """How many samples are worth one: what the model lacks they have in common with those around."""
 STEEPEST = 0.05
@@ -118,13 +120,12 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     ks = F0 * np.pi / per_unit
     plain = _unexplained(residual, np.zeros_like(residual), weight, spread2, lit.B)[0]
     matte = _cost(plain, weight, spread2)
-    cost, misfit = np.empty((2, len(ROUGHNESSES), len(ks)))
+    cost, left_and_own = np.empty((len(ROUGHNESSES), len(ks))), []
     for row, roughness in enumerate(ROUGHNESSES):
         shape = lit.E * lobe(lit.d, n, v, roughness)
         left, own = _unexplained(residual, shape, weight, spread2, lit.B)
-        for column, one in enumerate(ks):
-            cost[row, column] = _cost(left - one * own, weight, spread2 + (DOUBT * one * own) ** 2)
-            misfit[row, column] = _misfit(left - one * own, weight, spread2)
+        left_and_own.append((left, own))
+        cost[row] = [_cost(left - one * own, weight, spread2 + (DOUBT * one * own) ** 2) for one in ks]
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
     prior = (1 - MATTE) * ((1 - METAL) * common / common.sum() + METAL / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
@@ -133,10 +134,15 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     glossy = float(odds.sum() / (odds.sum() + MATTE * np.exp(-most)))
     if glossy < FAINT:
         return None
+    odds = np.where(odds > UNLIKELY * odds.max(), odds, 0.0)
     odds = odds / odds.sum()
     strength = glossy * float(np.exp(np.sum(odds * np.log(ks))))
     width = float(np.exp(np.sum(odds * np.log(ROUGHNESSES)[:, None])))
-    return Gloss(strength, width, float(np.sum(odds * misfit)) / max(_misfit(plain, weight, spread2), 1e-12))
+    misfit = 0.0
+    for row, column in zip(*np.nonzero(odds), strict=True):
+        left, own = left_and_own[row]
+        misfit += float(odds[row, column]) * _misfit(left - ks[column] * own, weight, spread2)
+    return Gloss(strength, width, misfit / max(_misfit(plain, weight, spread2), 1e-12))
 
 
 def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B: Array) -> tuple[Array, Array]:

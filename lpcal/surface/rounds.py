@@ -27,9 +27,9 @@ from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Around
 
 ROUNDS = 9
-"""At most: two for the depth, the others for what hangs on it."""
+"""Rounds at most: two settle the depth, the others what depends on it."""
 SETTLED = 2e-4
-"""Median change of log depth in a round under which it was the last: a tenth of the least standard deviations that are stated."""
+"""Median change of log depth under which a round is the last: a thirtieth of the least relative standard deviation of a distance."""
 GLOSS_ROUND = 1
 """From which on a gloss is looked for: at a false depth a lobe can fit by chance."""
 SHAPE_ROUND = 2
@@ -38,7 +38,7 @@ SHADOW_STEPS = 64
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
 SLANTED = 0.1
-"""Least cosine by which it is told what a light unhindered would give: a shadow may have turned the normals away from the light."""
+"""Least cosine in the prediction of an unhindered light's signal: a shadow may have turned the normals away from the light."""
 FEWEST_PIXELS = 50
 
 
@@ -58,7 +58,7 @@ class State:
     field: Field
     """The field of the normals, with the gloss of the object."""
     reflects: bounce.Reflectance | None = None
-    """By the light that its parts throw on each other; None where that was not asked."""
+    """The reflectance that interreflection shows, and the shares of what is guessed of it; None before it is looked for."""
     anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
 
@@ -178,8 +178,8 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
     dark = bounce.in_shadow(seen, lit, before.normals, by_object)
     first = before.reflects or bounce.reflectance(seen, by, before.field.b, dark)
     begin = replace(lit, thrown=first.per_unit * by.J(first.sides, first.beyond))
-    told = bounce.Told(first.strengths, *field.told(seen, scene.grid, begin, hidden, before.field, by.parts))
-    found = bounce.reflectance(seen, by, before.field.b, dark, told)
+    evidence = bounce.LitEvidence(first.strengths, *field.strengths_seen(seen, scene.grid, begin, hidden, before.field, by.parts))
+    found = bounce.reflectance(seen, by, before.field.b, dark, evidence)
     return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 

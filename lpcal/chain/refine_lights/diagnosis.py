@@ -231,7 +231,9 @@ def _miss_px(measured: CentreMeasurement, radius_m: float, source_C: Array, seen
 def _gates(px: float | None, gate_px: float, shading: float | None) -> list[str]:
     told = []
     if px is not None and px > gate_px:
-        told.append(f"the highlights of a sphere held out are predicted to {px:.2f} px only, where {gate_px:.2f} is the gate")
+        told.append(f"the other spheres predict the highlights of one held out to {px:.2f} px only, {gate_px:.2f} is the limit")
     if shading is not None and shading > GATE_SHADING:
-        told.append(f"the shading of a sphere held out is predicted to {100 * shading:.1f} % only, where {100 * GATE_SHADING} is the gate")
+        told.append(
+            f"the other spheres predict the shading of one held out to {100 * shading:.1f} % only, {100 * GATE_SHADING:g} is the limit"
+        )
     return told
