@@ -21,7 +21,7 @@ bench-check:      ## speed and memory beside the committed table, docs/benchmark
 	uv run python tools/bench_speed.py --check
 
 docs:             ## the README's tour, run and compared
-	uv run pytest tests/test_readme.py -m "slow or not slow"
+	uv run pytest tests/house/test_readme.py -m "slow or not slow"
 
 demo:             ## the whole chain on the bundled rig, into out/demo
 	uv run lpcal demo out/demo

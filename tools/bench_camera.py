@@ -25,7 +25,7 @@ import cv2
 import numpy as np
 import yaml
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "support"))
 
 from board_pictures import LENS, K, Pattern, Studio, exposed, poses
 from board_sheets import BOARDLESS, seen, sheet

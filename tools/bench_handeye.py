@@ -10,7 +10,7 @@ A scenario a row, trial n from the seed n: rms error of H_PC over the trials, de
 - lpcal, and the bound: the covariance of the likelihood at the truth with the true noise.
 
 NEES is 6 where a covariance is honest: of lpcal, which estimates the noise, and of the likelihood given the true noise; behind them the
-95 % band of a mean over so many trials. The scenes are those of tests/handeye_scene.py.
+95 % band of a mean over so many trials. The scenes are those of tests/support/handeye_scene.py.
 
 ``python tools/bench_handeye.py robot [TRIALS]``: a robot whose poses are off by a smooth function of the pose, as joint offsets and link
 lengths make them, on top of the white noise: errors of lpcal, of Park's closed form, and of a robust fit of every pose's misplacement in
@@ -33,7 +33,7 @@ from pathlib import Path
 import numpy as np
 import scipy.optimize
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "support"))
 
 from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, Session, moving_session, robot_session, static_session, stop_and_shoot
 from lpcal.chain.h_op_panel import track_of

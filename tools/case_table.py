@@ -2,7 +2,7 @@
 
 Each record of `CASES` is one case of the cases' folder (beside the folder of ``LPCAL_DATA``, or DIR): the folder that is copied, what is
 edited in the copy, the commands, the exit code that is right of the last one, and what is right to be said by then: words (a regular
-expression), or a figure that is read from what was written and its bounds. Case 31 has a test of its own (tests/test_documents.py).
+expression), or a figure that is read from what was written and its bounds. Case 31 has a test of its own (tests/formats/test_documents.py).
 
 A row each: case, commands, exit code, seconds of processor, what was said or measured, right or not. Exit code 1 where one is not right.
 """

@@ -10,7 +10,7 @@ import pytest
 
 import frame_letters
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 
 MISTAKES = {
     "chain": ("H_AC = H_AB @ H_CB", "H_AB @ H_B?"),

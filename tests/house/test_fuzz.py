@@ -9,7 +9,7 @@ from types import ModuleType
 
 import pytest
 
-TOOLS = Path(__file__).resolve().parent.parent / "tools"
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
 CASES = 300
 """Cases of the fixed part: about six a format; `tools/fuzz.py` runs as many as it is told to."""
 

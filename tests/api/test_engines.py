@@ -48,8 +48,8 @@ def test_slurms_jobs_without_slurm_give_the_bytes_of_the_loop(lpcal, captures, t
 
 def started(*words: str) -> subprocess.Popen[str]:
     """A program of dask's that finds this module too."""
-    here = Path(__file__).resolve().parent
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(here), str(here.parent / "tools")])}
+    repository = Path(__file__).resolve().parents[2]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(repository), str(repository / "tools")])}
     command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment)
 

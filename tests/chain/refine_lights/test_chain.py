@@ -31,7 +31,7 @@ from lpcal.records.observations import SphereView
 from lpcal.records.outcome import silent
 from lpcal.surface.bands import cores
 
-RIG = Path(__file__).resolve().parent.parent / "calib_data" / "demo_rig"
+RIG = Path(__file__).resolve().parents[3] / "calib_data" / "demo_rig"
 Run = Callable[..., tuple[int, str, str]]
 
 

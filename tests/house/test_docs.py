@@ -12,7 +12,7 @@ import pytest
 
 import lpcal
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
 
@@ -53,7 +53,7 @@ def test_messages_on_the_page_are_those_of_the_code() -> None:
 
 def test_tests_on_the_page_are_there() -> None:
     named = re.findall(r"`(test_\w+)`", (DOCS / "uncertainty.md").read_text(encoding="utf-8"))
-    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "tests").glob("test_*.py"))
+    source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "tests").rglob("test_*.py"))
     assert len(named) > 10
     assert [one for one in named if f"def {one}(" not in source] == []
 

@@ -18,7 +18,7 @@ from lpcal.simulate.built import Built, build
 from lpcal.simulate.captures import SphereTruth, Studio
 from lpcal.simulate.recipe import Recipe
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 RIG = REPOSITORY / "calib_data" / "demo_rig"
 LIGHTS = [f"L{k}" for k in range(6)]
 WINGS = "panel: {{disc_radius: 60 mm, joint: 15 mm, blob: 30 mm{camera}}}\nlights:\n" + "".join(

@@ -13,7 +13,7 @@ import yaml
 from many_captures import collection
 from queue_of_captures import Site, play
 
-RECIPES = Path(__file__).resolve().parent.parent / "examples" / "recipes"
+RECIPES = Path(__file__).resolve().parents[2] / "examples" / "recipes"
 
 
 def run_array(folder: Path, index: int, count: int) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-STATIONS = Path(__file__).resolve().parent.parent / "calib_data" / "demo_rig" / "stations"
+STATIONS = Path(__file__).resolve().parents[2] / "calib_data" / "demo_rig" / "stations"
 
 
 @pytest.mark.slow

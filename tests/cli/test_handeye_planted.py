@@ -1,6 +1,6 @@
 """What people do wrong: refused, repaired or warned of, by ``lpcal check`` and by ``lpcal handeye`` alike.
 
-``python tests/test_handeye_planted.py`` prints the table: mistake, exit codes, the message's first line.
+``PYTHONPATH=tests/support python tests/cli/test_handeye_planted.py`` prints the table: mistake, exit codes, the message's first line.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.chain.h_pc_handeye.ends import with_turned
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
+from mocap_files import motive
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 
@@ -72,8 +73,6 @@ def empty_stream(folder: Path, text: str = "") -> None:
 
 def motive_rig(folder: Path, body: str | None, *, lost: float = 0.0) -> Session:
     """A rig whose recording is Motive's, of two bodies, with image times."""
-    from test_mocap_formats import motive
-
     session, _ = stop_and_shoot(np.random.default_rng(3), 20)
     image_rig(folder, session)
     gone = set(np.flatnonzero(np.random.default_rng(4).random(len(session.stream.t_s)) < lost).tolist())

@@ -1,6 +1,6 @@
 """What is wrong with a rig's lights and spheres, planted one at a time: each is named.
 
-``python tests/test_lights_diagnosis.py`` prints the table: mistake, exit code, first line; those of test_lights_bad_input too.
+``PYTHONPATH=tests/support python tests/cli/test_lights_diagnosis.py`` prints the table: mistake, exit code, first line.
 """
 
 from __future__ import annotations
@@ -166,10 +166,8 @@ def _table() -> None:
     import tempfile
 
     from lpcal.cli.main import main
-    from test_lights_bad_input import REFUSED, TOLD
 
-    plants = {name: case.plant for name, case in PLANTED.items()} | {name: case[0] for name, case in (REFUSED | TOLD).items()}
-    for name, plant in plants.items():
+    for name, plant in ((name, case.plant) for name, case in PLANTED.items()):
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             plant(Path(folder))
             out, err = io.StringIO(), io.StringIO()
