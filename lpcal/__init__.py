@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from lpcal.api.lights import light_field as light_field
     from lpcal.api.many import reconstruct_many as reconstruct_many
     from lpcal.api.mocap_formats import register_mocap as register_mocap
+    from lpcal.api.placement import place as place
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
     from lpcal.api.spheres import refine_lights as refine_lights
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from lpcal.records.calibration import Wing as Wing
     from lpcal.records.observations import Board as Board
     from lpcal.records.observations import PoseStream as PoseStream
+    from lpcal.records.placement import Placement as Placement
     from lpcal.records.sensor import StatedSensor as StatedSensor
     from lpcal.records.surface import Surface as Surface
 
@@ -78,6 +80,7 @@ _HOME = {
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.many": ("reconstruct_many",),
     "api.mocap_formats": ("register_mocap",),
+    "api.placement": ("place",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
     "api.studies": ("study",),
@@ -86,6 +89,7 @@ _HOME = {
     "formats.exchange": ("ExchangeFormat",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),
+    "records.placement": ("Placement",),
     "records.sensor": ("StatedSensor",),
     "records.surface": ("Surface",),
 }

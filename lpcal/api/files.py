@@ -341,7 +341,9 @@ def write_camera(path: PathLike, camera: Camera | CameraSolution) -> None:
     camera_yaml.write_camera(place, solution, Provenance())
 
 
-def write_surface(folder: PathLike, surface: Surface, calibration: Calibration | None = None) -> None:
+def write_surface(
+    folder: PathLike, surface: Surface, calibration: Calibration | None = None, *, mesh_frame: Literal["camera", "placed"] = "camera"
+) -> None:
     """Write a surface: maps, images, meshes and summary.json, as `lpcal reconstruct` does.
 
     Parameters
@@ -352,6 +354,8 @@ def write_surface(folder: PathLike, surface: Surface, calibration: Calibration |
         What `reconstruct` or `integrate` gives.
     calibration : Calibration, optional
         The lights, for the relighting page; without it there is none.
+    mesh_frame : {"camera", "placed"}
+        Whether the meshes are in C, or where the surface's placement puts it: in the room, or in the body that the object rides on.
 
     Raises
     ------
@@ -370,4 +374,5 @@ def write_surface(folder: PathLike, surface: Surface, calibration: Calibration |
         write_surface_zarr(Path(folder), surface)
         return
     page = None if calibration is None else render(surface, calibration)
-    surface_files.write_surface(Path(folder), surface, build(surface), surface_files.summary_of(surface), page)
+    summary, placed = surface_files.summary_of(surface), mesh_frame == "placed" and surface.placement is not None
+    surface_files.write_surface(Path(folder), surface, build(surface), summary, page, placed_mesh=placed)

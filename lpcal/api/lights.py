@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.api.tracking import tracking_of
 from lpcal.chain.h_pl_wings import design_lights as wings_of
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records import given
-from lpcal.records.calibration import Calibration, Camera, Light, LightsSolution, Wing, Wings
+from lpcal.records.calibration import Calibration, Camera, HandEye, Light, LightsSolution, Wing, Wings
 from lpcal.records.light_field import LightField
 from lpcal.records.rig import LightSection, PanelSection, Rig, RigFile, Tolerance
 from lpcal.records.sensor import StatedSensor
@@ -112,7 +113,7 @@ def assemble_calibration(
     lights: LightsSolution | Wings,
     camera: Camera | None = None,
     *,
-    H_PC: npt.ArrayLike | None = None,
+    H_PC: npt.ArrayLike | HandEye | None = None,
     intensity_std: float = INTENSITY_STD,
     sensor: StatedSensor | None = None,
     name: str = "rig",
@@ -125,8 +126,8 @@ def assemble_calibration(
         The lights as refined, or as designed.
     camera : Camera, optional
         The camera; where the lights were refined jointly with it, that one counts. Without it images are orthographic.
-    H_PC : ndarray (4, 4), optional
-        The camera in the tracked body, metres, of `solve_handeye`.
+    H_PC : HandEye, or ndarray (4, 4), optional
+        What `solve_handeye` found; or the camera in the tracked body, metres, alone.
     intensity_std : float
         Relative standard deviation of an intensity that nobody measured.
     sensor : StatedSensor, optional
@@ -154,7 +155,9 @@ def assemble_calibration(
     if isinstance(lights, Wings):
         lights = as_designed(lights, [wing.name for wing in lights.wings], intensity_std)
     camera = lights.camera or camera
-    place = None if H_PC is None else given.transforms(np.asarray(H_PC)[None], "H_PC")[0]
+    handeye = H_PC if isinstance(H_PC, HandEye) else None
+    matrix = H_PC.H_PC if isinstance(H_PC, HandEye) else H_PC
+    place = None if matrix is None else given.transforms(np.asarray(matrix)[None], "H_PC")[0]
     return Calibration(
         name=name,
         lights=lights.lights,
@@ -164,6 +167,8 @@ def assemble_calibration(
         focus_C=lights.focus_C if camera is not None else None,
         sensor=StatedSensor() if camera is not None or sensor is None else sensor,
         warnings=lights.warnings,
+        carries="camera" if handeye is None else handeye.carries,
+        tracking=None if handeye is None else tracking_of(handeye, lights),
     )
 
 

@@ -36,6 +36,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
+from lpcal.records.placement import Placement
 from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.surface import convention
@@ -72,6 +73,7 @@ def reconstruct(
     exposure_s: npt.ArrayLike | None = None,
     ambient_exposure_s: npt.ArrayLike | None = None,
     sensor: StatedSensor | Statements = (),
+    placement: Placement | None = None,
     name: str = "capture",
     progress: Progress = silent,
 ) -> Surface:
@@ -110,6 +112,8 @@ def reconstruct(
     sensor : StatedSensor, or sequence of (str, StatedSensor)
         What is known of the sensor (gamma, black and white level, flat field) for these images; it counts before what the capture and the
         calibration say. A sequence stands for all that is said, by who says it.
+    placement : Placement, optional
+        Where it was taken, of `place`; the surface bears it.
     name : str
         What the capture is called in messages, where `images` is an array.
     progress : callable, optional
@@ -162,12 +166,12 @@ def reconstruct(
     calibration = calibration.of_images(raw.size)
     saying = _saying(sensor, raw, calibration)
     if raw.full is None:
-        return _reconstructed(raw, calibration, asked, saying, progress)
+        return replace(_reconstructed(raw, calibration, asked, saying, progress), placement=placement)
 
     def solve(fewer: RawCapture, coarse: Calibration, of_fewer: Asked, kept: list[solver.Solved]) -> Surface:
         return _reconstructed(fewer, coarse, of_fewer, saying, progress, kept)
 
-    return in_full_size(raw, raw.full, calibration, asked, solve, progress)
+    return replace(in_full_size(raw, raw.full, calibration, asked, solve, progress), placement=placement)
 
 
 def _reconstructed(

@@ -34,6 +34,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
     parser.add_argument("--white-level", metavar="SHARE", help="the stored number at which the sensor saturates, of full scale")
     parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
+    parser.add_argument(
+        "--mesh-frame",
+        choices=("camera", "placed"),
+        default="camera",
+        help="meshes in the camera's frame, or where capture.yaml places them: in the room, or in the body that the object rides on",
+    )
     parser.add_argument("--outputs", metavar="WORDS", help="which files beside summary.json, such as normals,depth,ply (default: all)")
     parser.add_argument("--no-pages", action="store_true", help="no relight.html")
     parser.add_argument(
@@ -66,6 +72,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
         outputs=_outputs(options.outputs, pages=not options.no_pages),
         jobs=_jobs(options.jobs),
+        placed_mesh=options.mesh_frame == "placed",
     )
     if not options.captures:
         rig: Workspace | None = open_workspace(options)

@@ -3,7 +3,8 @@
 Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
 see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
-or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. A lobe is one of
+or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. ``tracking`` says
+how well it, the clocks and the tracked poses are known (`records.placement.Tracking`), which places captures in the room. A lobe is one of
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `geometry.light_field.FORMULAS`
@@ -28,14 +29,16 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
-from lpcal.formats.document_numbers import rigid, sigma
+from lpcal.formats.document_numbers import covariance, rigid, sigma
 from lpcal.formats.documents import read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
 from lpcal.formats.reading import reader
+from lpcal.formats.record_documents import document_of, record_of
 from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_document
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import NAMES, Calibration, Camera, Carries, LedCluster, Light, Lobe
+from lpcal.records.placement import Tracking
 from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 
@@ -51,6 +54,7 @@ def write_calibration(path: Path, calibration: Calibration, provenance: Provenan
         body["camera"] = sensor_document(calibration.sensor)
     if calibration.H_PC is not None:
         body[NAMES[calibration.carries][0]] = calibration.H_PC
+        body |= {} if calibration.tracking is None else {"tracking": document_of(calibration.tracking)}
     body |= {
         "d_object_m": calibration.d_object_m,
         "focus_m": calibration.focus_C,
@@ -85,6 +89,7 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
         carries: Carries = "board" if "H_OC" in document else "camera"
         H_PC = rigid(document, NAMES[carries][0]) if document.get(NAMES[carries][0]) else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
+        tracking = _tracking(document)
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
             f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it anew with lpcal export"
@@ -93,10 +98,19 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
     if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
         raise InputError(f"d_object_m: {distance_m}", where=str(path), needed="metres above zero", todo="correct it, or write null")
     found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C, sensor, carries=carries)
+    found = replace(found, tracking=tracking)
     alone = document["lights"] == [] and focus_C is None and distance_m is None
     if alone and (camera is not None or H_PC is not None):
         return found
     return sane_lights(found, str(path))
+
+
+def _tracking(document: dict[str, Any]) -> Tracking | None:
+    """What is known of the tracking, where the file says it."""
+    entry = document.get("tracking")
+    if not entry:
+        return None
+    return replace(record_of(Tracking, entry), H_PC_covariance=covariance(entry, "H_PC_covariance", 6))
 
 
 def _camera(entry: Any, path: Path) -> tuple[Camera | None, StatedSensor]:

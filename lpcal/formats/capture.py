@@ -18,6 +18,7 @@ from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_od
 from lpcal.formats.images import Numbers, read_image, read_numbers
 from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
+from lpcal.formats.placement_document import stated_place
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
@@ -80,6 +81,7 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         claim=claim,
         white_level=full.white_level,
         distance_m=section.distance,
+        place=stated_place(section, folder),
         notes=(*said, *more, *full.notes, *negatives(reader.least, full.divisor)),
     )
     return raw if found.sieve is None else full_size.settled(raw, found.sieve, full, mask)

@@ -1,7 +1,8 @@
 """The folder of a reconstructed surface, as in the contract: surface.npz, images, meshes, summary.json; whole or not there.
 
 ``normals_gl.png`` has x right, y up, z to the camera, each from -1..1 to 0..65535, black outside the mask. ``mesh.ply`` is in C;
-``mesh.glb`` has glTF's axes (y up, z to the viewer).
+``mesh.glb`` has glTF's axes (y up, z to the viewer). Of a capture that is placed both may be in the room's frame, or in that of the body
+that the object rides on, with the axes of that frame as the tracking has them.
 """
 
 from __future__ import annotations
@@ -19,10 +20,13 @@ from lpcal.errors import InputError
 from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import Kind, whole
+from lpcal.formats.placement_document import placement_document, placement_from_document
 from lpcal.formats.reading import reading
 from lpcal.formats.record_documents import document_of, record_of
+from lpcal.geometry import se3
 from lpcal.geometry.arrays import Image
 from lpcal.records.figures import SurfaceFigures
+from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface, SurfaceSummary
 from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
 
@@ -70,8 +74,12 @@ def write_surface(
     summary: Mapping[str, Any],
     page: str | None = None,
     outputs: Collection[str] = frozenset(OUTPUTS),
+    *,
+    placed_mesh: bool = False,
 ) -> None:
     """Write the files of a surface that `outputs` names, and summary.json; `page` is the relighting page, `mesh` what the meshes hold.
+
+    With `placed_mesh` the meshes of a surface that is placed are in the room, or in the body that the object rides on.
 
     Raises
     ------
@@ -90,7 +98,7 @@ def write_surface(
             )
         _write_images(draft, surface, outputs)
         if mesh is not None:
-            write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs)
+            write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs, surface.placement if placed_mesh else None)
         if page is not None and "page" in outputs:
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
@@ -111,6 +119,7 @@ def summary_of(surface: Surface) -> dict[str, Any]:
         "versions": {"lpcal": __version__},
         "sensor": None if surface.sensor is None else surface.sensor.document(),
         "notes": list(surface.warnings),
+        "placement": None if surface.placement is None else placement_document(surface.placement),
     }
 
 
@@ -127,12 +136,14 @@ def read_surface(folder: Path) -> Surface:
             maps = {name: stored[name] for name in (*MAPS, "layer", "rays", "breaks")}
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         components = tuple(_component(entry) for entry in summary["components"])
+        placement = placement_from_document(summary["placement"]) if summary.get("placement") else None
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(
             f"no whole surface ({error})", where=str(folder), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct"
         ) from error
     said = tuple(str(note) for note in summary.get("notes") or ())
-    return Surface(name=summary.get("name", folder.name), rays_C=maps.pop("rays"), components=components, warnings=said, **maps)
+    name, rays_C = summary.get("name", folder.name), maps.pop("rays")
+    return Surface(name=name, rays_C=rays_C, components=components, warnings=said, placement=placement, **maps)
 
 
 def read_summary(path: Path) -> SurfaceSummary:
@@ -219,17 +230,24 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str]) -> None:
-    """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks."""
+def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str], placement: Placement | None = None) -> None:
+    """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks.
+
+    With a placement both are in its frame.
+    """
     import trimesh
 
     def solid(turn: npt.NDArray[np.float32], **colours: Any) -> trimesh.Trimesh:
-        return trimesh.Trimesh(
-            vertices=mesh.vertices_C * turn, faces=mesh.faces, vertex_normals=mesh.normals_C * turn, process=False, **colours
-        )
+        vertices, normals = mesh.vertices_C * turn, mesh.normals_C * turn
+        if placement is not None:
+            vertices = se3.apply(placement.H_AC, mesh.vertices_C.astype(float))
+            normals = se3.rotate(placement.H_AC, mesh.normals_C.astype(float))
+        return trimesh.Trimesh(vertices=vertices, faces=mesh.faces, vertex_normals=normals, process=False, **colours)
 
     def finished(tree: dict[str, Any]) -> None:
         tree["asset"]["extras"] = {"frame": f"glTF's axes of C: x right, y up, z to the camera, {unit}", "origin": "the camera"}
+        if placement is not None:
+            tree["asset"]["extras"] = {"frame": f"{placement.frame}, its axes as the tracking has them, {unit}", "origin": placement.frame}
         tree["materials"] = [{"name": "matte", "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}]
         for part in tree["meshes"]:
             for primitive in part["primitives"]:
@@ -239,9 +257,15 @@ def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str]) -
     if "ply" in outputs:
         opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
         ply: bytes = solid(np.ones(3, np.float32), vertex_colors=opaque).export(file_type="ply", vertex_normal=True)
-        said = f"comment frame C: x right, y down, z forward, {unit}\nelement vertex".encode()
+        frame = "C: x right, y down, z forward" if placement is None else f"{placement.name[2]}: {_plain_words(placement.frame)}"
+        said = f"comment frame {frame}, {unit}\nelement vertex".encode()
         (draft / OUTPUTS["ply"]).write_bytes(ply.replace(b"element vertex", said, 1))
     if "glb" in outputs:
         linear = ((mesh.colours / 255) ** DISPLAY_GAMMA).astype(np.float32)
         glb = solid(GLTF_FROM_C, vertex_attributes={LINEAR: linear})
         (draft / OUTPUTS["glb"]).write_bytes(glb.export(file_type="glb", include_normals=True, tree_postprocessor=finished))
+
+
+def _plain_words(text: str) -> str:
+    """A text as a line of a PLY's head may hold it."""
+    return " ".join(text.encode("ascii", "replace").decode().split())

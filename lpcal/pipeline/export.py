@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from lpcal.api.lights import assemble_calibration
+from lpcal.api.tracking import tracking_of
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import KIND, write_calibration
@@ -69,13 +71,14 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     H_PC = None if handeye is None else handeye.H_PC
     if not lights_known(workspace):
         alone = Calibration(rig.name, (), camera, H_PC, carries="camera" if handeye is None else handeye.carries)
+        alone = alone if handeye is None else replace(alone, tracking=tracking_of(handeye))
         write_calibration(workspace.calib(FILE), alone, STAGE.provenance(workspace))
         progress("export", 1, 1)
         said = f"{workspace.relative(workspace.calib(FILE))}: {NAMES[alone.carries][0]}{' and the camera' if camera else ''}, no lights"
         return Outcome([said], {"file": str(workspace.calib(FILE))}, next_command="lpcal export --format all")
     solution = _lights(workspace)
     sensor = StatedSensor() if camera is not None else stated_in_panel(workspace)
-    calibration = assemble_calibration(solution, camera, H_PC=H_PC, sensor=sensor, name=rig.name)
+    calibration = assemble_calibration(solution, camera, H_PC=handeye, sensor=sensor, name=rig.name)
     write_calibration(workspace.calib(FILE), calibration, STAGE.provenance(workspace))
     progress("export", 1, 1)
     return Outcome(

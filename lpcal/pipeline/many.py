@@ -24,7 +24,7 @@ from lpcal.errors import InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.images import read_image
 from lpcal.formats.outputs import marked, refuse_place, write_text
-from lpcal.pipeline.reconstruct import MASK_WORDS, Task, Wishes, line_of, panel_of, reconstruct_one, refuse_targets, standing
+from lpcal.pipeline.reconstruct import MASK_WORDS, Task, Wishes, line_of, of_rig, reconstruct_one, refuse_targets, standing
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress, silent
@@ -123,7 +123,7 @@ def reconstruct_all(
     read_calibration(calibration_path).with_lights()  # once here: what is wrong with it is wrong with every capture
     if engine is not None and len(tasks) > 1:
         wishes = replace(wishes, jobs=1)  # a core a capture
-    jobs = [Job(task, calibration_path, replace(wishes, panel=panel_of(workspace, task, calibration_path)), anew) for task in tasks]
+    jobs = [Job(task, calibration_path, of_rig(wishes, workspace, task, calibration_path), anew) for task in tasks]
     done = _here(jobs, progress) if engine is None or len(jobs) == 1 else _there(jobs, engine, progress)
     if len(done) == 1 and done[0].error is not None:
         raise done[0].error

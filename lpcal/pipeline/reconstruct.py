@@ -28,11 +28,13 @@ from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import plain, sha256
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
+from lpcal.formats.placement_document import stated_place_of
 from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.formats.zarr_files import is_zarr
+from lpcal.pipeline.placing import NO_RIG, Recorded, made_from, placed, placed_said, recorded_of
 from lpcal.pipeline.sensor import stated_in_panel
-from lpcal.pipeline.workspace import Stage, Workspace
+from lpcal.pipeline.workspace import Stage, Workspace, within
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
@@ -79,6 +81,10 @@ class Wishes:
     """What the command's words say of the sensor."""
     panel: StatedSensor = field(default_factory=StatedSensor)
     """What the rig's panel.yaml says of it."""
+    recorded: Recorded = NO_RIG
+    """The rig's recording of its tracked bodies."""
+    placed_mesh: bool = False
+    """Whether the meshes of a capture that is placed are in the room, or in the body that the object rides on."""
 
 
 def rig_tasks(workspace: Workspace, folder: Path | None = None) -> list[Task]:
@@ -132,7 +138,8 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     saying = [(BY_COMMAND, wishes.sensor), (BY_CAPTURE, raw.sensor), (calibration_path.name, stated_in(calibration))]
     saying.append(("panel.yaml", wishes.panel))
     mask = read_mask(Path(wishes.mask), raw.size[::-1]) if wishes.mask not in MASK_WORDS else wishes.mask
-    made_from = made_from_of(task, calibration_path, wishes)
+    placement, said = placed(raw.place, calibration, wishes.recorded, task.capture)
+    digest = made_from_of(task, calibration_path, wishes)
     wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     calibration = calibration.of_images(raw.size)
     hints = wishes.hints
@@ -145,33 +152,33 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         keep=wishes.keep,
         distance_m=wishes.distance_m,
         sensor=saying,
+        placement=placement,
         progress=progress,
     )
     read = time.perf_counter()
     with cores(wishes.jobs):
         surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
+    surface = replace(surface, warnings=(*surface.warnings, *said))
     solved = time.perf_counter()
     document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
     if document["flatness"] and both_ways and raw.full is None:
         with cores(wishes.jobs):
             document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
-    document["made_from"] = made_from
+    document["made_from"] = digest
     progress(f"{task.name}: writing", 0, 1)
     solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None
     page = render(surface, calibration) if "page" in wishes.outputs else None
-    write_surface(task.target, surface, solid, document, page, wishes.outputs)
+    write_surface(task.target, surface, solid, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
     progress(f"{task.name}: writing", 1, 1)
     return document
 
 
-def panel_of(workspace: Workspace | None, task: Task, calibration_path: Path) -> StatedSensor:
-    """What the rig's panel.yaml says of the sensor, for a capture or a calibration that lies in the rig's folder."""
-    if workspace is None:
-        return StatedSensor()
-    folder = workspace.folder.resolve()
-    within = any(path.resolve().is_relative_to(folder) for path in (task.capture, calibration_path))
-    return stated_in_panel(workspace) if within else StatedSensor()
+def of_rig(wishes: Wishes, workspace: Workspace | None, task: Task, calibration_path: Path) -> Wishes:
+    """The wishes with what the rig's panel.yaml says of sensor and tracking, for a capture or a calibration in the rig's folder."""
+    if workspace is None or not within(workspace, task.capture, calibration_path):
+        return wishes
+    return replace(wishes, panel=stated_in_panel(workspace), recorded=recorded_of(workspace))
 
 
 def summary_document(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
@@ -181,7 +188,9 @@ def summary_document(surface: Surface, task: Task, calibration_path: Path, wishe
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
         "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
-        "options": {word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word != "jobs"},
+        "options": {
+            word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word not in {"jobs", "recorded"}
+        },
         "inputs": hashes(task, calibration_path),
     }
 
@@ -215,7 +224,8 @@ def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
         __version__,
         task.name,
         [[_name_in(task.capture, path), sha256(path)] for path in files],
-        plain(asdict(replace(wishes, mask="", jobs=None))),
+        plain(asdict(replace(wishes, mask="", jobs=None, recorded=NO_RIG)) | {"recorded": None}),
+        *made_from(stated_place_of(task.capture), wishes.recorded),
     ]
     said += [wishes.mask] if wishes.mask in MASK_WORDS else []
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
@@ -247,6 +257,7 @@ def line_of(document: dict[str, Any], target: Path) -> str:
         + f", {document['times_s']['solving']:.1f} s -> {from_here(target)}"
         + (f"\n  sensor: {document['sensor']['in_words']}" if document["sensor"]["in_words"] else "")
         + _flat_said(document)
+        + placed_said(document.get("placement"))
     )
 
 
@@ -278,7 +289,7 @@ class SurfaceStage(Stage):
         """Whether every surface stands and was made from what there is now."""
         calibration_path = workspace.calib(CALIBRATION)
         return all(
-            standing(task, calibration_path, Wishes(panel=panel_of(workspace, task, calibration_path))) is not None
+            standing(task, calibration_path, of_rig(Wishes(), workspace, task, calibration_path)) is not None
             for task in rig_tasks(workspace)
         )
 

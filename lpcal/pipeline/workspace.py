@@ -188,6 +188,12 @@ class Stage:
         return all(workspace.calib(name).exists() for name in self.beside)
 
 
+def within(workspace: Workspace, *paths: Path) -> bool:
+    """Whether any of some paths lies in the rig's folder."""
+    folder = workspace.folder.resolve()
+    return any(path.resolve().is_relative_to(folder) for path in paths)
+
+
 def natural(path: Path) -> list[tuple[int, int | str]]:
     """A key that sorts image_9 before image_10."""
     return [(0, int(part)) if part.isdigit() else (1, part) for part in re.split(r"(\d+)", path.as_posix()) if part]

@@ -16,6 +16,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
 from lpcal.records.observations import SphereKind
+from lpcal.records.placement import Tracking
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
@@ -369,6 +370,8 @@ class Calibration(Shown):
     """The format of another system that it was read from."""
     carries: Carries = "camera"
     """What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room."""
+    tracking: Tracking | None = None
+    """How well H_PC, the clocks and the tracked poses are known: what it takes to place a capture in the room."""
 
     def with_lights(self) -> Calibration:
         """The calibration, which holds lights.

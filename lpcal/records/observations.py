@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.full_images import FullImages
+from lpcal.records.placement import StatedPlace
 from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.records.shown import Shown
 
@@ -224,6 +225,8 @@ class RawCapture(Shown):
     """Where the sensor saturates, as the numbers themselves show it."""
     distance_m: float | None = None
     """The panel's distance from the object, as capture.yaml says it."""
+    place: StatedPlace = field(default_factory=StatedPlace)
+    """Where and when it was taken, as capture.yaml says it."""
     notes: tuple[str, ...] = ()
     """What was made of the files, in words."""
     full: FullImages | None = None

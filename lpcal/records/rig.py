@@ -304,11 +304,62 @@ class RigFile(Shown):
         return f"{self.file}:{self.lines[above]}, {key}" if above else f"{self.file}, {key}"
 
 
+class WrittenTransform(Section):
+    """A transform as a person writes it: where the frame's origin is, and one of the two ways to say how it is turned."""
+
+    position: tuple[Length, Length, Length]
+    quaternion: tuple[float, float, float, float] | None = None
+    """x, y, z, w, as elsewhere in lpcal."""
+    rotation_vector: tuple[Angle, Angle, Angle] | None = None
+
+    @model_validator(mode="after")
+    def _one_rotation(self) -> Self:
+        if (self.quaternion is None) == (self.rotation_vector is None):
+            msg = (
+                f"{'no' if self.quaternion is None else 'two'} rotation{'s' * (self.quaternion is not None)}; quaternion or rotation_vector"
+            )
+            raise ValueError(msg)
+        if self.quaternion is not None and not abs(math.hypot(*self.quaternion) - 1) < QUATERNION:
+            msg = f"a quaternion of length {math.hypot(*self.quaternion):.3g}; x, y, z, w of length 1"
+            raise ValueError(msg)
+        return self
+
+
+QUATERNION = 0.02
+"""By how much the length of a written quaternion may differ from 1: digits that a person cut off."""
+
+
+class PoseSection(Section):
+    """``pose:`` of capture.yaml: the tracked body that carries the camera in the room (H_OP), or the camera itself (H_OC)."""
+
+    H_OP: WrittenTransform | None = None
+    H_OC: WrittenTransform | None = None
+    tolerance: tuple[Size, Turn] | None = None
+    """One sigma of it, an axis; else what the calibration knows of tracked poses, or what rooms and arms keep."""
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.H_OP is None) == (self.H_OC is None):
+            msg = f"{'neither H_OP nor' if self.H_OP is None else 'both H_OP and'} H_OC; one of the two"
+            raise ValueError(msg)
+        return self
+
+
 class CaptureSection(Section):
-    """capture.yaml of a capture folder: exposures and gains, the lights to use, and the sensor where no calibration holds it."""
+    """capture.yaml of a capture folder: exposures and gains, the lights to use, where it was taken, and the sensor."""
 
     distance: Size | None = None
     """The panel's distance from the object, where a sensor says it."""
+    time: Annotated[float, BeforeValidator(lambda value: parse(value, "time"))] | None = None
+    """When it was taken, on the camera's clock."""
+    pose: PoseSection | None = None
+    """Where it was taken from, where no recording tells it."""
+    body: str | None = None
+    """The tracked body that the object rides on."""
+    mocap: str | None = None
+    """The recording of this capture, relative to its folder, where it is another than the rig's."""
+    clock_offset: Annotated[float, BeforeValidator(lambda value: parse(value, "time"))] | None = None
+    """``t_camera = t_mocap + clock_offset`` of that recording."""
     gamma: Curve | None = None
     black_level: Share | None = None
     white_level: Share | None = None

@@ -20,6 +20,7 @@ from lpcal.records.digits import fine, fine_each
 from lpcal.records.evaluation import Evaluation
 from lpcal.records.light_field import LightField
 from lpcal.records.observations import BoardPoses, BoardViews, PoseStream, RawCapture, SphereView
+from lpcal.records.placement import Placement
 from lpcal.records.rig import RigFile
 from lpcal.records.surface import Surface
 
@@ -103,6 +104,12 @@ def _camera_solution(found: CameraSolution) -> RecordScreen:
     size = found.camera.image_size
     rows = [*_lens(found.camera), ("corners", f"{fine(found.corner_sigma_px, 3)} px, one sigma"), *_views(found.views)]
     return RecordScreen(f"CameraSolution {found.camera.model}, {size[0]} x {size[1]} px, by {found.solver}", rows, found.warnings)
+
+
+@screen_of.register
+def _placement(found: Placement) -> RecordScreen:
+    rows = [*_pose(found.name, found.H_AC, found.covariance), ("from", found.source or "the caller")]
+    return RecordScreen(f"Placement: the camera in {found.frame}", rows, found.notes)
 
 
 @screen_of.register

@@ -8,6 +8,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.figures import ALWAYS, SurfaceFigures
+from lpcal.records.placement import Placement
 from lpcal.records.sensor import SensorInUse
 from lpcal.records.shown import Shown
 
@@ -109,6 +110,8 @@ class Surface(Shown):
     """What is to be said of the capture and of what was made of it, in words."""
     sensor: SensorInUse | None = None
     """What the capture was made linear by; None: it was linear already, or there was none."""
+    placement: Placement | None = None
+    """Where the camera was in the room or in the body that the object rides on; None: nothing tells it."""
 
     @property
     def metric(self) -> bool:
