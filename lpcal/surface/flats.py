@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface import samples
+from lpcal.surface import room_samples, samples
 from lpcal.surface.coarse import Coarse, LightTable
 from lpcal.surface.sight import Indices
 
@@ -70,16 +70,24 @@ class Sweep:
         return np.asarray(b / np.maximum(np.linalg.norm(b, axis=1, keepdims=True), 1e-12))
 
 
-def sweep(image: Coarse, table: LightTable, distance_m: float) -> Sweep:
-    """The sweep over the table's nodes from SWEEP[0] to SWEEP[1] working distances."""
+def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -> Sweep:
+    """The sweep over the table's nodes, or every so many of them, from SWEEP[0] to SWEEP[1] working distances."""
     low, high = np.log(distance_m) + np.log(SWEEP)
-    u = table.nodes[(table.nodes >= low) & (table.nodes <= high)]
+    u = table.nodes[(table.nodes >= low) & (table.nodes <= high)][::every]
     everywhere = np.arange(len(image.rays_C))
     b, cost = np.empty((len(u), len(everywhere), 3)), np.empty((len(u), len(everywhere)))
     for k, one in enumerate(u):
         B, doubt = table.at(np.full(len(everywhere), one), everywhere)
-        b[k], cost[k] = samples.free(image.signal, image.sigma, image.usable, B, doubt)
+        b[k], cost[k] = _free(image, B, doubt)
     return Sweep(u, b, cost)
+
+
+def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
+    """`samples.free` of the coarse pixels."""
+    if image.room is None:
+        return samples.free(image.signal, image.sigma, image.usable, B, doubt)
+    b, _, cost = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    return b, cost
 
 
 def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[Array, Array]:
@@ -95,7 +103,10 @@ def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None
     """`samples.planar` of (some of) the coarse pixels."""
     some = np.arange(len(image.rays_C)) if pixels is None else pixels
     m, doubt = white(q, image.rays_C[some], some, table)
-    return samples.planar(image.signal[:, some], image.sigma[:, some], image.usable[:, some], m, doubt)
+    signal, sigma, usable = image.signal[:, some], image.sigma[:, some], image.usable[:, some]
+    if image.room is None:
+        return samples.planar(signal, sigma, usable, m, doubt)
+    return room_samples.planar(signal, sigma, usable, m, doubt, image.room)[:3]
 
 
 def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
@@ -157,7 +168,7 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
     pixels = np.flatnonzero(among)
     pixels = pixels[:: max(1, len(pixels) // FIT_PIXELS)]
     for _ in range(rounds):
-        cost, _, lit = explained(image, table, q, pixels)
+        cost, albedo, lit = explained(image, table, q, pixels)
         good = cost < ACCEPTED * len(lit)
         own = pixels[good]
         if len(own) < 12:
@@ -166,8 +177,11 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
         signal = image.signal[:, own]
         weight = lit[:, good] / np.sqrt(samples.variance(signal, image.sigma[:, own], doubt))
 
-        def residuals(x: Array, own: Indices = own, weight: Array = weight, signal: Array = signal) -> Array:
-            m = weight * white(x, image.rays_C[own], own, table)[0]
+        def residuals(x: Array, own: Indices = own, weight: Array = weight, signal: Array = signal, first: Array = albedo[good]) -> Array:
+            m = white(x, image.rays_C[own], own, table)[0]
+            if image.room is not None:
+                return room_samples.residuals(signal, weight, m, first, image.room)
+            m = weight * m
             albedo = np.sum(m * weight * signal, axis=0) / np.maximum(np.sum(m**2, axis=0), 1e-12)
             return np.asarray((weight * signal - albedo * m).ravel())
 

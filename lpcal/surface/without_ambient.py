@@ -30,7 +30,7 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.surface import mask, normals, planes, sight
+from lpcal.surface import background, mask, normals, planes, room_light, sight
 from lpcal.surface.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -54,18 +54,23 @@ def reconstruct(
     """
     lights, near = sight.lights_of(calibration, radiance), focus_C is None
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    wall = wall_of(maps, rays_C, lights, begin_m) if near else None
-    room_map = np.zeros(maps.signal.shape[1:], np.float32) if wall is None else on_wall(wall, maps, rays_C, lights)
+    wall, level = None, None
+    room_map = np.zeros(maps.signal.shape[1:], np.float32)
     object_mask = given
-    if object_mask is None:
-        lamps = sight.grey(without(radiance, room_map, lights), lights)
-        object_mask = mask.automatic(lamps, rays_C, lights, begin_m if near else None, hints).mask
+    if near:
+        light = room_light.found(maps, rays_C, lights, begin_m)
+        room_map, level = light.A, light.room.level
+        found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints)
+        object_mask = found_by.mask if given is None else given
+        wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, level)
+    elif object_mask is None:
+        object_mask = mask.automatic(maps, rays_C, lights, None, hints).mask
     depth = np.full(int(object_mask.sum()), begin_m if calibration.camera is not None else 1.0)
     surface, room = None, None
     rounds = ROUNDS if near else 1
     for k in range(rounds):
         seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
-        found = on_object(seen, lights, depth, wall, focus_C) if seen.pixels >= FEWEST else None
+        found = on_object(seen, lights, depth, wall, focus_C, level) if seen.pixels >= FEWEST else None
         if found is None:
             break
         room, room_map[object_mask] = found
@@ -141,12 +146,12 @@ NEEDED_GAIN = 0.05
 STEPS = 100
 OUTLIER2 = normals.OUTLIER**2
 WALL_STD = 0.04
+LEVEL_STD = 0.3
+"""Natural logarithm by which c_0 over an object may differ from the level of the whole picture."""
 LAW_STD, BLIND_STD = 0.06, 0.25
 """Relative error of A over an object: with a plane's word, and without it."""
 PATCHY = 0.12
 """And from part to part of it."""
-WALL_LEVELS = (0.0, 0.1, 0.2, 0.35, 0.6)
-WALL_LIT = 0.2
 LAMPS_SHARE = 0.25
 """A plane of whose light the lamps bring less shows the room alone, and not where it is."""
 
@@ -172,31 +177,29 @@ class Room:
     """Relative, of the object's A as a whole."""
 
 
-def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> Wall | None:
-    """The plane behind the object, fitted with its room light, from the border of the image; None where no plane fits."""
+def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, level: float) -> Wall | None:
+    """The largest plane behind the object with one room light for all of it, from its pixels; None where none is seen well enough.
+
+    `outside` (H, W) is what is not the object; the room's light on matter of albedo 1 is about `level`.
+    """
     from scipy import optimize
 
-    coarse, coarse_rays, _ = mask.binned(maps, rays_C)
-    shape = coarse.signal.shape[1:]
-    lit = np.sum(coarse.signal > mask.LIT_SIGMAS * coarse.sigma, axis=0) >= normals.LEAST
-    border = mask.border_band(shape)
-    if np.mean(lit[border]) < WALL_LIT:
+    if not found.planes or found.layer is None:
         return None
-    some = planes.thinned(look_at(coarse, coarse_rays, border & lit, central=True))
+    coarse, coarse_rays, f = mask.binned(maps, rays_C)
+    rows, columns = coarse.signal.shape[1:]
+    own = (outside & (found.layer == background.WALL))[: rows * f, : columns * f].reshape(rows, f, columns, f).all(axis=(1, 3))
+    if own.sum() < FEWEST:
+        return None
+    some = planes.thinned(look_at(coarse, coarse_rays, own, central=True))
     h = intensities(lights)
 
     def cost(x: Array) -> Array:
         r, _ = planes.residuals(some, planes.predicted(x[:3], some.rays_C, lights) + x[3] / h, shaded=False)
         return np.nan_to_num(r, posinf=1e2).ravel()
 
-    nearest, furthest = planes.SPAN
-    starts = [
-        np.array([0, 0, 1 / (distance_m * share), level / (distance_m * share) ** 2])
-        for share in np.geomspace(nearest, furthest, 14)
-        for level in WALL_LEVELS
-    ]
-    best = sorted(starts, key=lambda x: float(np.sum(np.log1p(cost(x) ** 2))))[:3]
-    x = np.asarray(min((optimize.least_squares(cost, one, loss="cauchy", max_nfev=25) for one in best), key=lambda one: one.cost).x)
+    first = np.append(found.planes[0].q, level)
+    x = np.asarray(optimize.least_squares(cost, first, loss="cauchy", max_nfev=25, x_scale=np.abs(first).clip(np.abs(first[:3]).max())).x)
     lamps = planes.predicted(x[:3], some.rays_C, lights)
     m = lamps + x[3] / h
     if (
@@ -208,24 +211,18 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: floa
     return Wall(x[:3], float(x[3]), -x[:3] / np.linalg.norm(x[:3]))
 
 
-def on_wall(wall: Wall, maps: Grey, rays_C: Array, lights: Sequence[Light]) -> Image:
-    """A (H, W) of every pixel as if it were the wall's."""
-    seen = look_at(maps, rays_C, np.ones(maps.signal.shape[1:], bool), central=True)
-    m = np.nan_to_num(planes.predicted(wall.q, seen.rays_C, lights)) + wall.ratio / intensities(lights)
-    r, _ = planes.residuals(seen, m, shaded=True)
-    weight = ((r != 0) & np.isfinite(r)) / (seen.sigma**2 + (planes.MODEL * seen.signal) ** 2)
-    albedo = np.sum(weight * m * seen.signal, axis=0) / np.maximum(np.sum(weight * m**2, axis=0), 1e-30)
-    lowest = (seen.signal * intensities(lights)).min(axis=0)
-    return np.asarray(np.clip(wall.ratio * albedo, 0, np.maximum(lowest, 0)).reshape(maps.signal.shape[1:]), np.float32)
+def on_object(
+    seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, level: float | None = None
+) -> tuple[Room, Array] | None:
+    """The room's light on an object at depths (P,), and A (P,) of its pixels; None where none shows.
 
-
-def on_object(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None) -> tuple[Room, Array] | None:
-    """The room's light on an object at depths (P,), and A (P,) of its pixels; None where none shows."""
+    `level` is c_0 as the whole picture has it, where that is known.
+    """
     h = intensities(lights)
     few = np.unique(np.linspace(0, seen.pixels - 1, min(PIXELS, SAMPLES // len(h), seen.pixels)).astype(int))
     some = seen.at(few)
     d, E = light_vectors(lights, some.points_C(depth[few]), focus_C)
-    c = _fit(_Trial(some, d * E[..., None], E, h), wall)
+    c = _fit(_Trial(some, d * E[..., None], E, h), wall, level)
     if c is None:
         return None
     d, E = light_vectors(lights, seen.points_C(depth), focus_C)
@@ -280,26 +277,27 @@ class _Trial:
         return float(np.sum(np.where(self.seen.usable, np.where(known, np.minimum(square, OUTLIER2), OUTLIER2), 0.0)))
 
 
-def _fit(trial: _Trial, wall: Wall | None) -> Array | None:
-    """c (4,) of the least misfit; None where the images are as well explained without."""
+def _fit(trial: _Trial, wall: Wall | None, level: float | None) -> Array | None:
+    """c (4,) of the least misfit, about a level where one is known; None where the images are as well explained without."""
     from scipy import optimize
 
     begin = trial.begin()
     unit = float(np.median(np.median(trial.seen.signal, axis=0) / np.linalg.norm(begin, axis=1)))
-    levels = unit * LEVELS if wall is None else np.unique(np.append(unit * LEVELS, wall.ratio))
-    tried = [trial.misfit(np.array([level, 0, 0, 0]), begin) for level in levels]
-    dark = tried[0]
-    first = wall.ratio if wall is not None else max(float(levels[int(np.argmin(tried))]), 0.01 * unit)
+    known = wall.ratio if wall is not None else level
+    tried = [0.0] if known is not None else [trial.misfit(np.array([one, 0, 0, 0]), begin) for one in unit * LEVELS]
+    first = known if known is not None else max(float(unit * LEVELS[int(np.argmin(tried))]), 0.01 * unit)
 
     def total(x: Array) -> float:
         c = x[0] * np.array([1.0, *x[1:]])
         if x[0] < 0 or np.linalg.norm(x[1:]) > 1:
             return float("inf")
         beside = 0.0 if wall is None else ((x[0] * (1 + x[1:] @ wall.n_C) / wall.ratio - 1) / WALL_STD) ** 2
+        if wall is None and level is not None:
+            beside = (np.log(max(x[0] / level, 1e-6)) / LEVEL_STD) ** 2
         return float(trial.misfit(c, begin) / SHARED + np.sum((x[1:] / TILT) ** 2) + beside)
 
     simplex = first * np.array([[1.0], [1.25], [1.0], [1.0], [1.0]]) * [1, 0, 0, 0] + 0.3 * np.eye(5, 4, k=-1) * [0, 1, 1, 1]
     options: Any = {"initial_simplex": simplex, "xatol": 0.01, "fatol": 0.1, "maxfev": STEPS}
     x = optimize.minimize(total, simplex[0], method="Nelder-Mead", options=options).x
     c = np.asarray(x[0] * np.array([1.0, *x[1:]]))
-    return c if wall is not None or trial.misfit(c, begin) < (1 - NEEDED_GAIN) * dark else None
+    return c if known is not None or trial.misfit(c, begin) < (1 - NEEDED_GAIN) * tried[0] else None

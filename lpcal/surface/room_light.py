@@ -1,0 +1,123 @@
+r"""How much light of the room a capture holds that has no image without lights: over wall, support and object alike.
+
+At a coarse scale all that is seen is explained as matter of any normal, as planes or as a place that no lamp reaches, at one level of the
+room's light after another (see surface.room_samples); the level at which all together cost least is that of the room, and each pixel's
+best explanation says what it holds of it. What is left without it is seen as a capture whose room light was taken away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Image
+from lpcal.records.calibration import Light
+from lpcal.surface import flats, layers, room_samples
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
+from lpcal.surface.room_samples import Room
+from lpcal.surface.sight import Grey, strength
+
+FEW_PIXELS, PIXELS = 1300, 5200
+"""Coarse pixels at which levels are tried, and at which the room's light is mapped."""
+LEVELS = (0.005, 0.015, 0.045, 0.13, 0.4, 1.2)
+"""Levels tried, in units of a lamp's irradiance at the working distance: from one that no camera sees to a lit room."""
+LIT_SIGMAS = 6.0
+"""Standard deviations of noise by which a lit sample exceeds a pixel's least."""
+NOTHING_PRICE = 4.0
+"""Cost of saying that the room alone lights a place."""
+UNSURE = 0.1
+"""Share of the room's light at a pixel that is left in doubt: how far it was off on drawn scenes, beside level and albedo."""
+
+
+@dataclass(frozen=True)
+class RoomLight:
+    """The room's light in a picture."""
+
+    room: Room
+    A: Image
+    """(H, W) of every pixel, in units of the signals."""
+
+
+def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> RoomLight:
+    """The room's light of a picture with lights near the object, which is at about a distance."""
+    share = np.array([1 / light.intensity.mean() for light in lights])
+    few = coarse_of(maps, rays_C, factor_of(maps, FEW_PIXELS))
+    table = LightTable.of(few, lights, distance_m)
+    unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
+
+    def cost(level: float) -> float:
+        return _explained(replace(few, room=Room(share, level * unit)), table, distance_m, drawn=False)[0]
+
+    room = Room(share, unit * _cheapest(cost))
+    image = replace(coarse_of(maps, rays_C, factor_of(maps, PIXELS)), room=room)
+    _, A = _explained(image, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
+    return RoomLight(room, _spread(A, image, maps))
+
+
+def taken_away(maps: Grey, light: RoomLight) -> Grey:
+    """The maps without a room's light, its doubt counted as noise."""
+    ambient = light.room.share[:, None, None].astype(np.float32) * light.A
+    return Grey(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
+
+
+def _explained(image: Coarse, table: LightTable, distance_m: float, *, drawn: bool) -> tuple[float, Array]:
+    """Mean cost of the coarse pixels at the room's level, and A (P,) by each pixel's best explanation.
+
+    `drawn`: by that which a map of labels drawn with few boundaries gives it, of all depths; else by half the depths.
+    """
+    if image.room is None:
+        raise ValueError("an image with a room's light in it")
+    everywhere = np.arange(len(image.rays_C))
+    swept = flats.sweep(image, table, distance_m, 1 if drawn else 2)
+    least = room_samples.lowest(image.signal, image.usable, image.room)
+    over = image.signal - image.room.share[:, None] * least > LIT_SIGMAS * image.sigma
+    lit = np.sum(over & image.usable, axis=0) >= 2
+    best = np.argmin(swept.cost, axis=0)
+    B, doubt = table.at(swept.u[best], everywhere)
+    _, A_free, free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    costs, ambient = [free + layers.FREE_PRICE], [A_free]
+    for q in flats.find(image, table, swept, lit, distance_m):
+        m, doubt = flats.white(q, image.rays_C, everywhere, table)
+        cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, image.room)
+        costs.append(cost)
+        ambient.append(A)
+    E = np.linalg.norm(table.at(np.full(len(everywhere), np.log(distance_m)), everywhere)[0], axis=2)
+    bright = np.max(np.where(image.usable, image.signal / np.maximum(E, 1e-12), 0.0), axis=0)
+    around = np.median(bright[lit]) * E if lit.any() else np.median(bright) * E
+    cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, image.room)
+    every, each = np.stack([*costs, cost + NOTHING_PRICE]), np.stack([*ambient, A])
+    bounded = np.minimum(every, every.min(axis=0) + layers.CEILING).reshape(-1, *image.shape)
+    labels = layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)
+    return float(every.min(axis=0).mean()), each[labels.ravel(), everywhere]
+
+
+def _cheapest(cost: Callable[[float], float]) -> float:
+    """The level of least cost: of LEVELS, then of those half way to its neighbours, then by the parabola through the last three."""
+    tried = {level: cost(level) for level in LEVELS}
+    for again in (True, False):
+        levels = sorted(tried)
+        k = min(max(levels.index(min(levels, key=tried.__getitem__)), 1), len(levels) - 2)
+        below, best, above = levels[k - 1 : k + 2]
+        if again:
+            tried |= {level: cost(level) for level in (float(np.sqrt(below * best)), float(np.sqrt(best * above)))}
+    x = np.log([below, best, above])
+    curve, slope, _ = np.polyfit(x, [tried[level] for level in (below, best, above)], 2)
+    return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))) if curve > 0 else min(tried, key=tried.__getitem__)
+
+
+def _spread(A: Array, image: Coarse, maps: Grey) -> Image:
+    """A (P,) of coarse pixels carried to full size by the brightness of their pixels, and no more than their least sample."""
+    share = np.asarray(image.room.share if image.room else np.ones(len(maps.signal)))
+    part = np.clip(A / np.maximum(_bright(image.signal, share), 1e-12), 0, 1)
+    row, column = (np.minimum(np.arange(side) // image.factor, most - 1) for side, most in zip(maps.signal.shape[1:], image.shape, strict=True))
+    by_light = maps.signal.reshape(len(share), -1)
+    whole = image.image(part)[np.ix_(row, column)].ravel() * _bright(by_light, share)
+    least = room_samples.lowest(by_light, maps.usable.reshape(by_light.shape), Room(share, 0.0))
+    return np.asarray(np.minimum(np.maximum(whole, 0), least).reshape(maps.signal.shape[1:]), np.float32)
+
+
+def _bright(signal: Array, share: Array) -> Array:
+    """The second brightest sample (P,), as if all of it were the room's."""
+    return np.asarray(np.sort(signal / share[:, None], axis=0)[-2])
