@@ -17,7 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.surface.room_samples import Room
+from lpcal.surface.room_samples import RoomPrior
 from lpcal.surface.sight import Grey, Indices, light_vectors
 
 SPAN = (0.25, 6.0)
@@ -44,7 +44,7 @@ class Coarse:
     """Rows and columns."""
     factor: int
     """Pixels a coarse pixel, along a side."""
-    room: Room | None = None
+    room: RoomPrior | None = None
     """What is known of a room's light that the signals hold; None where it has been taken away."""
 
     def image[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:

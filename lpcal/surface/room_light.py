@@ -16,7 +16,7 @@ from lpcal.geometry.arrays import Array, Image
 from lpcal.records.calibration import Light
 from lpcal.surface import flats, layers, room_samples
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
-from lpcal.surface.room_samples import Room
+from lpcal.surface.room_samples import RoomPrior
 from lpcal.surface.sight import Grey, strength
 
 FEW_PIXELS, PIXELS = 1300, 5200
@@ -35,7 +35,7 @@ UNSURE = 0.1
 class RoomLight:
     """The room's light in a picture."""
 
-    room: Room
+    room: RoomPrior
     A: Image
     """(H, W) of every pixel, in units of the signals."""
 
@@ -48,9 +48,9 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
 
     def cost(level: float) -> float:
-        return _explained(replace(few, room=Room(share, level * unit)), table, distance_m, drawn=False)[0]
+        return _explained(replace(few, room=RoomPrior(share, level * unit)), table, distance_m, drawn=False)[0]
 
-    room = Room(share, unit * _cheapest(cost))
+    room = RoomPrior(share, unit * _cheapest(cost))
     image = replace(coarse_of(maps, rays_C, factor_of(maps, PIXELS)), room=room)
     _, A = _explained(image, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
     return RoomLight(room, _spread(A, image, maps))
@@ -111,10 +111,12 @@ def _spread(A: Array, image: Coarse, maps: Grey) -> Image:
     """A (P,) of coarse pixels carried to full size by the brightness of their pixels, and no more than their least sample."""
     share = np.asarray(image.room.share if image.room else np.ones(len(maps.signal)))
     part = np.clip(A / np.maximum(_bright(image.signal, share), 1e-12), 0, 1)
-    row, column = (np.minimum(np.arange(side) // image.factor, most - 1) for side, most in zip(maps.signal.shape[1:], image.shape, strict=True))
-    by_light = maps.signal.reshape(len(share), -1)
+    row, column = (
+        np.minimum(np.arange(side) // image.factor, most - 1) for side, most in zip(maps.signal.shape[1:], image.shape, strict=True)
+    )
+    by_light = maps.signal.reshape(len(share), -1).astype(float)
     whole = image.image(part)[np.ix_(row, column)].ravel() * _bright(by_light, share)
-    least = room_samples.lowest(by_light, maps.usable.reshape(by_light.shape), Room(share, 0.0))
+    least = room_samples.lowest(by_light, maps.usable.reshape(by_light.shape), RoomPrior(share, 0.0))
     return np.asarray(np.minimum(np.maximum(whole, 0), least).reshape(maps.signal.shape[1:]), np.float32)
 
 

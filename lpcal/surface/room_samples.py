@@ -28,7 +28,7 @@ LEVEL_TIE = 1e-9
 
 
 @dataclass(frozen=True)
-class Room:
+class RoomPrior:
     """A room's light, as far as it is known beforehand."""
 
     share: Array
@@ -37,7 +37,7 @@ class Room:
     """A that matter of |b| = 1 sends back."""
 
 
-def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: Room) -> tuple[Array, Array, Array]:
+def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Array]:
     """b (P, 3), A (P,) and the cost (P,) of pixels as matter of any normal lit by B (L, P, 3), as `samples.free`."""
     share, E = room.share[:, None], np.linalg.norm(B, axis=2)
     A = lowest(signal, usable, room) / 2
@@ -59,7 +59,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
     return b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room)
 
 
-def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: Room) -> tuple[Array, Array, Mask, Array]:
+def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
     """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels as parts of a plane of signals m (L, P), as `samples.planar`."""
     share = room.share[:, None]
     least, albedo, A = np.full(m.shape[1], np.inf), np.zeros(m.shape[1]), np.zeros(m.shape[1])
@@ -86,7 +86,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
     return np.where(blind, 0.0, np.where(np.isfinite(least), least, samples.OUTLIER * len(m))), albedo, lit, A
 
 
-def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: Room) -> tuple[Array, Array]:
+def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:
     """Cost (P,), as `samples.nothing`, of places that the room alone lights, and A (P,) there."""
     share, spread2 = room.share[:, None], sigma**2 + (samples.THROWN * around) ** 2
     weight = usable / spread2
@@ -94,7 +94,7 @@ def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: Room
     return np.sum(np.where(usable, np.minimum((signal - share * A) ** 2 / spread2, samples.OUTLIER), 0.0), axis=0) / 2, A
 
 
-def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room: Room) -> tuple[Array, Array]:
+def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room: RoomPrior) -> tuple[Array, Array]:
     """Albedo (P,) and A (P,) of least squares by weights (L, P), under the prior at a first albedo (P,)."""
     share, tie = room.share[:, None], prior_weight(albedo, room)
     mm, ms = np.sum(weight * m * m, axis=0) + tie * room.level**2, np.sum(weight * m * share, axis=0) - tie * room.level
@@ -103,19 +103,19 @@ def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room:
     return (ss * my - ms * sy) / over, (mm * sy - ms * my) / over
 
 
-def residuals(signal: Array, weight: Array, m: Array, albedo: Array, room: Room) -> Array:
+def residuals(signal: Array, weight: Array, m: Array, albedo: Array, room: RoomPrior) -> Array:
     """Residuals (L P + P,) of a plane by weights (L, P), those of the prior last; albedo and A are eliminated, with a first albedo (P,)."""
     one, A = albedo_and_room(signal, weight**2, m, albedo, room)
     of_prior = np.sqrt(prior_weight(albedo, room)) * (A - room.level * one)
     return np.concatenate([(weight * (signal - one * m - room.share[:, None] * A)).ravel(), of_prior])
 
 
-def prior_weight(size: Array, room: Room) -> Array:
+def prior_weight(size: Array, room: RoomPrior) -> Array:
     """One over the variance (P,) of A by the prior, of matter of |b| (P,)."""
     return np.asarray(1 / np.maximum(SPREAD * room.level * size, 1e-12) ** 2)
 
 
-def lowest(signal: Array, usable: Mask, room: Room) -> Array:
+def lowest(signal: Array, usable: Mask, room: RoomPrior) -> Array:
     """The least sample (P,) as A: there cannot be more; 0 where none counts."""
     least = np.min(np.where(usable, signal / room.share[:, None], np.inf), axis=0)
     return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0.0), 0.0))
@@ -138,7 +138,7 @@ def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: A
     return np.minimum(square, np.where(lamps < predicted, shadow, samples.OUTLIER)), square
 
 
-def _prior(A: Array, size: Array, room: Room) -> Array:
+def _prior(A: Array, size: Array, room: RoomPrior) -> Array:
     """Cost (P,) of A beside level |b|."""
     return np.asarray(np.minimum((A - room.level * size) ** 2 * prior_weight(size, room), samples.OUTLIER))
 
@@ -148,7 +148,7 @@ def _second(values: Array, usable: Mask) -> Array:
     return np.asarray(np.sort(np.where(usable, values, 0.0), axis=0)[-2])
 
 
-def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: Room) -> tuple[Array, Array]:
+def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array]:
     """b (P, 3) and A (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3) and |b| (P,) are those of the step before."""
     share = np.broadcast_to(room.share[:, None, None], (*signal.shape, 1))
     M = np.concatenate([B + room.level * share * n, share], axis=2)

@@ -1,9 +1,8 @@
 r"""A capture without an ambient image: the room's light is estimated, taken away, and counted as doubt.
 
-The wall's room light first, so that the mask can be found; then the object's, at the working distance and again at the depth that this
-gave. A last time with more of it shows how far normals, depth and distance hang on it: that is added to their standard deviations.
-
-Light of the room that no image shows by itself: estimated from the images of the lights.
+That of all that is seen first (see surface.room_light), so that the mask can be found; then the object's, at the working distance and again
+at the depth that this gave. A last time with more of it shows how far normals, depth and distance hang on it: that is added to their
+standard deviations.
 
 Symbols: signal ``I_k = B_k . b + A / h_k`` where light k (of intensity h_k, which signals are divided by) reaches a pixel, ``A / h_k``
 where it does not; ``b = rho n``. Light that comes from all over a room acts on a matte surface as its first harmonics::

@@ -9,7 +9,9 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, room_light, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.surface import sight, without_ambient
+from lpcal.surface import mask as mask_of
+from lpcal.surface import planes, room_samples, sight, without_ambient
+from lpcal.surface import room_light as whole
 from lpcal.surface import without_ambient as room
 from lpcal.surface.reconstruct import Options, reconstruct
 
@@ -27,20 +29,42 @@ def maps():
     return sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera), lights
 
 
-def test_the_wall_tells_its_place_and_its_room_light(maps):
+@pytest.fixture(scope="module")
+def seen_whole(maps):
     grey, rays_C, lights = maps
-    wall = room.wall_of(grey, rays_C, lights, 0.35)
+    light = whole.found(grey, rays_C, lights, 0.35)
+    return light, mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
+
+
+def test_all_that_is_seen_tells_the_rooms_light_and_what_the_object_is(seen_whole):
+    light, found = seen_whole
+    true = truth(LIT)[0]
+    assert np.sum(found.mask & true) / np.sum(found.mask | true) > 0.97
+    for on, within in ((true, 0.25), (~true, 0.1)):
+        assert np.median(light.A[on] / room_light(LIT)[on]) == pytest.approx(1.0, abs=within)
+
+
+def test_the_wall_tells_its_place_and_its_room_light(maps, seen_whole):
+    light, found = seen_whole
+    wall = room.wall_of(*maps, found, ~found.mask, light.room.level)
     assert 1 / wall.q[2] == pytest.approx(LIT.wall_z, rel=0.01)
+    grey, rays_C, lights = maps
     on = ~truth(LIT)[0]
-    found = room.on_wall(wall, grey, rays_C, lights)
-    assert np.median(found[on] / room_light(LIT)[on]) == pytest.approx(1.0, abs=0.05)
+    m = planes.predicted(wall.q, rays_C[on], lights) + wall.ratio / room.intensities(lights)
+    A = wall.ratio * np.median(grey.signal[:, on] / m, axis=0)
+    assert np.median(A / room_light(LIT)[on]) == pytest.approx(1.0, abs=0.05)
 
 
-def test_a_background_that_the_lamps_do_not_reach_tells_nothing():
-    radiance = to_radiance(untold(replace(LIT, wall_z=6.0)), Sensor())
+def test_a_background_that_the_lamps_do_not_reach_is_no_wall():
+    scene = replace(LIT, wall_z=6.0)
+    radiance = to_radiance(untold(scene), Sensor())
     lights = sight.lights_of(calibration(), radiance)
-    rays_C = sight.ray_map(radiance.signal.shape[1:3], calibration().camera)
-    assert room.wall_of(sight.grey(radiance, lights), rays_C, lights, 0.35) is None
+    grey, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera)
+    light = whole.found(grey, rays_C, lights, 0.35)
+    found = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
+    assert room.wall_of(grey, rays_C, lights, found, ~found.mask, light.room.level) is None
+    true = truth(scene)[0]
+    assert np.sum(found.mask & true) / np.sum(found.mask | true) > 0.97
 
 
 @pytest.mark.slow
@@ -49,11 +73,13 @@ def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
     _, rays_C, lights = maps
     mask, depth, _ = truth(LIT)
     grey = sight.grey(to_radiance(untold(LIT, seed), Sensor()), lights)
-    wall = room.wall_of(grey, rays_C, lights, 0.35)
+    light = whole.found(grey, rays_C, lights, 0.35)
+    found_by = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
+    wall = room.wall_of(grey, rays_C, lights, found_by, ~mask, light.room.level)
     seen = sight.look_at(grey, rays_C, mask, central=True)
     true = room_light(LIT)[mask]
     for told in (wall, None):
-        law, A = room.on_object(seen, lights, depth[mask], told, None)
+        law, A = room.on_object(seen, lights, depth[mask], told, None, light.room.level)
         assert abs(A.mean() / true.mean() - 1) < 2 * law.std
     law, A = room.on_object(seen, lights, depth[mask], wall, None)
     assert A.mean() == pytest.approx(true.mean(), rel=0.1)
@@ -100,3 +126,29 @@ def test_colours_share_the_rooms_light(maps):
     room_map[mask] = room.on_object(sight.look_at(grey, rays_C, mask, central=True), lights, depth[mask], None, None)[1]
     ratio = without_ambient.without(radiance, room_map, lights).ambient[mask] / room_light(scene)[mask]
     assert np.median(ratio, axis=0) / np.median(ratio) == pytest.approx([1, 1, 1], abs=0.05)
+
+
+@pytest.mark.parametrize("shadowed", [0, 1])
+def test_samples_tell_their_room_light(shadowed):
+    rng = np.random.default_rng(3)
+    ways = rng.normal(size=(8, 3)) * [1, 1, 0.2] + [0, 0, -1.5]
+    B = np.repeat((ways / np.linalg.norm(ways, axis=1, keepdims=True))[:, None], 200, axis=1)
+    n = rng.normal(size=(200, 3)) * [0.3, 0.3, 0] + [0, 0, -1]
+    b = rng.uniform(0.3, 1, (200, 1)) * n / np.linalg.norm(n, axis=1, keepdims=True)
+    known = room_samples.RoomPrior(rng.uniform(0.8, 1.25, 8), 0.3)
+    A = 0.3 * np.linalg.norm(b, axis=1) * rng.uniform(0.8, 1.2, 200)
+    m = np.maximum(np.einsum("lpi,pi->lp", B, b), 0)
+    m[:shadowed] = 0
+    signal, none = m + known.share[:, None] * A, np.zeros((8, 200))
+    sigma, usable = np.full((8, 200), 1e-3), np.ones((8, 200), bool)
+    found, told, cost = room_samples.free(signal, sigma, usable, B, none, known)
+    assert np.median(np.abs(told / A - 1)) < 0.04
+    assert np.median(np.linalg.norm(found - b, axis=1) / np.linalg.norm(b, axis=1)) < 0.02
+    assert np.median(cost) < 8 + 5 * shadowed
+    white = m / np.linalg.norm(b, axis=1)
+    white[:shadowed] = 0.5
+    cost, albedo, lit, told = room_samples.planar(signal, sigma, usable, white, none, known)
+    assert np.median(np.abs(told / A - 1)) < 0.02
+    assert np.median(np.abs(albedo / np.linalg.norm(b, axis=1) - 1)) < 0.02
+    assert not lit[:shadowed].any()
+    assert np.median(room_samples.nothing(known.share[:, None] * A, sigma, usable, none, known)[0]) < 1e-9
