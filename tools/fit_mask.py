@@ -1,9 +1,9 @@
 """Fit the weights by which the automatic mask tells the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N]``.
 
-SCENES are folders with calibration.yaml, capture/ (with an ambient image) and truth/surface.npz (a `mask`). Prints the weights for
-lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts, how good the coarse masks are with the weights as they
-stand and with the fitted ones; and what the stated doubt is worth (DOUBTED and DOUBT_POWER of lpcal.surface.mask). The regions themselves
-depend a little on the weights: run it until these stand still.
+SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
+estimated, as the mask does it. Prints the weights for lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts,
+how good the coarse masks are with the weights as they stand and with the fitted ones; and what the stated doubt is worth (DOUBTED and
+DOUBT_POWER of lpcal.surface.mask). The regions themselves depend a little on the weights: run it until these stand still.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
-from lpcal.surface import background, flats, layers, mask, regions, sight
+from lpcal.surface import background, flats, layers, mask, regions, room_light, sight
 from lpcal.surface.coarse import LightTable, coarse_of, factor_of, joined
 from lpcal.surface.regions import Pictures, Regions, View
 
@@ -79,10 +79,13 @@ def example(scene: Path) -> list[Example]:
     lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
     maps, room = sight.grey(radiance, lights), sight.room(radiance)
     rays_C = sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    if room is None:
+        light = room_light.found(maps, rays_C, lights, distance_m)
+        maps, room = room_light.taken_away(maps, light), light.A
     image = coarse_of(maps, rays_C, factor_of(maps, mask.COARSE_PIXELS))
     lit = np.sum(image.signal > mask.LIT_SIGMAS * image.sigma, axis=0) >= 3
     table = LightTable.of(image, lights, distance_m)
-    view = View(image, table, flats.sweep(image, table, distance_m), None if room is None else joined(room, image.factor))
+    view = View(image, table, flats.sweep(image, table, distance_m), joined(room, image.factor))
     true = joined(np.load(scene / "truth/surface.npz")["mask"].astype(float), image.factor) > 0.5
     return of_view(scene.name, view, flats.find(image, table, view.swept, lit, distance_m), lit, distance_m, true)
 

@@ -86,8 +86,8 @@ def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
     """`samples.free` of the coarse pixels."""
     if image.room is None:
         return samples.free(image.signal, image.sigma, image.usable, B, doubt)
-    b, _, cost = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
-    return b, cost
+    found = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    return found.b, found.cost
 
 
 def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[Array, Array]:

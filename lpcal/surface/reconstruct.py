@@ -76,8 +76,6 @@ class Options:
     """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
-    ambient_pictured: bool = True
-    """Whether the radiance's ambient light is an image, not an estimate."""
     linear: bool = True
     """Whether nothing speaks against the signals being linear; else powers of lights that nobody measured are held, not estimated."""
 
@@ -116,7 +114,7 @@ def reconstruct(
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not gains.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
-        known = replace(options, ambient_known=True, ambient_pictured=False)
+        known = replace(options, ambient_known=True)
 
         def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
             return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress, kept)
@@ -124,7 +122,7 @@ def reconstruct(
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
-    room = sight.room(radiance) if options.ambient_pictured else None
+    room = sight.room(radiance)
     progress(f"{radiance.name}: which pixels are the object", 0, 1)
     background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints, room) if wanted or near else None
     progress(f"{radiance.name}: which pixels are the object", 1, 1)

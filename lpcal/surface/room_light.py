@@ -25,8 +25,12 @@ LEVELS = (0.005, 0.015, 0.045, 0.13, 0.4, 1.2)
 """Levels tried, in units of a lamp's irradiance at the working distance: from one that no camera sees to a lit room."""
 LIT_SIGMAS = 6.0
 """Standard deviations of noise by which a lit sample exceeds a pixel's least."""
-NOTHING_PRICE = 4.0
-"""Cost of saying that the room alone lights a place."""
+RARE_ROUNDS = 2
+"""Times that the cost of each explanation is set by how rare it is: a plane that holds a few pixels by chance then spares nothing."""
+USUAL, USUAL_STD = 0.1, 1.3
+"""The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures tell next to nothing."""
+SHARED = 60.0
+"""Pixels whose errors are alike: what the explanations lack is smooth over a surface."""
 UNSURE = 0.1
 """Share of the room's light at a pixel that is left in doubt: how far it was off on drawn scenes, beside level and albedo."""
 
@@ -36,6 +40,8 @@ class RoomLight:
     """The room's light in a picture."""
 
     room: RoomPrior
+    level_std: float
+    """Standard deviation of the logarithm of the level."""
     A: Image
     """(H, W) of every pixel, in units of the signals."""
 
@@ -48,12 +54,14 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
 
     def cost(level: float) -> float:
-        return _explained(replace(few, room=RoomPrior(share, level * unit)), table, distance_m, drawn=False)[0]
+        each = _explained(replace(few, room=RoomPrior(share, level * unit)), table, distance_m, drawn=False)[0]
+        return each * len(few.rays_C) / SHARED + (np.log(level / USUAL) / USUAL_STD) ** 2
 
-    room = RoomPrior(share, unit * _cheapest(cost))
+    level, level_std = _cheapest(cost)
+    room = RoomPrior(share, unit * level)
     image = replace(coarse_of(maps, rays_C, factor_of(maps, PIXELS)), room=room)
     _, A = _explained(image, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
-    return RoomLight(room, _spread(A, image, maps))
+    return RoomLight(room, level_std, _spread(A, image, maps))
 
 
 def taken_away(maps: Grey, light: RoomLight) -> Grey:
@@ -76,8 +84,8 @@ def _explained(image: Coarse, table: LightTable, distance_m: float, *, drawn: bo
     lit = np.sum(over & image.usable, axis=0) >= 2
     best = np.argmin(swept.cost, axis=0)
     B, doubt = table.at(swept.u[best], everywhere)
-    _, A_free, free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
-    costs, ambient = [free + layers.FREE_PRICE], [A_free]
+    free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    costs, ambient = [free.cost + layers.FREE_PRICE], [free.A]
     for q in flats.find(image, table, swept, lit, distance_m):
         m, doubt = flats.white(q, image.rays_C, everywhere, table)
         cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, image.room)
@@ -87,14 +95,20 @@ def _explained(image: Coarse, table: LightTable, distance_m: float, *, drawn: bo
     bright = np.max(np.where(image.usable, image.signal / np.maximum(E, 1e-12), 0.0), axis=0)
     around = np.median(bright[lit]) * E if lit.any() else np.median(bright) * E
     cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, image.room)
-    every, each = np.stack([*costs, cost + NOTHING_PRICE]), np.stack([*ambient, A])
+    every, each = np.stack([*costs, cost]), np.stack([*ambient, A])
+    for _ in range(RARE_ROUNDS):
+        part = np.bincount(np.argmin(every, axis=0), minlength=len(every)) / every.shape[1]
+        every = np.stack([*costs, cost]) - 2 * np.log(np.maximum(part, 1 / every.shape[1]))[:, None]
     bounded = np.minimum(every, every.min(axis=0) + layers.CEILING).reshape(-1, *image.shape)
     labels = layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)
     return float(every.min(axis=0).mean()), each[labels.ravel(), everywhere]
 
 
-def _cheapest(cost: Callable[[float], float]) -> float:
-    """The level of least cost: of LEVELS, then of those half way to its neighbours, then by the parabola through the last three."""
+def _cheapest(cost: Callable[[float], float]) -> tuple[float, float]:
+    """The level of least cost, twice a negative log likelihood, and the standard deviation of its logarithm.
+
+    Of LEVELS first, then half way to the neighbours of the best, then by the parabola through the best and its neighbours.
+    """
     tried = {level: cost(level) for level in LEVELS}
     for again in (True, False):
         levels = sorted(tried)
@@ -104,7 +118,9 @@ def _cheapest(cost: Callable[[float], float]) -> float:
             tried |= {level: cost(level) for level in (float(np.sqrt(below * best)), float(np.sqrt(best * above)))}
     x = np.log([below, best, above])
     curve, slope, _ = np.polyfit(x, [tried[level] for level in (below, best, above)], 2)
-    return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))) if curve > 0 else min(tried, key=tried.__getitem__)
+    if curve * USUAL_STD**2 < 1:  # no more than the prior tells
+        return min(tried, key=tried.__getitem__), USUAL_STD
+    return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))), float(1 / np.sqrt(curve))
 
 
 def _spread(A: Array, image: Coarse, maps: Grey) -> Image:

@@ -21,6 +21,8 @@ SPREAD = 0.35
 """Relative standard deviation of A about level |b|: on drawn scenes 0.15 over an object, 0.3 between it and a wall behind."""
 DEEP = 0.02
 """Light that surfaces throw into shadow, as a share of a pixel's brightest sample: by so much a dark sample may differ from A."""
+BRIGHTER = 0.03
+"""Light from other surfaces, as in surface.samples but less of it: with more, the room's level comes out too low by a third."""
 STEPS = 4
 """Solves of b and A, the first with half of the least sample for A."""
 LEVEL_TIE = 1e-9
@@ -37,12 +39,27 @@ class RoomPrior:
     """A that matter of |b| = 1 sends back."""
 
 
-def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Array]:
-    """b (P, 3), A (P,) and the cost (P,) of pixels as matter of any normal lit by B (L, P, 3), as `samples.free`."""
+@dataclass(frozen=True)
+class Free:
+    """Pixels as matter of any normal."""
+
+    b: Array
+    """(P, 3)."""
+    A: Array
+    """(P,)."""
+    cost: Array
+    """(P,)."""
+    told: Array
+    """(P,) how much of the prior's variance of A the samples take away, 0..1."""
+
+
+def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> Free:
+    """Pixels as matter of any normal lit by B (L, P, 3), as `samples.free`."""
     share, E = room.share[:, None], np.linalg.norm(B, axis=2)
     A = lowest(signal, usable, room) / 2
     n = np.zeros(B.shape[1:])
     n[:, 2] = -1.0
+    told = np.zeros(len(A))
     b = _second(signal - share * A, usable)[:, None] / np.maximum(_second(E, usable), 1e-12)[:, None] * n
     for step in range(STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
@@ -52,11 +69,11 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
         weight = usable / spread2
         if step:
             weight /= (1 + (lamps - np.where(dark, 0.0, lambert.predicted(B, b))) ** 2 / spread2 / samples.WIDTH2) ** 2
-        b, A = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, np.linalg.norm(b, axis=1), room)
+        b, A, told = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, np.linalg.norm(b, axis=1), room)
         length = np.linalg.norm(b, axis=1, keepdims=True)
         n = np.where(length > 0, b / np.maximum(length, 1e-20), n)
     cost, _ = _costs(signal, sigma, usable, doubt, lambert.predicted(B, b), share * A)
-    return b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room)
+    return Free(b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room), told)
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
@@ -131,7 +148,7 @@ def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: A
     """Cost (L, P) and square residual (L, P) of samples; one that is darker than the room's light is no shadow."""
     lamps, spread2 = _without(signal, sigma, doubt, ambient)
     top = np.max(np.where(usable, lamps, 0.0), axis=0)
-    indirect = np.where(lamps > predicted, samples.BRIGHTER, samples.DARKER) * top
+    indirect = np.where(lamps > predicted, BRIGHTER, samples.DARKER) * top
     square = (lamps - predicted) ** 2 / (spread2 + indirect**2)
     below = np.minimum(np.minimum(lamps, 0.0) ** 2 / (spread2 + (DEEP * top) ** 2), samples.OUTLIER)
     shadow = np.where(lamps < samples.DARK_SHARE * predicted, samples.DARK, samples.HALF_DARK) + below
@@ -148,15 +165,18 @@ def _second(values: Array, usable: Mask) -> Array:
     return np.asarray(np.sort(np.where(usable, values, 0.0), axis=0)[-2])
 
 
-def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array]:
-    """b (P, 3) and A (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3) and |b| (P,) are those of the step before."""
+def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array, Array]:
+    """b (P, 3), A (P,) and `Free.told` (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3) and |b| (P,) are of the step before."""
     share = np.broadcast_to(room.share[:, None, None], (*signal.shape, 1))
     M = np.concatenate([B + room.level * share * n, share], axis=2)
     weighted = M * weight[..., None]
     normal = np.einsum("lpi,lpj->pij", weighted, M)
     right = np.einsum("lpi,lp->pi", weighted, signal)
-    normal[:, 3, 3] += prior_weight(size, room)
+    prior = prior_weight(size, room)
+    normal[:, 3, 3] += prior
     scale = np.sqrt(np.maximum(np.einsum("pii->pi", normal), 1e-30))
     normal = normal / scale[:, :, None] / scale[:, None, :] + LEVEL_TIE * np.eye(4)
-    x = np.linalg.solve(normal, (right / scale)[..., None])[..., 0] / scale
-    return x[:, :3], np.maximum(room.level * lambert.dot(n, x[:, :3]) + x[:, 3], 0.0)
+    both = np.stack([right / scale, np.broadcast_to([0.0, 0, 0, 1], right.shape)], axis=2)
+    x, inverse = np.moveaxis(np.linalg.solve(normal, both) / scale[:, :, None], 2, 0)
+    told = np.clip(1 - prior * inverse[:, 3] / scale[:, 3], 0, 1)
+    return x[:, :3], np.maximum(room.level * lambert.dot(n, x[:, :3]) + x[:, 3], 0.0), told

@@ -29,7 +29,8 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.surface import background, mask, normals, planes, room_light, sight
+from lpcal.surface import background, mask, normals, planes, room_light, room_samples, sight
+from lpcal.surface.room_light import RoomLight
 from lpcal.surface.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -53,15 +54,15 @@ def reconstruct(
     """
     lights, near = sight.lights_of(calibration, radiance), focus_C is None
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    wall, level = None, None
+    wall, light = None, None
     room_map = np.zeros(maps.signal.shape[1:], np.float32)
     object_mask = given
     if near:
         light = room_light.found(maps, rays_C, lights, begin_m)
-        room_map, level = light.A, light.room.level
-        found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints)
+        room_map = light.A
+        found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints, light.A)
         object_mask = found_by.mask if given is None else given
-        wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, level)
+        wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, light.room.level)
     elif object_mask is None:
         object_mask = mask.automatic(maps, rays_C, lights, None, hints).mask
     depth = np.full(int(object_mask.sum()), begin_m if calibration.camera is not None else 1.0)
@@ -69,7 +70,7 @@ def reconstruct(
     rounds = ROUNDS if near else 1
     for k in range(rounds):
         seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
-        found = on_object(seen, lights, depth, wall, focus_C, level) if seen.pixels >= FEWEST else None
+        found = on_object(seen, lights, depth, wall, focus_C, light) if seen.pixels >= FEWEST else None
         if found is None:
             break
         room, room_map[object_mask] = found
@@ -145,8 +146,8 @@ NEEDED_GAIN = 0.05
 STEPS = 100
 OUTLIER2 = normals.OUTLIER**2
 WALL_STD = 0.04
-LEVEL_STD = 0.3
-"""Natural logarithm by which c_0 over an object may differ from the level of the whole picture."""
+LAW_ROUNDS = 10
+"""Solves of the law, pixels weighed by how well they follow it: it then stands still."""
 LAW_STD, BLIND_STD = 0.06, 0.25
 """Relative error of A over an object: with a plane's word, and without it."""
 PATCHY = 0.12
@@ -211,23 +212,45 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
 
 
 def on_object(
-    seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, level: float | None = None
+    seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, light: RoomLight | None = None
 ) -> tuple[Room, Array] | None:
     """The room's light on an object at depths (P,), and A (P,) of its pixels; None where none shows.
 
-    `level` is c_0 as the whole picture has it, where that is known.
+    `light` is that of the whole picture, where lights are near.
     """
+    if light is not None:
+        return _near(seen, lights, depth, wall, light)
     h = intensities(lights)
     few = np.unique(np.linspace(0, seen.pixels - 1, min(PIXELS, SAMPLES // len(h), seen.pixels)).astype(int))
     some = seen.at(few)
     d, E = light_vectors(lights, some.points_C(depth[few]), focus_C)
-    c = _fit(_Trial(some, d * E[..., None], E, h), wall, level)
+    c = _fit(_Trial(some, d * E[..., None], E, h))
     if c is None:
         return None
     d, E = light_vectors(lights, seen.points_C(depth), focus_C)
     whole = _Trial(seen, d * E[..., None], E, h)
     A = whole.room(c, whole.settled(c, rounds=5)[0])
-    return Room(c, float(np.hypot(LAW_STD, WALL_STD) if wall is not None else BLIND_STD)), A
+    return Room(c, BLIND_STD), A
+
+
+def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, light: RoomLight) -> tuple[Room, Array]:
+    """The law that the pixels' own A follow, each under the prior of the whole picture, and A (P,) by it."""
+    d, E = light_vectors(lights, seen.points_C(depth))
+    found = room_samples.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
+    b, length = found.b, np.maximum(np.linalg.norm(found.b, axis=1), 1e-20)
+    rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], found.A / length / light.room.level
+    prior = np.diag([light.level_std**-2, *3 * [TILT**-2]])
+    right = np.array([light.level_std**-2, 0, 0, 0])
+    if wall is not None:
+        by_wall, weight = np.append(1.0, wall.n_C), (light.room.level / wall.ratio / WALL_STD) ** 2
+        prior, right = prior + weight * np.outer(by_wall, by_wall), right + weight * by_wall * wall.ratio / light.room.level
+    law = np.array([1.0, 0, 0, 0])
+    for _ in range(LAW_ROUNDS):
+        weighted = rows * (found.told / (PATCHY**2 + (ratio - rows @ law) ** 2) / SHARED)[:, None]
+        law = np.linalg.solve(weighted.T @ rows + prior, weighted.T @ ratio + right)
+    c = light.room.level * law
+    std = float(np.hypot(LAW_STD, WALL_STD if wall is not None else light.level_std))
+    return Room(c, std), np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
 
 
 def intensities(lights: Sequence[Light]) -> Array:
@@ -276,27 +299,23 @@ class _Trial:
         return float(np.sum(np.where(self.seen.usable, np.where(known, np.minimum(square, OUTLIER2), OUTLIER2), 0.0)))
 
 
-def _fit(trial: _Trial, wall: Wall | None, level: float | None) -> Array | None:
-    """c (4,) of the least misfit, about a level where one is known; None where the images are as well explained without."""
+def _fit(trial: _Trial) -> Array | None:
+    """c (4,) of the least misfit; None where the images are as well explained without."""
     from scipy import optimize
 
     begin = trial.begin()
     unit = float(np.median(np.median(trial.seen.signal, axis=0) / np.linalg.norm(begin, axis=1)))
-    known = wall.ratio if wall is not None else level
-    tried = [0.0] if known is not None else [trial.misfit(np.array([one, 0, 0, 0]), begin) for one in unit * LEVELS]
-    first = known if known is not None else max(float(unit * LEVELS[int(np.argmin(tried))]), 0.01 * unit)
+    tried = [trial.misfit(np.array([one, 0, 0, 0]), begin) for one in unit * LEVELS]
+    first = max(float(unit * LEVELS[int(np.argmin(tried))]), 0.01 * unit)
 
     def total(x: Array) -> float:
         c = x[0] * np.array([1.0, *x[1:]])
         if x[0] < 0 or np.linalg.norm(x[1:]) > 1:
             return float("inf")
-        beside = 0.0 if wall is None else ((x[0] * (1 + x[1:] @ wall.n_C) / wall.ratio - 1) / WALL_STD) ** 2
-        if wall is None and level is not None:
-            beside = (np.log(max(x[0] / level, 1e-6)) / LEVEL_STD) ** 2
-        return float(trial.misfit(c, begin) / SHARED + np.sum((x[1:] / TILT) ** 2) + beside)
+        return float(trial.misfit(c, begin) / SHARED + np.sum((x[1:] / TILT) ** 2))
 
     simplex = first * np.array([[1.0], [1.25], [1.0], [1.0], [1.0]]) * [1, 0, 0, 0] + 0.3 * np.eye(5, 4, k=-1) * [0, 1, 1, 1]
     options: Any = {"initial_simplex": simplex, "xatol": 0.01, "fatol": 0.1, "maxfev": STEPS}
     x = optimize.minimize(total, simplex[0], method="Nelder-Mead", options=options).x
     c = np.asarray(x[0] * np.array([1.0, *x[1:]]))
-    return c if known is not None or trial.misfit(c, begin) < (1 - NEEDED_GAIN) * tried[0] else None
+    return c if trial.misfit(c, begin) < (1 - NEEDED_GAIN) * tried[0] else None
