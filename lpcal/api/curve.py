@@ -17,7 +17,7 @@ from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor, ToneClaim
 from lpcal.surface.gains import unmeasured
 from lpcal.surface.response import Curve, ShownResponse, stored_curve
-from lpcal.surface.sight import light_vectors, ray_map
+from lpcal.surface.sight import light_vectors, rays_at
 
 PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""
@@ -143,7 +143,7 @@ def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed:
         return np.clip(linear.mean(axis=2), 0, None)
 
     usable = ~over_white(raw.images, sensor, raw.step).reshape(len(channels), -1)[:, places]
-    rays_C = ray_map(mean.shape, calibration.camera).reshape(-1, 3)[places]
+    rays_C = rays_at(np.stack(np.unravel_index(places, mean.shape)[::-1], axis=1), calibration.camera)
     direction, irradiance = light_vectors(lights, (calibration.d_object_m or 0.35) * rays_C)
     strength = irradiance * np.array([[one.intensity.mean()] for one in lights])
     B = direction * strength[..., None]

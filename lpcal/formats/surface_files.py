@@ -8,6 +8,7 @@ that the object rides on, with the axes of that frame as the tracking has them.
 from __future__ import annotations
 
 import json
+import zipfile
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -89,13 +90,9 @@ def write_surface(
     with whole(folder, SURFACE) as draft:
         draft.mkdir()
         if "maps" in outputs:
-            np.savez_compressed(
-                draft / MAPS_FILE,
-                **{name: getattr(surface, name) for name in MAPS},
-                layer=surface.layer if surface.layer.size else surface.mask.astype(np.uint8),
-                rays=surface.rays_C,
-                breaks=surface.breaks,
-            )
+            maps = {name: getattr(surface, name) for name in MAPS}
+            layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
+            _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "rays": surface.rays_C, "breaks": surface.breaks})
         _write_images(draft, surface, outputs)
         if mesh is not None:
             write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs, surface.placement if placed_mesh else None)
@@ -103,6 +100,14 @@ def write_surface(
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
         (draft / SUMMARY).write_text(json.dumps(plain({**summary, "files": files}), indent=1) + "\n", encoding="utf-8")
+
+
+def _write_arrays(path: Path, arrays: Mapping[str, npt.NDArray[np.generic]]) -> None:
+    """As `numpy.savez_compressed`, but with the quickest compression: the best takes three times as long for a tenth of the size."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, values in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(values), allow_pickle=False)
 
 
 def summary_of(surface: Surface) -> dict[str, Any]:

@@ -46,7 +46,9 @@ def undistort(plane_d: Array, distortion: Array) -> Array:
         return plane
     for _ in range(NEWTON_STEPS):
         found, J = _distort_with_jacobian(plane, distortion)
-        step = np.linalg.solve(J, (plane_d - found)[..., None])[..., 0]
+        x, y = np.moveaxis(plane_d - found, -1, 0)
+        determinant = J[..., 0, 0] * J[..., 1, 1] - J[..., 0, 1] * J[..., 1, 0]
+        step = np.stack([J[..., 1, 1] * x - J[..., 0, 1] * y, J[..., 0, 0] * y - J[..., 1, 0] * x], axis=-1) / determinant[..., None]
         plane += step
         if np.max(np.abs(step), initial=0.0) < NEWTON_PRECISION:
             break

@@ -197,13 +197,16 @@ def room(radiance: Radiance) -> Image | None:
 
 def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
     """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
-    rays = np.zeros((*shape[:2], 3))
-    rays[..., 2] = 1.0
-    if camera is not None:
-        row, column = np.indices(shape[:2])
-        unit_C = camera.unproject(np.stack([column, row], axis=-1).reshape(-1, 2).astype(float))
-        rays[...] = (unit_C / unit_C[:, 2:]).reshape(*shape[:2], 3)
-    return rays
+    row, column = np.indices(shape[:2])
+    return rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), camera).reshape(*shape[:2], 3)
+
+
+def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
+    """Rays (N, 3) of length 1 in z of pixels (N, 2); without a camera all (0, 0, 1)."""
+    if camera is None:
+        return np.tile([0.0, 0.0, 1.0], (len(pixels), 1))
+    unit_C = camera.unproject(pixels.astype(float))
+    return np.asarray(unit_C / unit_C[:, 2:])
 
 
 def look_at(maps: Grey, rays_C: Array, mask: Mask, *, central: bool) -> Sight:

@@ -213,7 +213,8 @@ def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Mask, block: Indic
     depth = 1 / (rays @ q)
     area = (depth * step) ** 2 / (rays @ unit)
     slab = np.floor(np.log(depth) / SLAB).astype(int)
-    _, of_block = np.unique(np.stack([block[inside], slab]), axis=1, return_inverse=True)
+    slab -= slab.min()
+    _, of_block = np.unique(block[inside] * (slab.max() + 1) + slab, return_inverse=True)
     total = np.bincount(of_block, area)
 
     def joined(values: Array) -> Array:
