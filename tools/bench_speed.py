@@ -21,7 +21,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from scipy import sparse
 from scipy.sparse import linalg
 
 from lpcal.formats.calibration_yaml import write_calibration
@@ -119,9 +118,10 @@ def integration() -> Row:
     depth = np.hypot(grid.rows - 200.0, grid.columns - 250.0) / 50
     step = depth[grid.b] - depth[grid.a] + 1e-3 * rng.standard_normal(len(grid.a))
     A, right = system(grid, np.ones(len(step)), step, np.full(pixels, 1e-6), depth)
-    own = timed(lambda: multigrid.solve(A, right, np.zeros(pixels), grid.prolongations))
-    peer = timed(lambda: linalg.spsolve(sparse.csc_matrix(A), right))
-    apart = np.std(multigrid.solve(A, right, np.zeros(pixels), grid.prolongations) - linalg.spsolve(sparse.csc_matrix(A), right))
+    own = timed(lambda: multigrid.solve(A, right, np.zeros(pixels)))
+    columns = A.sparse().tocsc()
+    peer = timed(lambda: linalg.spsolve(columns, right))
+    apart = np.std(multigrid.solve(A, right, np.zeros(pixels)) - linalg.spsolve(columns, right))
     name = f"least squares of {pixels} pixels (rms apart {apart / np.std(depth):.0e} of the depth's)"
     return Row(name, f"{own:.2f} s", f"{peer:.2f} s, scipy spsolve", peer / own)
 

@@ -38,7 +38,8 @@ class KernelsHook(BuildHookInterface[Any]):
         """Compile; in a clone only if that has not been done for these sources."""
         home = runpy.run_path(str(Path(self.root) / "lpcal" / "kernels" / "library.py"))
         library: Path = home["built"]()
-        if version == "editable" and library.exists():
+        wide: Path | None = home["built"](home["WIDE"]) if platform.machine() in {"x86_64", "AMD64"} else None
+        if version == "editable" and library.exists() and (wide is None or wide.exists()):
             return
         target, tag = TARGETS.get((sys.platform, platform.machine()), (None, None))
         plain = f"{sys.platform}_{platform.machine()}".lower()
@@ -48,9 +49,12 @@ class KernelsHook(BuildHookInterface[Any]):
             if failure := compiled(compiler, home["sources"](), library):
                 failures.append(f"{' '.join(compiler[:4])}: {failure}")
                 continue
-            for old in set(library.parent.glob(f"kernels-*{library.suffix}")) - {library}:
+            made = [library]
+            if wide is not None and not compiled([*compiler, "-mavx2"], home["sources"](), wide):
+                made.append(wide)
+            for old in set(library.parent.glob(f"kernels-*{library.suffix}")) - set(made):
                 old.unlink(missing_ok=True)
-            build_data["artifacts"].append(f"lpcal/kernels/{library.name}")
+            build_data["artifacts"] += [f"lpcal/kernels/{one.name}" for one in made]
             build_data["pure_python"] = False
             build_data["tag"] = f"py3-none-{its_tag}"
             return

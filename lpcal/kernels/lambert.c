@@ -132,16 +132,23 @@ KERNEL void lpcal_best_three(int64_t L, int64_t P, const double *B, const double
     }
 }
 
-/* Light vectors B (L, Q, 3) and doubts (L, Q) from tables (L, nodes, 3, P) and (L, nodes, P), cubic between nodes k - 1 to k + 2. */
-KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const float *table, const float *doubts, const int64_t *node,
-                        const int64_t *nearest, const double *weight, const double *square, const int64_t *pixel, double *B, float *doubt) {
-    for (int64_t l = 0; l < L; l++)
-        for (int64_t q = 0; q < Q; q++) {
-            for (int i = 0; i < 3; i++) {
-                double sum = 0.0;
-                for (int64_t j = 0; j < 4; j++) sum += (double)table[((l * nodes + node[q] + j - 1) * 3 + i) * P + pixel[q]] * weight[j * Q + q];
-                B[3 * (l * Q + q) + i] = sum / square[q];
-            }
-            doubt[l * Q + q] = doubts[(l * nodes + nearest[q]) * P + pixel[q]];
+/* B (L, Q, 3) of a table (P, nodes, L, 3) at log depths u of pixels (Q), cubic between nodes of u evenly apart, and the doubt of the nearest
+   node. */
+KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const float *table, const float *doubts, double first, double step,
+                        const double *u, const int64_t *pixel, double *B, float *doubt) {
+    (void)P;
+    for (int64_t q = 0; q < Q; q++) {
+        double t = fmin(fmax((u[q] - first) / step, 0.0), (double)nodes - 1.001);
+        int64_t node = (int64_t)t < 1 ? 1 : (int64_t)t > nodes - 3 ? nodes - 3 : (int64_t)t, nearest = (int64_t)(t + WHOLE - WHOLE);
+        double f = t - (double)node, by = exponential(-2.0 * (first + t * step));
+        double weight[4] = {-f * (f - 1) * (f - 2) / 6 * by, (f + 1) * (f - 1) * (f - 2) / 2 * by, -(f + 1) * f * (f - 2) / 2 * by,
+                            (f + 1) * f * (f - 1) / 6 * by};
+        const float *at = table + (pixel[q] * nodes + node - 1) * 3 * L;
+        for (int64_t l = 0; l < L; l++) {
+            for (int64_t i = 3 * l; i < 3 * l + 3; i++)
+                B[3 * (l * Q + q) + i - 3 * l] =
+                    (at[i] * weight[0] + at[3 * L + i] * weight[1]) + (at[6 * L + i] * weight[2] + at[9 * L + i] * weight[3]);
+            doubt[l * Q + q] = doubts[(pixel[q] * nodes + nearest) * L + l];
         }
+    }
 }

@@ -17,6 +17,8 @@ from typing import Any
 
 FOLDER = Path(__file__).resolve().parent
 ENDING = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+WIDE = "-avx2"
+"""What the name of the library for x86 processors with vectors of four doubles has besides: same sources, same operations, same bytes."""
 SWITCH = "LPCAL_KERNELS"
 """Environment variable: `numpy` leaves the library alone and lets the twins do all the work."""
 
@@ -24,20 +26,24 @@ SIGNATURES = {
     "behind": "i f i i f f f",
     "best_three": "i i f f b f d d f",
     "cluster": "i i f f f f d f f",
-    "cubic": "i i i i s s n n f f n f s",
+    "cubic": "i i i i s s d d f n f s",
     "distort": "i f f f f",
     "gathered": "i i f f i f f f b i b f f f f f",
-    "hierarchy": "i i n n n n f f n",
     "hidden": "i f f i i i f f d d b",
     "lobe": "i i f f f d f",
+    "lobe_costs": "i i i f f f f f d d d f",
     "many": "i i f f b f d d d d i d f n f f f",
+    "many_labels": "i i i f f f i d d f f",
     "misses": "i i f f f f f f",
     "received": "i i i f f f f f f f i i f f i d d d d",
-    "multigrid": "i i n n n n f f i f f f f d i d d",
+    "multigrid": "i n m m f f f f f f s i d i d d d",
+    "two_labels": "i i s s s i d s s",
     "turns": "i i i f f n n f",
+    "unexplained": "i i f f f f f d i f f f",
     "weighted": "i i f f f d f f",
 }
-"""Arguments of each kernel: d a number, i a whole one; contiguous arrays: f, s doubles and singles, n 64-bit integers, b booleans."""
+"""Arguments of each kernel: d a number, i a whole one; contiguous arrays: f, s doubles and singles, n and m integers of 64 and 32 bits,
+b booleans."""
 
 
 def sources() -> list[Path]:
@@ -45,10 +51,10 @@ def sources() -> list[Path]:
     return sorted([*FOLDER.glob("*.c"), *FOLDER.glob("*.h")])
 
 
-def built() -> Path:
-    """Where the library of these sources is, if it was built."""
+def built(kind: str = "") -> Path:
+    """Where the library of these sources is, if it was built; of kind WIDE: for processors that have wider vectors."""
     digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources())).hexdigest()
-    return FOLDER / f"kernels-{digest[:16]}{ENDING}"
+    return FOLDER / f"kernels-{digest[:16]}{kind}{ENDING}"
 
 
 def who_works() -> str:
@@ -66,6 +72,9 @@ def _loaded() -> dict[str, Callable[..., None]]:
     """All kernels by name; none where there is no library."""
     try:
         library = ctypes.CDLL(os.fspath(built()))
+        library.lpcal_wide.restype = ctypes.c_int64
+        if library.lpcal_wide() and built(WIDE).exists():
+            library = ctypes.CDLL(os.fspath(built(WIDE)))
     except OSError:
         return {}
     kinds = _kinds()
@@ -81,6 +90,6 @@ def _loaded() -> dict[str, Callable[..., None]]:
 def _kinds() -> dict[str, Any]:
     import numpy as np
 
-    dtypes = {"f": np.float64, "s": np.float32, "n": np.int64, "b": np.bool_}
+    dtypes = {"f": np.float64, "s": np.float32, "n": np.int64, "m": np.int32, "b": np.bool_}
     arrays: dict[str, Any] = {one: np.ctypeslib.ndpointer(dtype, flags="C_CONTIGUOUS") for one, dtype in dtypes.items()}
     return {"d": ctypes.c_double, "i": ctypes.c_int64, **arrays}

@@ -6,27 +6,6 @@
 
 #define BLOCK 64
 
-/* Of a normal positive number: exponent times ln 2, and 2 atanh((f - 1) / (f + 1)) of its fraction f about 1. */
-static inline double logarithm(double x) {
-    uint64_t u = bits_of(x);
-    double exponent = of_bits((u >> 52) | 0x4330000000000000u) - (4503599627370496.0 + 1023.0);
-    double fraction = of_bits((u & 0x000fffffffffffffu) | 0x3ff0000000000000u);
-    bool large = fraction > 1.4142135623730951;
-    fraction = large ? 0.5 * fraction : fraction;
-    exponent = large ? exponent + 1.0 : exponent;
-    double s = (fraction - 1.0) / (fraction + 1.0), z = s * s, sum = 1.0 / 21.0;
-    sum = sum * z + 1.0 / 19.0;
-    sum = sum * z + 1.0 / 17.0;
-    sum = sum * z + 1.0 / 15.0;
-    sum = sum * z + 1.0 / 13.0;
-    sum = sum * z + 1.0 / 11.0;
-    sum = sum * z + 1.0 / 9.0;
-    sum = sum * z + 1.0 / 7.0;
-    sum = sum * z + 1.0 / 5.0;
-    sum = sum * z + 1.0 / 3.0;
-    return exponent * LN2 + (2.0 * s + 2.0 * s * z * sum);
-}
-
 /* Directions d (count, 3) and irradiances E (count) of LEDs (leds) of place, axis and power at points x (count, 3). */
 KERNEL void lpcal_cluster(int64_t count, int64_t leds, const double *x, const double *place, const double *axis, const double *power,
                           double m, double *d, double *E) {

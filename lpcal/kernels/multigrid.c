@@ -1,170 +1,254 @@
-/* Conjugate gradients with a multigrid preconditioner on symmetric sparse matrices in compressed rows. Twin: surface/multigrid.py.
+/* Conjugate gradients with a multigrid preconditioner on the pixels of a mask. Twin: surface/multigrid.py.
 
-   Levels from fine to coarse lie one behind the other: sizes (levels), parents (all rows but the coarsest's) of each row on the next level,
-   row starts (sizes + 1 each), and for columns and values one slot of `slot` entries a level. */
+   A level's matrix is that of its pixels' neighbours: pixels are numbered row by row, so the right neighbour of one is the next, and those
+   above and below lie side by side along stretches of a row. Nothing but weights is stored, and every inner loop goes straight through
+   memory. The cycle's numbers are singles: it only says where to look next, the conjugate gradients decide in doubles. Levels from fine to
+   coarse lie one behind the other; vectors have a number more at both ends. */
 
 #include "kernel.h"
 
+typedef float real;
+
 typedef struct {
-    int64_t rows;
-    const int64_t *parent, *start, *column;
-    const double *value, *inverse;
-    double *x, *right, *scratch;
+    int64_t pixels, stretches;
+    const int32_t *parent;  /* of each pixel, on the next coarser level */
+    const int32_t *stretch; /* (stretches, 4): first pixel, how many, the first one above and below them; their own first where none is */
+} Shape;
+
+typedef struct {
+    Shape shape;
+    real *across, *up, *down, *hold, *diagonal, *inverse; /* weights to the next pixel, to those above and below; damping over diagonal */
+    real *x, *y, *right;
 } Level;
 
 typedef struct {
     Level *level;
-    int64_t last;
-    const double *factor; /* upper Cholesky factor of the coarsest matrix; NULL: its diagonal alone */
-    double damping, over;
+    int64_t last, band;
+    double *factor; /* banded Cholesky factor of the coarsest matrix (pixels, band + 1), the diagonal last; NULL: its diagonal alone */
+    real damping, over;
 } Grid;
 
-/* The matrix of rows joined by their parents, P' A P; how many entries it has. `first`, `next` (rows) and `seen` (coarse) are scratch. */
-static int64_t joined(int64_t rows, int64_t coarse, const int64_t *parent, const int64_t *start, const int64_t *column, const double *value,
-                      int64_t *coarse_start, int64_t *coarse_column, double *coarse_value, int64_t *first, int64_t *next, int64_t *seen) {
-    for (int64_t c = 0; c < coarse; c++) first[c] = seen[c] = -1;
-    for (int64_t i = rows - 1; i >= 0; i--) {
-        next[i] = first[parent[i]];
-        first[parent[i]] = i;
+/* A x of the finest matrix. */
+static void times(Shape shape, const double *across, const double *up, const double *down, const double *diagonal, const double *x,
+                  double *restrict found) {
+    for (int64_t s = 0; s < shape.stretches; s++) {
+        const int32_t *at = shape.stretch + 4 * s;
+        int64_t first = at[0], count = at[1];
+        const double *here = x + first, *above = x + at[2], *below = x + at[3], *next = across + first;
+        for (int64_t k = 0; k < count; k++) {
+            double around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[first + k] * above[k] + down[first + k] * below[k]);
+            found[first + k] = diagonal[first + k] * here[k] - around;
+        }
     }
-    int64_t count = 0;
-    for (int64_t c = 0; c < coarse; c++) {
-        coarse_start[c] = count;
-        for (int64_t i = first[c]; i >= 0; i = next[i])
-            for (int64_t k = start[i]; k < start[i + 1]; k++) {
-                int64_t other = parent[column[k]];
-                if (seen[other] < coarse_start[c]) {
-                    seen[other] = count;
-                    coarse_column[count] = other;
-                    coarse_value[count++] = 0.0;
-                }
-                coarse_value[seen[other]] += value[k];
+}
+
+/* y = x + damping / diagonal (right - A x) where `smooth`, else y = right - A x. */
+static void swept(const Level *at, const real *x, const real *right, real *restrict y, real damping, bool smooth) {
+    real keep = 1 - damping;
+    for (int64_t s = 0; s < at->shape.stretches; s++) {
+        const int32_t *stretch = at->shape.stretch + 4 * s;
+        int64_t first = stretch[0], count = stretch[1];
+        const real *here = x + first, *above = x + stretch[2], *below = x + stretch[3], *next = at->across + first;
+        const real *up = at->up + first, *down = at->down + first, *inverse = at->inverse + first, *given = right + first;
+        const real *diagonal = at->diagonal + first;
+        real *to = y + first;
+        if (smooth)
+            for (int64_t k = 0; k < count; k++) {
+                real around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[k] * above[k] + down[k] * below[k]);
+                to[k] = keep * here[k] + inverse[k] * (given[k] + around);
+            }
+        else
+            for (int64_t k = 0; k < count; k++) {
+                real around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[k] * above[k] + down[k] * below[k]);
+                to[k] = (given[k] + around) - diagonal[k] * here[k];
             }
     }
-    coarse_start[coarse] = count;
-    return count;
 }
 
-/* Fills the coarser levels from the finest, and the inverse diagonals of all. `scratch` holds three times the finest's rows. */
-KERNEL void lpcal_hierarchy(int64_t levels, int64_t slot, const int64_t *sizes, const int64_t *parents, int64_t *start, int64_t *column,
-                            double *value, double *inverse, int64_t *scratch) {
-    for (int64_t l = 0; l < levels; l++) {
-        int64_t rows = sizes[l];
-        for (int64_t i = 0; i < rows; i++) {
-            double diagonal = 0.0;
-            for (int64_t k = start[i]; k < start[i + 1]; k++)
-                if (column[k] == i) diagonal += value[k];
-            inverse[i] = 1 / diagonal;
+/* Weights of edges upwards by those downwards. */
+static void upwards(Shape shape, const real *down, real *up) {
+    memset(up, 0, (size_t)shape.pixels * sizeof *up);
+    for (int64_t s = 0; s < shape.stretches; s++) {
+        const int32_t *at = shape.stretch + 4 * s;
+        if (at[3] != at[0])
+            for (int64_t k = 0; k < at[1]; k++) up[at[3] + k] = down[at[0] + k];
+    }
+}
+
+static void diagonals(const Level *at, real damping) {
+    for (int64_t i = 0; i < at->shape.pixels; i++) {
+        at->diagonal[i] = at->hold[i] + ((at->across[i] + at->across[i - 1]) + (at->up[i] + at->down[i]));
+        at->inverse[i] = damping / at->diagonal[i];
+    }
+}
+
+/* The coarser level's weights: those of edges between its pixels, and what holds these, summed (P' A P). */
+static void joined(const Level *fine, Level *coarse) {
+    size_t bytes = (size_t)coarse->shape.pixels * sizeof(real);
+    memset(coarse->hold, 0, bytes);
+    memset(coarse->across, 0, bytes);
+    memset(coarse->down, 0, bytes);
+    const int32_t *parent = fine->shape.parent;
+    for (int64_t s = 0; s < fine->shape.stretches; s++) {
+        const int32_t *at = fine->shape.stretch + 4 * s;
+        for (int64_t i = at[0]; i < at[0] + at[1]; i++) {
+            int32_t own = parent[i];
+            coarse->hold[own] += fine->hold[i];
+            if (fine->across[i] > 0 && parent[i + 1] != own) coarse->across[own] += fine->across[i];
+            if (at[3] != at[0] && parent[at[3] + i - at[0]] != own) coarse->down[own] += fine->down[i];
         }
-        if (l + 1 == levels) break;
-        joined(rows, sizes[l + 1], parents, start, column, value, start + rows + 1, column + slot, value + slot, scratch, scratch + sizes[0],
-               scratch + 2 * sizes[0]);
-        parents += rows;
-        inverse += rows;
-        start += rows + 1;
-        column += slot;
-        value += slot;
     }
+    upwards(coarse->shape, coarse->down, coarse->up);
 }
 
-static void times(const Level *at, const double *x, double *found) {
-    for (int64_t i = 0; i < at->rows; i++) {
-        double sum = 0.0;
-        for (int64_t k = at->start[i]; k < at->start[i + 1]; k++) sum += at->value[k] * x[at->column[k]];
-        found[i] = sum;
+/* The factor of the coarsest matrix; false where it is singular to rounding. */
+static bool factored(const Level *at, double *factor, int64_t band, double rounding) {
+    int64_t n = at->shape.pixels, width = band + 1;
+    memset(factor, 0, (size_t)(n * width) * sizeof(double));
+    for (int64_t i = 0; i < n; i++) {
+        double edges = ((double)at->across[i] + (double)at->across[i - 1]) + ((double)at->up[i] + (double)at->down[i]);
+        factor[i * width + band] = (at->hold[i] + edges) * (1 + rounding);
+        if (i && band) factor[i * width + band - 1] = -at->across[i - 1];
     }
+    for (int64_t s = 0; s < at->shape.stretches; s++) {
+        const int32_t *stretch = at->shape.stretch + 4 * s;
+        int64_t apart = stretch[3] - stretch[0];
+        for (int64_t k = 0; apart && k < stretch[1]; k++) factor[(stretch[3] + k) * width + band - apart] -= at->down[stretch[0] + k];
+    }
+    for (int64_t i = 0; i < n; i++) {
+        double *row = factor + i * width;
+        int64_t from = i < band ? 0 : i - band;
+        for (int64_t j = from; j <= i; j++) {
+            const double *other = factor + j * width;
+            double sum = row[band - (i - j)];
+            for (int64_t k = j - band > from ? j - band : from; k < j; k++) sum -= row[band - (i - k)] * other[band - (j - k)];
+            if (j < i)
+                row[band - (i - j)] = sum / other[band];
+            else if (!(sum > 0.0))
+                return false;
+            else
+                row[band] = sqrt(sum);
+        }
+    }
+    return true;
 }
 
-/* x + damping / diagonal (right - A x), by way of the scratch. */
-static void smooth(Level *at, const double *right, double *x, double damping) {
-    times(at, x, at->scratch);
-    for (int64_t i = 0; i < at->rows; i++) x[i] += damping * at->inverse[i] * (right[i] - at->scratch[i]);
-}
-
-static void coarsest(const Grid *grid, const double *right, double *x) {
+static void coarsest(const Grid *grid, const real *right, real *found, double *x) {
     const Level *at = grid->level + grid->last;
-    int64_t n = at->rows;
+    int64_t n = at->shape.pixels, band = grid->band, width = band + 1;
     if (!grid->factor) {
-        for (int64_t i = 0; i < n; i++) x[i] = at->inverse[i] * right[i];
+        for (int64_t i = 0; i < n; i++) found[i] = right[i] / at->diagonal[i];
         return;
     }
-    memcpy(x, right, (size_t)n * sizeof *x);
     for (int64_t i = 0; i < n; i++) {
-        const double *row = grid->factor + i * n;
-        double own = x[i] / row[i];
-        x[i] = own;
-        for (int64_t j = i + 1; j < n; j++) x[j] -= row[j] * own;
+        const double *row = grid->factor + i * width;
+        double sum = right[i];
+        for (int64_t j = i < band ? 0 : i - band; j < i; j++) sum -= row[band - (i - j)] * x[j];
+        x[i] = sum / row[band];
     }
     for (int64_t i = n - 1; i >= 0; i--) {
-        const double *row = grid->factor + i * n;
-        double sum = x[i];
-        for (int64_t j = i + 1; j < n; j++) sum -= row[j] * x[j];
-        x[i] = sum / row[i];
+        const double *row = grid->factor + i * width;
+        x[i] /= row[band];
+        for (int64_t j = i < band ? 0 : i - band; j < i; j++) x[j] -= row[band - (i - j)] * x[i];
+        found[i] = (real)x[i];
     }
 }
 
-/* One symmetric V-cycle from zero. */
-static void cycle(const Grid *grid, int64_t depth, const double *right, double *x) {
+/* One symmetric V-cycle from zero; what it finds is in the level's x. */
+static void cycle(const Grid *grid, int64_t depth, double *scratch) {
     Level *at = grid->level + depth;
     if (depth == grid->last) {
-        coarsest(grid, right, x);
+        coarsest(grid, at->right, at->x, scratch);
         return;
     }
-    Level *below = at + 1;
-    for (int64_t i = 0; i < at->rows; i++) x[i] = grid->damping * at->inverse[i] * right[i];
-    smooth(at, right, x, grid->damping);
-    times(at, x, at->scratch);
-    memset(below->right, 0, (size_t)below->rows * sizeof(double));
-    for (int64_t i = 0; i < at->rows; i++) below->right[at->parent[i]] += right[i] - at->scratch[i];
-    cycle(grid, depth + 1, below->right, below->x);
-    for (int64_t i = 0; i < at->rows; i++) x[i] += grid->over * below->x[at->parent[i]];
-    smooth(at, right, x, grid->damping);
-    smooth(at, right, x, grid->damping);
+    Level *under = at + 1;
+    const int32_t *parent = at->shape.parent;
+    int64_t n = at->shape.pixels;
+    for (int64_t i = 0; i < n; i++) at->y[i] = at->inverse[i] * at->right[i];
+    swept(at, at->y, at->right, at->x, grid->damping, true);
+    swept(at, at->x, at->right, at->y, grid->damping, false);
+    memset(under->right, 0, (size_t)under->shape.pixels * sizeof(real));
+    for (int64_t i = 0; i < n; i++) under->right[parent[i]] += at->y[i];
+    cycle(grid, depth + 1, scratch);
+    for (int64_t i = 0; i < n; i++) at->x[i] += grid->over * under->x[parent[i]];
+    swept(at, at->x, at->right, at->y, grid->damping, true);
+    swept(at, at->y, at->right, at->x, grid->damping, true);
 }
 
-/* Always summed in the same four lanes. */
+/* Always summed in the same eight lanes. */
 static double dot(int64_t n, const double *a, const double *b) {
-    double lane[4] = {0.0, 0.0, 0.0, 0.0};
+    double lane[8] = {0.0};
     int64_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (int j = 0; j < 4; j++) lane[j] += a[i + j] * b[i + j];
+    for (; i + 8 <= n; i += 8)
+        for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];
     for (; i < n; i++) lane[0] += a[i] * b[i];
-    return (lane[0] + lane[1]) + (lane[2] + lane[3]);
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-/* x of A x = right, from x, until the residual is no longer than `enough`; `work` holds three times the rows of all levels and four of the finest's. */
-KERNEL void lpcal_multigrid(int64_t levels, int64_t slot, const int64_t *sizes, const int64_t *parents, const int64_t *start,
-                            const int64_t *column, const double *value, const double *inverse, int64_t factored, const double *factor,
-                            const double *right, double *x, double *work, double enough, int64_t most, double damping, double over) {
+/* x of A x = right, from x, until the residual is no longer than `enough`. `sizes` (levels, 2): pixels and stretches of each; `across` and
+   `down` (pixels) are the finest's weights, `band` is how far apart neighbours of the coarsest are numbered at most, -1 where there are too
+   many. `work` is zero: eight times the finest's pixels plus two, and (band + 2) times the coarsest's; `singles` likewise: nine times the
+   pixels plus two of all levels. */
+KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *hold,
+                            const double *across, const double *down, const double *right, double *x, double *work, float *singles,
+                            int64_t band, double enough, int64_t most, double damping, double over, double rounding) {
     Level level[64];
     int64_t n = sizes[0];
+    double *vector[8];
+    for (int k = 0; k < 8; k++, work += n + 2) vector[k] = work + 1;
+    double *next = vector[0], *above = vector[1], *below = vector[2], *diagonal = vector[3];
+    double *image = vector[4], *residual = vector[5], *direction = vector[6], *guess = vector[7], before = 1.0;
     for (int64_t l = 0; l < levels; l++) {
-        int64_t rows = sizes[l];
-        level[l] = (Level){rows, parents, start, column, value, inverse, work, work + rows, work + 2 * rows};
-        parents += rows;
-        start += rows + 1;
-        column += slot;
-        value += slot;
-        inverse += rows;
-        work += 3 * rows;
+        int64_t pixels = sizes[2 * l];
+        real *own[9];
+        for (int k = 0; k < 9; k++, singles += pixels + 2) own[k] = singles + 1;
+        Shape shape = {pixels, sizes[2 * l + 1], parents, stretches};
+        level[l] = (Level){shape, own[0], own[1], own[2], own[3], own[4], own[5], own[6], own[7], own[8]};
+        parents += pixels;
+        stretches += 4 * shape.stretches;
+        if (l == 0) {
+            for (int64_t i = 0; i < n; i++) {
+                level->hold[i] = (real)hold[i];
+                level->across[i] = (real)across[i];
+                level->down[i] = (real)down[i];
+            }
+            upwards(shape, level->down, level->up);
+        } else
+            joined(level + l - 1, level + l);
+        diagonals(level + l, (real)damping);
     }
-    Grid grid = {level, levels - 1, factored ? factor : NULL, damping, over};
-    double *residual = work, *z = work + n, *direction = work + 2 * n, *image = work + 3 * n, before = 1.0;
-    times(level, x, image);
+    Shape shape = level->shape;
+    for (int64_t s = 0; s < shape.stretches; s++) {
+        const int32_t *at = shape.stretch + 4 * s;
+        if (at[3] != at[0])
+            for (int64_t k = 0; k < at[1]; k++) above[at[3] + k] = down[at[0] + k];
+    }
     for (int64_t i = 0; i < n; i++) {
-        residual[i] = right[i] - image[i];
-        direction[i] = 0.0;
+        next[i] = across[i];
+        below[i] = down[i];
+        guess[i] = x[i];
     }
-    for (int64_t step = 0; step < most && !(sqrt(dot(n, residual, residual)) <= enough); step++) {
-        cycle(&grid, 0, residual, z);
-        double now = dot(n, residual, z), turn = step ? now / before : 0.0;
-        for (int64_t i = 0; i < n; i++) direction[i] = z[i] + turn * direction[i];
-        times(level, direction, image);
-        double length = now / dot(n, direction, image);
+    for (int64_t i = 0; i < n; i++) diagonal[i] = hold[i] + ((next[i] + next[i - 1]) + (above[i] + below[i]));
+    int64_t size = sizes[2 * levels - 2];
+    Grid grid = {level, levels - 1, band, NULL, (real)damping, (real)over};
+    if (band >= 0 && factored(level + levels - 1, work + size, band, rounding)) grid.factor = work + size;
+    times(shape, next, above, below, diagonal, guess, image);
+    for (int64_t i = 0; i < n; i++) residual[i] = right[i] - image[i];
+    double length = sqrt(dot(n, residual, residual));
+    for (int64_t step = 0; step < most && !(length <= enough); step++) {
+        for (int64_t i = 0; i < n; i++) level->right[i] = (real)(residual[i] / length);
+        cycle(&grid, 0, work);
+        for (int64_t i = 0; i < n; i++) image[i] = level->x[i];
+        double now = dot(n, residual, image), turn = step ? now / before : 0.0;
+        for (int64_t i = 0; i < n; i++) direction[i] = image[i] + turn * direction[i];
+        times(shape, next, above, below, diagonal, direction, image);
+        double by = now / dot(n, direction, image);
         for (int64_t i = 0; i < n; i++) {
-            x[i] += length * direction[i];
-            residual[i] -= length * image[i];
+            guess[i] += by * direction[i];
+            residual[i] -= by * image[i];
         }
         before = now;
+        length = sqrt(dot(n, residual, residual));
     }
+    memcpy(x, guess, (size_t)n * sizeof *x);
 }

@@ -23,6 +23,7 @@ from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
 from lpcal.surface import coarse, distance, normals, pieces
 from lpcal.surface.coarse import LightTable
+from lpcal.surface.crop import Crop
 from lpcal.surface.integrate import Grid, integrate, settle, steps
 from lpcal.surface.sight import Grey, Sight, look_at
 
@@ -101,7 +102,9 @@ def search(
     if inside.sum() < normals.LEAST * 20:
         return None
     seen = look_at(image.maps, image.image(image.rays_C), inside, central=True)
-    table, grid = LightTable.of(image, lights, about_m).at_pixels(np.flatnonzero(inside)), Grid.of(inside)
+    box = Crop.about(inside)
+    table = LightTable.of(image, lights, about_m, (box.rows, box.columns)).at_pixels(np.flatnonzero(box.of(inside)))
+    grid = Grid.of(inside)
     ends: list[Basin] = []
     for done, share_of_working in enumerate(STARTS):
         progress(f"{name}: distance", done, len(STARTS))

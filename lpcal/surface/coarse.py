@@ -28,6 +28,8 @@ LATTICE = (19, 25)
 """Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
 """Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+EVERYWHERE = (slice(None), slice(None))
+"""The box of all rows and columns."""
 
 
 @dataclass(frozen=True)
@@ -99,13 +101,13 @@ class LightTable:
     """u of the first node."""
     step: float
     B: Array
-    """(L, nodes, 3, P), times z^2."""
+    """(P, nodes, L, 3), times z^2: what a pixel is asked for lies together."""
     doubt: Array
-    """(L, nodes, P), a share of the irradiance."""
+    """(P, nodes, L), a share of the irradiance."""
 
     @staticmethod
-    def of(image: Coarse, lights: Sequence[Light], distance_m: float) -> LightTable:
-        """The table about a working distance."""
+    def of(image: Coarse, lights: Sequence[Light], distance_m: float, box: tuple[slice, slice] = EVERYWHERE) -> LightTable:
+        """The table about a working distance, on the pixels of a box of rows and columns."""
         from scipy import ndimage
 
         rows, columns = image.shape
@@ -119,11 +121,17 @@ class LightTable:
         doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
 
         def spread(values: Array, order: Literal[1, 3]) -> Array:
-            """Values (..., lattice) at the pixels (..., P): splines of this order down and across."""
-            by_row, by_column = (_spline(nodes, side, order) for nodes, side in zip(LATTICE, image.shape, strict=True))
-            return np.asarray((by_row @ values @ by_column.T).reshape(*values.shape[:-2], -1), np.float32)
+            """Values (lattice, N) at the pixels (P, N): splines of this order down and across."""
+            sides = zip(LATTICE, image.shape, box, strict=True)
+            by_row, by_column = (_spline(nodes, side, order)[some] for nodes, side, some in sides)
+            found = np.empty((len(by_row), len(by_column), values[0, 0].size), np.float32)
+            lattice = values.reshape(LATTICE[0], -1)
+            for row, weights in zip(found, by_row, strict=True):  # in doubles a row at a time: they are many
+                row[...] = by_column @ (weights @ lattice).reshape(LATTICE[1], -1)
+            return found.reshape(-1, *values.shape[2:])
 
-        return LightTable(float(u[0]), float(u[1] - u[0]), spread(np.moveaxis(B, -1, 2), 3), spread(doubt, 1))
+        of_lattice = np.ascontiguousarray(np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4))
+        return LightTable(float(u[0]), float(u[1] - u[0]), spread(of_lattice, 3), spread(np.moveaxis(doubt, (2, 3, 1, 0), (0, 1, 2, 3)), 1))
 
     @property
     def nodes(self) -> Array:
@@ -132,26 +140,25 @@ class LightTable:
 
     def at(self, u: Array, pixels: Indices) -> tuple[Array, Array]:
         """Light vectors (L, Q, 3) and their doubt (L, Q) at log depths u (Q,) of pixels (Q,)."""
+        if run := kernel("cubic"):
+            (P, nodes, L, _), Q = self.B.shape, len(u)
+            B, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
+            places = (np.ascontiguousarray(u, float), np.ascontiguousarray(pixels, np.int64))
+            run(L, nodes, P, Q, self.B, self.doubt, self.first, self.step, *places, B, doubt)
+            return B, doubt
         t = np.clip((u - self.first) / self.step, 0, self.B.shape[1] - 1.001)
         k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
         f = t - k
         weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
-        z = np.exp(self.first + t * self.step)
-        square: Array = z[:, None] ** 2
-        nearest = np.rint(t).astype(int)
-        if run := kernel("cubic"):
-            (L, nodes, _, P), Q = self.B.shape, len(u)
-            B, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
-            run(L, nodes, P, Q, self.B, self.doubt, k, nearest, np.stack(weights), square, np.ascontiguousarray(pixels, np.int64), B, doubt)
-            return B, doubt
-        total = np.zeros((len(u), len(self.B), 3))
+        total = np.zeros((len(u), *self.B.shape[2:]))
         for j, weight in enumerate(weights):
-            total += self.B[:, k + j - 1, :, pixels] * weight[:, None, None]
-        return np.moveaxis(total, 0, 1) / square, self.doubt[:, nearest, pixels]
+            total += self.B[pixels, k + j - 1] * weight[:, None, None]
+        z = np.exp(self.first + t * self.step)
+        return np.moveaxis(total / z[:, None, None] ** 2, 0, 1), self.doubt[pixels, np.rint(t).astype(int)].T
 
     def at_pixels(self, some: Indices) -> LightTable:
         """The table on some of the pixels."""
-        return LightTable(self.first, self.step, np.take(self.B, some, axis=-1), np.take(self.doubt, some, axis=-1))
+        return LightTable(self.first, self.step, self.B[some], self.doubt[some])
 
     def holds(self, u: Array) -> Mask:
         """Whether log depths lie in the table."""

@@ -117,15 +117,13 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     odds of a gloss are under FAINT.
     """
     F0 = np.array(MIRRORED)
-    ks = F0 * np.pi / per_unit
-    plain = _unexplained(residual, np.zeros_like(residual), weight, spread2, lit.B)[0]
-    matte = _cost(plain, weight, spread2)
-    cost, left_and_own = np.empty((len(ROUGHNESSES), len(ks))), []
-    for row, roughness in enumerate(ROUGHNESSES):
+    ks, none = F0 * np.pi / per_unit, np.zeros(1)
+    plain = _unexplained(residual, np.zeros_like(residual), weight, spread2, lit.B)
+    matte, found = _costs(*plain, none, weight, spread2, DOUBT).sum(), []
+    for roughness in ROUGHNESSES:
         shape = lit.E * lobe(lit.d, n, v, roughness)
-        left, own = _unexplained(residual, shape, weight, spread2, lit.B)
-        left_and_own.append((left, own))
-        cost[row] = [_cost(left - one * own, weight, spread2 + (DOUBT * one * own) ** 2) for one in ks]
+        found.append(_unexplained(residual, shape, weight, spread2, lit.B))
+    cost = np.stack([_costs(*one, ks, weight, spread2, DOUBT).sum(axis=1) for one in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
     prior = (1 - MATTE) * ((1 - METAL) * common / common.sum() + METAL / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
@@ -139,14 +137,19 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     strength = glossy * float(np.exp(np.sum(odds * np.log(ks))))
     width = float(np.exp(np.sum(odds * np.log(ROUGHNESSES)[:, None])))
     misfit = 0.0
-    for row, column in zip(*np.nonzero(odds), strict=True):
-        left, own = left_and_own[row]
-        misfit += float(odds[row, column]) * _misfit(left - ks[column] * own, weight, spread2)
-    return Gloss(strength, width, misfit / max(_misfit(plain, weight, spread2), 1e-12))
+    for row in np.flatnonzero(odds.any(axis=1)):
+        some = odds[row] > 0
+        misfit += float(odds[row, some] @ _costs(*found[row], ks[some], weight, spread2, 0.0)[:, 0])
+    return Gloss(strength, width, misfit / max(float(_costs(*plain, none, weight, spread2, 0.0)[0, 0]), 1e-12))
 
 
 def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B: Array) -> tuple[Array, Array]:
     """Residual and lobe (L, P) without what b explains of them, by the weights of a robust regression of the one on the other."""
+    if run := kernel("unexplained"):
+        given = (np.ascontiguousarray(one, float) for one in (residual, shape, weight, spread2, B))
+        pull, left, own = np.empty((3, *residual.shape))
+        run(*residual.shape, *given, WIDTH2, ROUNDS, pull, left, own)
+        return left, own
     pull = weight / spread2
     for k in range(ROUNDS + 1):
         left, own = _free_of_b(np.stack([residual, shape]), pull, B)
@@ -165,10 +168,19 @@ def _free_of_b(values: Array, weight: Array, B: Array) -> Array:
     return np.asarray(values - np.einsum("kpi,...pi->...kp", B, b))
 
 
-def _misfit(residual: Array, weight: Array, spread2: Array) -> float:
-    return float(np.sum(weight * WIDTH2 * np.log1p(residual**2 / spread2 / WIDTH2)))
+def _costs(left: Array, own: Array, ks: Array, weight: Array, spread2: Array, doubt: float) -> Array:
+    """Twice the negative logarithm (N, 2) of Geman and McClure's likelihood with a lobe of strengths ks (N,) that is in doubt by a share.
 
-
-def _cost(residual: Array, weight: Array, spread2: Array) -> float:
-    """Twice the negative logarithm of Geman and McClure's likelihood."""
-    return _misfit(residual, weight, spread2) + float(np.sum(weight * np.log(spread2)))
+    Misfit and logarithm of the variance apart.
+    """
+    if run := kernel("lobe_costs"):
+        found = np.empty((len(ks), 2))
+        given = (np.ascontiguousarray(one, float) for one in (ks, left, own, weight, spread2))
+        run(*left.shape, len(ks), *given, doubt, WIDTH2, float(np.mean(spread2)), found)
+        return found
+    costs = []
+    for one in ks:
+        shown, variance = one * own, spread2 + (doubt * one * own) ** 2
+        misfit = np.sum(weight * WIDTH2 * np.log1p((left - shown) ** 2 / variance / WIDTH2))
+        costs.append((misfit, np.sum(weight * np.log(variance))))
+    return np.array(costs)

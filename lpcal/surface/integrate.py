@@ -16,13 +16,13 @@ Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J. Computer Visi
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import multigrid
+from lpcal.surface.multigrid import Matrix, Pyramid
 from lpcal.surface.sight import Indices
 
 STEEPEST = 0.03
@@ -30,7 +30,7 @@ STEEPEST = 0.03
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
 AGAIN = (100.0, 10.0, 1.0, 1.0)
 """Where the depth is known already."""
-ROUGHLY, FINELY = 1e-3, 1e-5
+ROUGHLY, FINELY = 1e-4, 1e-6
 """Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 UNEVEN = 0.2
@@ -50,7 +50,7 @@ class Grid:
     horizontal: Mask
     rows: Indices
     columns: Indices
-    prolongations: list[Any]
+    pyramid: Pyramid
 
     @staticmethod
     def of(mask: Mask) -> Grid:
@@ -61,7 +61,7 @@ class Grid:
         a = np.concatenate([number[:, :-1][across], number[:-1][down]])
         b = np.concatenate([number[:, 1:][across], number[1:][down]])
         rows, columns = (index.astype(np.int64) for index in np.nonzero(mask))
-        return Grid(a, b, np.arange(len(a)) < across.sum(), rows, columns, multigrid.aggregates(rows, columns))
+        return Grid(a, b, np.arange(len(a)) < across.sum(), rows, columns, Pyramid.of(rows, columns))
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
     weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
     for k, strength in enumerate(strengths):
         A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
-        u = multigrid.solve(A, right, u, grid.prolongations, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
+        u = multigrid.solve(A, right, u, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
         weight = _weight(grid, u, step, sigma)
     return u, weight
 
@@ -110,7 +110,7 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
 def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
     """u (P,) with the weights (edges,) as they are."""
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
-    return multigrid.solve(A, right, start, grid.prolongations, precision=FINELY)
+    return multigrid.solve(A, right, start, precision=FINELY)
 
 
 def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
@@ -120,16 +120,8 @@ def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)
 
 
-def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Any, Array]:
+def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Matrix, Array]:
     """Matrix and right side of the normal equations."""
-    from scipy import sparse
-
-    a, b, count = grid.a, grid.b, len(curvature)
-    diagonal = curvature + np.bincount(a, weight, count) + np.bincount(b, weight, count)
-    every = np.arange(count)
-    A = sparse.csr_array(
-        (np.concatenate([diagonal, -weight, -weight]), (np.concatenate([every, a, b]), np.concatenate([every, b, a]))), shape=(count, count)
-    )
-    pull = weight * step
-    right = curvature * optimum + np.bincount(b, pull, count) - np.bincount(a, pull, count)
-    return A, right
+    pull, count = weight * step, len(curvature)
+    right = curvature * optimum + np.bincount(grid.b, pull, count) - np.bincount(grid.a, pull, count)
+    return Matrix(grid.pyramid, curvature, weight), right

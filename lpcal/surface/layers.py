@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface import background, flats, samples
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.regions import View
@@ -211,11 +212,20 @@ def boundary(bright: Image) -> tuple[Image, Image]:
 
 def cheapest(cost: Array, across: Image, down: Image) -> Labels:
     """Labels (rows, columns) of least cost (layers, rows, columns), boundaries counted: a primal-dual method (Chambolle and Pock 2011)."""
+    return np.asarray(np.argmax(_relaxed(cost, across, down), axis=0))
+
+
+def _relaxed(cost: Array, across: Image, down: Image) -> Array:
+    """Indicators (layers, rows, columns) of the labels, on the simplex."""
     layers, rows, columns = cost.shape
     x = (np.argmin(cost, axis=0) == np.arange(layers)[:, None, None]).astype(float)
+    step, scale = 1 / np.sqrt(8), float(np.median(across))
+    if run := kernel("many_labels"):
+        half = (np.ascontiguousarray(one / 2, float) for one in (across, down))
+        run(*cost.shape, np.ascontiguousarray(cost, float), *half, STEPS, step * scale, step / scale, np.empty((3, *cost.shape)), x)
+        return x
     ahead, right, below = x.copy(), np.zeros((layers, rows, columns - 1)), np.zeros((layers, rows - 1, columns))
-    scale = float(np.median(across))
-    step, rank = 1 / np.sqrt(8), np.arange(1, layers + 1)[:, None, None]
+    rank = np.arange(1, layers + 1)[:, None, None]
     for _ in range(STEPS):
         right = np.clip(right + step * scale * np.diff(ahead, axis=2), -across / 2, across / 2)
         below = np.clip(below + step * scale * np.diff(ahead, axis=1), -down / 2, down / 2)
@@ -230,4 +240,4 @@ def cheapest(cost: Array, across: Image, down: Image) -> Labels:
         last = np.sum(ordered - over / rank > 0, axis=0)
         before, x = x, np.maximum(moved - np.take_along_axis(over, last[None] - 1, axis=0) / last, 0)
         ahead = 2 * x - before
-    return np.asarray(np.argmax(x, axis=0))
+    return x

@@ -1,70 +1,162 @@
 """Sparse symmetric positive systems on the pixels of a mask, by conjugate gradients with a multigrid preconditioner.
 
-Unknowns sit on pixels; a coarse unknown is the sum of those in 2x2 pixels (aggregation, Galerkin products), so that the mask's outline and
-weak links between pixels are known on every level. Sources: Notay 2010, Electronic Transactions on Numerical Analysis 37 (aggregation
-multigrid); Braess 1995, Computing 55 (over-correction).
+Unknowns sit on pixels, weights between neighbours; a coarse unknown is the sum of those in 2x2 pixels (aggregation, Galerkin products),
+which again are linked to their neighbours alone: the mask's outline and weak links between pixels are known on every level, and no matrix
+is ever stored. Sources: Notay 2010, Electronic Transactions on Numerical Analysis 37 (aggregation multigrid); Braess 1995, Computing 55
+(over-correction).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Indices
 
 COARSEST = 200
+"""Unknowns from which on a level is not made coarser, but solved directly."""
+LARGEST = 800
+"""Unknowns of a level that cannot be made coarser, as nothing in it touches, beyond which it is not solved directly."""
 ROUNDING = 1e-12
 """Share by which the diagonal of the coarsest matrix is raised, so that rounding leaves it positive."""
 DAMPING = 0.7
+"""Share of a Jacobi step that smooths."""
 OVER_CORRECTION = 1.6
+"""Factor of what a coarser level says: sums over pixels see steps between them too steep."""
 
 
 @dataclass(frozen=True)
-class Level:
-    """One level: its matrix, the inverse of its diagonal, and the prolongation from the next coarser one (None at the coarsest)."""
+class Layout:
+    """Pixels of one level, numbered row by row, and their neighbours."""
 
-    A: Any
-    inverse_diagonal: Array
-    P: Any
+    a: Indices
+    """Left and upper pixels of the edges: those to the right first, then those downwards."""
+    b: Indices
+    """Their right and lower pixels."""
+    to_the_right: int
+    """How many edges lead to the right."""
+    parent: npt.NDArray[np.int32]
+    """Number of each pixel's own on the next coarser level; at the coarsest 0."""
+
+    @property
+    def pixels(self) -> int:
+        """How many there are."""
+        return len(self.parent)
+
+    @cached_property
+    def stretches(self) -> npt.NDArray[np.int32]:
+        """(N, 4) stretches of pixels side by side, and so those above and below: the first, how many, the first above and the first below.
+
+        Where there are none above or below, the stretch's own first stands for them.
+        """
+        every = np.arange(self.pixels)
+        linked = np.zeros(self.pixels, bool)
+        linked[self.a[: self.to_the_right]] = True
+        above, below = every.copy(), every.copy()
+        upper, lower = self.a[self.to_the_right :], self.b[self.to_the_right :]
+        above[lower], below[upper] = upper, lower
+        one_row = np.diff(every - above, prepend=-1) == 0
+        one_row &= np.diff(below - every, prepend=-1) == 0
+        first = np.flatnonzero(~(one_row & np.r_[False, linked[:-1]]))
+        return np.stack([first, np.diff(np.r_[first, self.pixels]), above[first], below[first]], axis=1).astype(np.int32)
 
 
-def aggregates(rows: Indices, columns: Indices) -> list[Any]:
-    """Prolongations from coarse to fine, of pixels at rows and columns (P,), down to COARSEST unknowns."""
-    from scipy import sparse
+@dataclass(frozen=True)
+class Pyramid:
+    """Pixels, and those that 2x2 of them make, down to COARSEST."""
 
-    found = []
-    while len(rows) > COARSEST:
-        width = int(columns.max()) // 2 + 1
-        key, parent = np.unique(rows // 2 * width + columns // 2, return_inverse=True)
-        if len(key) == len(rows):
-            break
-        found.append(sparse.csr_array((np.ones(len(rows)), (np.arange(len(rows)), parent)), shape=(len(rows), len(key))))
-        rows, columns = key // width, key % width
-    return found
+    levels: tuple[Layout, ...]
+
+    @staticmethod
+    def of(rows: Indices, columns: Indices) -> Pyramid:
+        """From pixels at rows and columns (P,), in reading order."""
+        found: list[Layout] = []
+        rows, columns = rows - rows.min(), columns - columns.min()
+        while True:
+            number = np.full((rows.max() + 1, columns.max() + 1), -1, np.int64)
+            number[rows, columns] = np.arange(len(rows))
+            half = np.zeros((rows.max() // 2 + 1, columns.max() // 2 + 1), bool)
+            half[rows // 2, columns // 2] = True
+            coarse = np.nonzero(half)
+            last = len(rows) <= COARSEST or len(coarse[0]) == len(rows)
+            numbered = np.cumsum(half).reshape(half.shape) - 1
+            parent = np.zeros(len(rows), np.int32) if last else numbered[rows // 2, columns // 2].astype(np.int32)
+            left, right, upper, lower = number[:, :-1], number[:, 1:], number[:-1], number[1:]
+            across, down = (left >= 0) & (right >= 0), (upper >= 0) & (lower >= 0)
+            a, b = np.concatenate([left[across], upper[down]]), np.concatenate([right[across], lower[down]])
+            found.append(Layout(a, b, int(across.sum()), parent))
+            if last:
+                return Pyramid(tuple(found))
+            rows, columns = coarse
+
+    @cached_property
+    def laid_out(self) -> tuple[Indices, npt.NDArray[np.int32], npt.NDArray[np.int32], int]:
+        """The levels one behind the other: sizes, parents, stretches, and how far apart neighbours of the coarsest are numbered."""
+        levels, last = self.levels, self.levels[-1]
+        sizes = np.array([(one.pixels, len(one.stretches)) for one in levels], np.int64)
+        parents, stretches = (np.concatenate([getattr(one, name) for one in levels]) for name in ("parent", "stretches"))
+        return sizes, parents, stretches, int(np.max(last.b - last.a, initial=0)) if last.pixels <= LARGEST else -1
 
 
-def solve(A: Any, right: Array, start: Array, prolongations: list[Any], *, precision: float = 1e-6, most: int = 200) -> Array:
-    """x (P,) with ``A x = right``, from `start`, to a relative residual of `precision`."""
+@dataclass(frozen=True)
+class Matrix:
+    """A symmetric positive matrix on pixels: ``sum hold x^2 + sum_ab weight (x_a - x_b)^2 = x . A x``."""
+
+    pyramid: Pyramid
+    hold: Array
+    """(P,)."""
+    weight: Array
+    """(edges,)."""
+
+    def times(self, x: Array) -> Array:
+        """A x (P,)."""
+        finest = self.pyramid.levels[0]
+        flow = self.weight * (x[finest.a] - x[finest.b])
+        return np.asarray(self.hold * x + np.bincount(finest.a, flow, len(x)) - np.bincount(finest.b, flow, len(x)))
+
+    def sparse(self) -> Any:
+        """As a matrix of scipy in compressed rows."""
+        from scipy import sparse
+
+        a, b = self.pyramid.levels[0].a, self.pyramid.levels[0].b
+        count, every = len(self.hold), np.arange(len(self.hold))
+        diagonal = self.hold + np.bincount(a, self.weight, count) + np.bincount(b, self.weight, count)
+        places = (np.concatenate([every, a, b]), np.concatenate([every, b, a]))
+        return sparse.csr_array((np.concatenate([diagonal, -self.weight, -self.weight]), places), shape=(count, count))
+
+
+def solve(A: Matrix, right: Array, start: Array, *, precision: float = 1e-6, most: int = 200) -> Array:
+    """x (P,) with ``A x = right``, from `start`, to a residual of `precision` times that of the start's mean everywhere."""
+    enough = precision * float(np.linalg.norm(right - start.mean() * A.hold) + 1e-300)
     if run := kernel("multigrid"):
-        return _solve_compiled(run, A, right, start, prolongations, precision, most)
-    levels = _levels(A, prolongations)
-    coarsest = _factor(levels[-1].A) if levels[-1].A.shape[0] <= 4 * COARSEST else None
+        sizes, parents, stretches, band = A.pyramid.laid_out
+        finest = A.pyramid.levels[0]
+        right_of, count = slice(None, finest.to_the_right), len(right)
+        across, down = np.zeros(count), np.zeros(count)
+        across[finest.a[right_of]], down[finest.a[finest.to_the_right :]] = A.weight[right_of], A.weight[finest.to_the_right :]
+        x, work = np.array(start, float), np.zeros(8 * (count + 2) + (max(band, 0) + 2) * sizes[-1, 0])
+        singles = np.zeros(9 * np.sum(sizes[:, 0] + 2), np.float32)
+        given = (np.ascontiguousarray(one, float) for one in (A.hold, across, down, right))
+        run(len(sizes), sizes, parents, stretches, *given, x, work, singles, band, enough, most, DAMPING, OVER_CORRECTION, ROUNDING)
+        return x
+    levels = _levels(A)
+    coarsest = _factor(levels[-1][0]) if levels[-1][0].shape[0] <= LARGEST else None
     x = start.copy()
-    residual = right - A @ x
-    size = _size(A, right, x)
+    residual = right - levels[0][0] @ x
     direction, before = np.zeros_like(x), 1.0
     for step in range(most):
-        if np.linalg.norm(residual) <= precision * size:
+        if np.linalg.norm(residual) <= enough:
             break
         z = _cycle(levels, 0, residual, coarsest)
         now = float(residual @ z)
         direction = z + (now / before if step else 0.0) * direction
-        image = A @ direction
+        image = levels[0][0] @ direction
         length = now / float(direction @ image)
         x += length * direction
         residual -= length * image
@@ -72,45 +164,16 @@ def solve(A: Any, right: Array, start: Array, prolongations: list[Any], *, preci
     return x
 
 
-def _size(A: Any, right: Array, x: Array) -> float:
-    """What a residual is measured by: that of the mean of x everywhere."""
-    return float(np.linalg.norm(right - A @ np.full_like(x, x.mean())) + 1e-300)
-
-
-def _solve_compiled(
-    run: Callable[..., None], A: Any, right: Array, start: Array, prolongations: list[Any], precision: float, most: int
-) -> Array:
-    """The same by the kernels, on the levels' arrays laid one behind the other."""
+def _levels(A: Matrix) -> list[tuple[Any, Array, Any]]:
+    """Matrix, inverse of its diagonal and prolongation from the next coarser level, of each; None is the coarsest's prolongation."""
     from scipy import sparse
 
-    set_up = kernel("hierarchy")
-    assert set_up is not None
-    sizes = np.array([A.shape[0], *(P.shape[1] for P in prolongations)], np.int64)
-    parents = np.concatenate([np.zeros(0, np.int64), *(P.indices for P in prolongations)]).astype(np.int64)
-    slot, rows = len(A.data), int(sizes.sum())
-    starts, columns = np.empty(rows + len(sizes), np.int64), np.empty(slot * len(sizes), np.int64)
-    values, inverse = np.empty(slot * len(sizes)), np.empty(rows)
-    starts[: len(A.indptr)], columns[:slot], values[:slot] = A.indptr, A.indices, A.data
-    set_up(len(sizes), slot, sizes, parents, starts, columns, values, inverse, np.empty(3 * sizes[0], np.int64))
-    coarsest = None
-    if sizes[-1] <= 4 * COARSEST:
-        indptr, first = starts[-sizes[-1] - 1 :], slot * len(prolongations)
-        some = slice(first, first + indptr[-1])
-        coarsest = _factor(sparse.csr_array((values[some], columns[some], indptr), shape=(sizes[-1], sizes[-1])))
-    factor = np.zeros(0) if coarsest is None else np.ascontiguousarray(coarsest[0])
-    x, enough = np.array(start, float), precision * _size(A, right, start)
-    levels = (len(sizes), slot, sizes, parents, starts, columns, values, inverse)
-    work = np.empty(3 * rows + 4 * int(sizes[0]))
-    run(*levels, coarsest is not None, factor, np.ascontiguousarray(right, float), x, work, enough, most, DAMPING, OVER_CORRECTION)
-    return x
-
-
-def _levels(A: Any, prolongations: list[Any]) -> list[Level]:
-    levels = []
-    for P in prolongations:
-        levels.append(Level(A, 1 / A.diagonal(), P))
-        A = (P.T @ (A @ P)).tocsr()
-    return [*levels, Level(A, 1 / A.diagonal(), None)]
+    levels, now = [], A.sparse()
+    for fine, coarse in zip(A.pyramid.levels, A.pyramid.levels[1:], strict=False):
+        P = sparse.csr_array((np.ones(fine.pixels), (np.arange(fine.pixels), fine.parent)), shape=(fine.pixels, coarse.pixels))
+        levels.append((now, 1 / now.diagonal(), P))
+        now = (P.T @ (now @ P)).tocsr()
+    return [*levels, (now, 1 / now.diagonal(), None)]
 
 
 def _factor(A: Any) -> Any:
@@ -125,15 +188,15 @@ def _factor(A: Any) -> Any:
         return None
 
 
-def _cycle(levels: list[Level], depth: int, right: Array, coarsest: Any) -> Array:
+def _cycle(levels: list[tuple[Any, Array, Any]], depth: int, right: Array, coarsest: Any) -> Array:
     """One symmetric V-cycle from zero."""
-    level = levels[depth]
-    if level.P is None:
+    A, inverse, P = levels[depth]
+    if P is None:
         from scipy import linalg
 
-        return linalg.cho_solve(coarsest, right, check_finite=False) if coarsest is not None else level.inverse_diagonal * right
-    x = DAMPING * level.inverse_diagonal * right
-    x = x + DAMPING * level.inverse_diagonal * (right - level.A @ x)
-    x = x + OVER_CORRECTION * (level.P @ _cycle(levels, depth + 1, level.P.T @ (right - level.A @ x), coarsest))
-    x = x + DAMPING * level.inverse_diagonal * (right - level.A @ x)
-    return x + DAMPING * level.inverse_diagonal * (right - level.A @ x)
+        return np.asarray(linalg.cho_solve(coarsest, right, check_finite=False) if coarsest is not None else inverse * right)
+    x = DAMPING * inverse * right
+    x = x + DAMPING * inverse * (right - A @ x)
+    x = x + OVER_CORRECTION * (P @ _cycle(levels, depth + 1, P.T @ (right - A @ x), coarsest))
+    x = x + DAMPING * inverse * (right - A @ x)
+    return np.asarray(x + DAMPING * inverse * (right - A @ x))

@@ -133,7 +133,7 @@ def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: boo
         weight = np.maximum(of_a + of_b if first else np.sqrt(w_a * w_b) * (pull_a + pull_b), FLOOR * (pull_a + pull_b))
         step = (of_a * step_a + of_b * step_b) / np.maximum(of_a + of_b, 1e-12) if first else middle
         A, right = system(grid, weight, step, hold, origin)
-        u = multigrid.solve(A, right, u, grid.prolongations, precision=PRECISION)
+        u = multigrid.solve(A, right, u, precision=PRECISION)
         rise = (u[b] - u[a]) ** 2
         w_a, w_b = _weights(grid, pull_a * rise, pull_b * rise, ONE_SIDED_K if first else K, count)
         cost = float(np.sum(weight * (u[b] - u[a] - step) ** 2))

@@ -7,6 +7,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface import multigrid
 from lpcal.surface.integrate import LEAST_WEIGHT, Grid
+from lpcal.surface.multigrid import Matrix, Pyramid
 from lpcal.surface.sight import Indices
 
 BREAK_WEIGHT = 0.02
@@ -18,26 +19,22 @@ FAINT = 1e-6
 
 def fill(grid: Grid, values: Array, known: Mask) -> Array:
     """Values (P, C), those not known (P,) taken from their neighbours in the mask as a soap film would; 0 where none is near."""
-    from scipy import sparse
-
     if known.all() or not known.any():
         return np.nan_to_num(values)
     unknown = np.flatnonzero(~known)
     number = np.full(len(values), -1, np.int64)
     number[unknown] = np.arange(len(unknown))
-    both = np.concatenate([np.stack([grid.a, grid.b]), np.stack([grid.b, grid.a])], axis=1)
-    here, there = number[both[0]], both[1]
-    here, there = here[here >= 0], there[here >= 0]
-    inner = number[there] >= 0
-    neighbours = np.bincount(here, minlength=len(unknown))
-    links = sparse.coo_array((np.ones(inner.sum()), (here[inner], number[there[inner]])), shape=(len(unknown), len(unknown)))
-    A = (sparse.diags_array(neighbours + FAINT) - links).tocsr()
-    prolongations = multigrid.aggregates(grid.rows[unknown], grid.columns[unknown])
+    pyramid = Pyramid.of(grid.rows[unknown], grid.columns[unknown])
+    here, there = np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a])
+    rim = ~known[here] & known[there]
+    here, there = number[here[rim]], there[rim]
+    hold = np.bincount(here, minlength=len(unknown)) + FAINT
+    A = Matrix(pyramid, hold, np.ones(len(pyramid.levels[0].a)))
     found = np.where(known[:, None], values, 0.0)
     for channel in range(values.shape[1]):
-        right = np.bincount(here[~inner], values[there[~inner], channel], len(unknown))
+        right = np.bincount(here, values[there, channel], len(unknown))
         start = np.full(len(unknown), values[known, channel].mean())
-        found[unknown, channel] = multigrid.solve(A, right, start, prolongations, precision=1e-4)
+        found[unknown, channel] = multigrid.solve(A, right, start, precision=1e-4)
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,9 +13,10 @@ import pytest
 from lpcal.geometry import camera, lambert, led_cluster, park, se3
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.surface import bounce, field, gloss, multigrid, normals
+from lpcal.surface import bounce, cut, field, gloss, layers, multigrid, normals
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.integrate import Grid, system
+from lpcal.surface.multigrid import Matrix, Pyramid
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Patches
@@ -82,13 +84,33 @@ def lobe(rng):
     return np.concatenate([gloss.lobe(d, n, v, roughness).ravel() for roughness in (0.06, 0.5)])
 
 
+def unexplained(rng):
+    signal, B, usable, variance = shading(rng, 9, 300)
+    return np.concatenate([each.ravel() for each in gloss._unexplained(signal, rng.random(signal.shape), usable + 0.0, variance, B)])
+
+
+def lobe_costs(rng):
+    left, own = 1e-3 * rng.normal(size=(2, 19, 300))
+    weight, spread2 = (rng.random(left.shape) < 0.9) + 0.0, 10.0 ** rng.uniform(-12, -4, left.shape)
+    return np.concatenate([gloss._costs(left, own, np.geomspace(0.01, 1, 7), weight, spread2, doubt).ravel() for doubt in (0.0, 0.2)])
+
+
+def two_labels(rng):
+    said = np.clip(3 * rng.normal(size=(70, 90)), -2, 2).astype(np.float32)
+    return cut._relaxed(said, rng.random((70, 89), np.float32), rng.random((69, 90), np.float32)).astype(float)
+
+
+def many_labels(rng):
+    return layers._relaxed(60 * rng.random((5, 40, 70)), *layers.boundary(rng.random((40, 70))))
+
+
 def many(rng):
     found = [part for lights in (9, 24, 96) for part in normals._weighted_in_rounds(*shading(rng, lights, 200))]
     return np.concatenate([part.ravel() for part in found])
 
 
 def cubic(rng):
-    table = LightTable(np.log(0.1), 0.05, rng.random((5, 40, 3, 700), np.float32), rng.random((5, 40, 700), np.float32))
+    table = LightTable(np.log(0.1), 0.05, rng.random((700, 40, 5, 3), np.float32), rng.random((700, 40, 5), np.float32))
     some = rng.permutation(700)[:500]
     B, doubt = table.at(np.log(0.08) + 2.5 * rng.random(500), some)
     of_some = table.at_pixels(some).at(np.full(250, -1.0), np.arange(500)[::2])[0]
@@ -101,8 +123,12 @@ def solved(rng):
     weight = rng.random(len(grid.a)) ** 4 + 1e-6
     pixels = len(grid.rows)
     A, right = system(grid, weight, rng.normal(size=len(weight)), np.full(pixels, 1e-3), rng.normal(size=pixels))
-    few = multigrid.solve(A[:150, :150], right[:150], np.zeros(150), [], precision=1e-13)  # one level
-    return np.concatenate([multigrid.solve(A, right, np.zeros(pixels), grid.prolongations, precision=1e-12), few])
+    one_level = Matrix(Pyramid.of(grid.rows[:150], grid.columns[:150]), np.ones(150), np.ones(0))
+    one_level = replace(one_level, weight=weight[: len(one_level.pyramid.levels[0].a)])
+    few = multigrid.solve(one_level, right[:150], np.zeros(150), precision=1e-13)
+    alone = Matrix(Pyramid.of(np.arange(0, 1800, 2), np.arange(0, 1800, 2)), 1 + rng.random(900), np.ones(0))  # nothing touches
+    found = [multigrid.solve(A, right, np.zeros(pixels), precision=1e-12), few]
+    return np.concatenate([*found, multigrid.solve(alone, right[:900], np.zeros(900), precision=1e-13)])
 
 
 def cluster(rng):
@@ -142,14 +168,18 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     weighted: (1e-9, {"weighted"}),
     best_three: (1e-9, {"best_three"}),
     lobe: (1e-12, {"lobe"}),
+    two_labels: (0.0, {"two_labels"}),
+    many_labels: (0.0, {"many_labels"}),
+    unexplained: (1e-8, {"unexplained"}),
+    lobe_costs: (1e-12, {"lobe_costs"}),
     many: (1e-8, {"many", "weighted"}),
     gathered: (1e-10, {"gathered"}),
-    cubic: (1e-14, {"cubic"}),
+    cubic: (1e-13, {"cubic"}),
     cluster: (1e-12, {"cluster"}),
     turns: (1e-10, {"turns"}),
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),
-    solved: (1e-8, {"hierarchy", "multigrid"}),
+    solved: (1e-8, {"multigrid"}),
 }
 """Each kernel's work, the share of the largest value by which the twin may differ (of badly conditioned sums rounding makes more), and the
 kernels that it calls."""
@@ -177,6 +207,16 @@ def test_threads_change_no_byte(work):
     with ThreadPoolExecutor(4) as pool:
         found = {one.tobytes() for one in pool.map(lambda _: work(np.random.default_rng(3)), range(4))}
     assert found == {work(np.random.default_rng(3)).tobytes()}
+
+
+@pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
+def test_wider_vectors_change_no_byte(work, monkeypatch):
+    if not library.built(library.WIDE).exists():
+        pytest.skip("no library for wider vectors on this machine")
+    found = work(np.random.default_rng(3))
+    monkeypatch.setattr(library, "WIDE", "-none")
+    monkeypatch.setattr(library, "_loaded", library._loaded.__wrapped__)
+    assert work(np.random.default_rng(3)).tobytes() == found.tobytes()
 
 
 @pytest.mark.parametrize(

@@ -117,7 +117,7 @@ def test_a_light_whose_direction_is_ill_known_is_doubted_in_the_tail_of_its_lobe
     vague = [replace(light, direction_std_rad=0.02) for light in lights]
     sure, unsure = (LightTable.of(image, some, WORKING_M).doubt for some in (lights, vague))
     assert np.median(unsure / sure) == pytest.approx(0.02 / 0.0026, rel=0.01)
-    assert np.median(np.ptp(unsure, axis=2)) > 0
+    assert np.median(np.ptp(unsure, axis=0)) > 0
 
 
 def test_shadow_costs_less_than_half_light_and_a_highlight_most() -> None:
@@ -150,7 +150,7 @@ def view_of(shape: tuple[int, int], allowed: np.ndarray | None = None, points: t
     """A view of which nothing is known; matter of any normal slants to the side."""
     pixels = shape[0] * shape[1]
     image = Coarse(np.ones((2, pixels)), np.ones((2, pixels)), np.ones((2, pixels), bool), np.tile([0.0, 0.0, 1.0], (pixels, 1)), shape, 1)
-    no_light = LightTable(0.0, 1.0, np.zeros((0, 1, 3, pixels)), np.zeros((0, 1, pixels)))
+    no_light = LightTable(0.0, 1.0, np.zeros((pixels, 1, 0, 3)), np.zeros((pixels, 1, 0)))
     slanting = np.tile([0.8, 0.0, -0.6], (1, pixels, 1))
     return View(image, no_light, Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels))), None, allowed, points)
 

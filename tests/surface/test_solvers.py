@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from lpcal.geometry import lambert
 from lpcal.records.calibration import Light
 from lpcal.surface import gains, multigrid, normals, pieces
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
+from lpcal.surface.multigrid import Matrix
 from lpcal.surface.sight import Sight
 
 
@@ -47,13 +47,11 @@ def test_multigrid_solves_what_a_direct_solver_does():
     grid = Grid.of(mask)
     count = int(mask.sum())
     weight = np.exp(rng.normal(0, 2, len(grid.a)))
-    L = sparse.coo_array(
-        (np.concatenate([weight, weight]), (np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a]))), shape=(count, count)
-    )
-    A = (sparse.diags_array(np.asarray(L.sum(axis=0)) + 1e-4) - L).tocsr()
-    right = rng.normal(size=count)
-    exact = spsolve(A.tocsc(), right)
-    found = multigrid.solve(A, right, np.zeros(count), grid.prolongations, precision=1e-10, most=400)
+    A = Matrix(grid.pyramid, np.full(count, 1e-4), weight)
+    right, start = rng.normal(size=(2, count))
+    exact = spsolve(A.sparse().tocsc(), right)
+    assert np.allclose(A.times(exact), right, atol=1e-6)
+    found = multigrid.solve(A, right, start, precision=1e-10, most=400)
     assert np.linalg.norm(found - exact) < 1e-5 * np.linalg.norm(exact)
 
 
