@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.geometry.arrays import Image, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 
 STEPS = 200
@@ -43,7 +43,7 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
     return np.asarray(found)
 
 
-def _relaxed(evidence: Image, across_most: Image, down_most: Image) -> Image:
+def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Image) -> Image:
     """The relaxed cut (H, W), 0..1, by costs of an outline between neighbours across (H, W - 1) and down (H - 1, W)."""
     if run := kernel("two_labels"):
         given = [np.ascontiguousarray(one, np.float32) for one in (evidence, across_most, down_most)]

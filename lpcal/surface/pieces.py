@@ -28,7 +28,7 @@ def fill(grid: Grid, values: Array, known: Mask) -> Array:
     here, there = np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a])
     rim = ~known[here] & known[there]
     here, there = number[here[rim]], there[rim]
-    hold = np.bincount(here, minlength=len(unknown)) + FAINT
+    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + FAINT, float)
     A = Matrix(pyramid, hold, np.ones(len(pyramid.levels[0].a)))
     found = np.where(known[:, None], values, 0.0)
     for channel in range(values.shape[1]):
