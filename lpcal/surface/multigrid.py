@@ -32,7 +32,7 @@ OVER_CORRECTION = 1.6
 
 
 @dataclass(frozen=True)
-class Layout:
+class PixelLevel:
     """Pixels of one level, numbered row by row, and their neighbours."""
 
     a: Indices
@@ -71,12 +71,12 @@ class Layout:
 class Pyramid:
     """Pixels, and those that 2x2 of them make, down to COARSEST."""
 
-    levels: tuple[Layout, ...]
+    levels: tuple[PixelLevel, ...]
 
     @staticmethod
     def of(rows: Indices, columns: Indices) -> Pyramid:
         """From pixels at rows and columns (P,), in reading order."""
-        found: list[Layout] = []
+        found: list[PixelLevel] = []
         rows, columns = rows - rows.min(), columns - columns.min()
         while True:
             number = np.full((rows.max() + 1, columns.max() + 1), -1, np.int64)
@@ -90,7 +90,7 @@ class Pyramid:
             left, right, upper, lower = number[:, :-1], number[:, 1:], number[:-1], number[1:]
             across, down = (left >= 0) & (right >= 0), (upper >= 0) & (lower >= 0)
             a, b = np.concatenate([left[across], upper[down]]), np.concatenate([right[across], lower[down]])
-            found.append(Layout(a, b, int(across.sum()), parent))
+            found.append(PixelLevel(a, b, int(across.sum()), parent))
             if last:
                 return Pyramid(tuple(found))
             rows, columns = coarse
