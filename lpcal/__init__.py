@@ -14,7 +14,9 @@ TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import h
 
 if TYPE_CHECKING:
     from lpcal import errors as errors
-    from lpcal.api import methods as methods
+    from lpcal import extend as extend
+    from lpcal import methods as methods
+    from lpcal import tables as tables
     from lpcal.api.boards import calibrate_camera as calibrate_camera
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
@@ -37,7 +39,6 @@ if TYPE_CHECKING:
     from lpcal.api.lights import design_lights as design_lights
     from lpcal.api.lights import light_field as light_field
     from lpcal.api.many import reconstruct_many as reconstruct_many
-    from lpcal.api.mocap_formats import register_mocap as register_mocap
     from lpcal.api.placement import place as place
     from lpcal.api.simulation import simulate_rig as simulate_rig
     from lpcal.api.spheres import find_sphere as find_sphere
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from lpcal.api.surfaces import mesh as mesh
     from lpcal.api.surfaces import reconstruct as reconstruct
     from lpcal.api.wing_settings import wing_settings as wing_settings
+    from lpcal.extend import register_mocap as register_mocap
     from lpcal.formats.exchange import ExchangeFormat as ExchangeFormat
     from lpcal.records.calibration import Calibration as Calibration
     from lpcal.records.calibration import Camera as Camera
@@ -79,13 +81,13 @@ _HOME = {
     "api.handeye_check": ("check_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
     "api.many": ("reconstruct_many",),
-    "api.mocap_formats": ("register_mocap",),
     "api.placement": ("place",),
     "api.simulation": ("simulate_rig",),
     "api.spheres": ("find_sphere", "refine_lights"),
     "api.studies": ("study",),
     "api.surfaces": ("integrate", "mesh", "reconstruct"),
     "api.wing_settings": ("wing_settings",),
+    "extend": ("register_mocap",),
     "formats.exchange": ("ExchangeFormat",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.observations": ("Board", "PoseStream"),
@@ -95,7 +97,7 @@ _HOME = {
 }
 """The module that each public name is loaded from when it is first used."""
 
-MODULES = {"errors": "errors", "methods": "api.methods"}
+MODULES = ("errors", "extend", "methods", "tables")
 """Modules that are public as a whole."""
 
 __all__ = [*sorted(name for names in _HOME.values() for name in names), *MODULES]  # noqa: PLE0604
@@ -109,7 +111,7 @@ def __getattr__(name: str) -> object:
     if home is not None:
         found = getattr(import_module(f"lpcal.{home}"), name)
     elif name in MODULES:
-        found = import_module(f"lpcal.{MODULES[name]}")
+        found = import_module(f"lpcal.{name}")
     else:
         raise AttributeError(f"module 'lpcal' has no attribute {name!r}")
     globals()[name] = found

@@ -37,10 +37,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "suppo
 
 from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, Session, moving_session, robot_session, static_session, stop_and_shoot
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye import clock
+from lpcal.chain.h_pc_handeye import HandEyeOptions, clock, solve_moving, solve_paired
 from lpcal.chain.h_pc_handeye.camera_part import camera_prior
 from lpcal.chain.h_pc_handeye.likelihood import Sigmas, Views, estimate
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.pose_track import poses_at

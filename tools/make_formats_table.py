@@ -11,7 +11,7 @@ BEGIN, END = "<!-- the table of formats -->", "<!-- its end -->"
 
 def table() -> str:
     """The table, in Markdown."""
-    from lpcal.formats.exchange_own import OWN
+    from lpcal.formats.exchange import OWN
 
     rows = ["| `--format` | system and file | read too | keeps | loses |", "|---|---|---|---|---|"]
     rows += [f"| `{one.name}` | {one.title} | {'yes' if one.read else ''} | {one.keeps} | {one.loses} |" for one in OWN]

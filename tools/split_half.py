@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import LpcalError
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.api import methods
+from lpcal import methods
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask

@@ -7,7 +7,6 @@ import tempfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from lpcal.api.curve import settle_sensor
 from lpcal.api.sensor import BY_CAPTURE, stated_in
@@ -81,7 +80,7 @@ def register_format(added: ExchangeFormat) -> ExchangeFormat:
 def export_calibration(
     folder: str | os.PathLike[str],
     calibration: Calibration,
-    formats: Sequence[str] | Literal["all"] = "all",
+    formats: str | Sequence[str] = "all",
     *,
     surface: Surface | None = None,
     capture: RawCapture | None = None,
@@ -96,8 +95,8 @@ def export_calibration(
         Where to: each format has its own file or folder in it, and ``lpcal-export.json`` says which.
     calibration : Calibration
         The camera, its place in the tracked body, the lights: whatever there is of them.
-    formats : sequence of str, or "all"
-        Their names, see ``lpcal export --list``; "all" are those that there is enough for.
+    formats : str or sequence of str
+        Their names, or one of them, see ``lpcal export --list``; "all" are those that there is enough for.
     surface : Surface, optional
         For meshes, depth maps and point clouds.
     capture : RawCapture, optional
@@ -138,7 +137,7 @@ def content_of(calibration: Calibration, surface: Surface | None, capture: RawCa
 def export_content(
     folder: Path,
     content: ExchangeContent,
-    formats: Sequence[str] | Literal["all"],
+    formats: str | Sequence[str],
     provenance: Provenance,
     *,
     inputs: Iterable[Path] = (),
@@ -151,8 +150,9 @@ def export_content(
     UsageError, InputError
         As `export_calibration`.
     """
-    every = formats == ALL or ALL in formats
-    wanted = list(known_formats().values()) if every else formats_of(list(formats))
+    names = [formats] if isinstance(formats, str) else list(formats)
+    every = ALL in names
+    wanted = list(known_formats().values()) if every else formats_of(names)
     if not wanted:
         raise UsageError("no format", needed="--format NAME", todo="lpcal export --list names them")
     results: dict[str, Exported] = {}

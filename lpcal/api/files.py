@@ -92,7 +92,8 @@ def read_mocap(
     body : str, optional
         The body's name; it may be left out where the file holds one.
     quaternion, units : str, optional
-        The quaternion's order and the unit of length, where the file does not say; a format of `register_mocap` knows its own.
+        The quaternion's order and the unit of length, where the file does not say; an error for a format of `register_mocap`, which
+        knows its own.
     direction : {"H_OP", "H_PO"}
         What the file holds; H_PO is inverted.
 

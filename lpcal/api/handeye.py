@@ -10,7 +10,7 @@ import numpy.typing as npt
 from lpcal.api.staged import staged
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DisagreementError, InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records import given

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
-from lpcal.api import compared, methods
+from lpcal import methods
+from lpcal.api import compared
 from lpcal.errors import DisagreementError, InputError
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture

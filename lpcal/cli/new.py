@@ -79,6 +79,8 @@ def _todo(rig: Rig) -> list[str]:
     if rig.mocap and (rig.mocap.file or rig.mocap.poses):
         times = f" with {', '.join(rig.mocap.images)}" if rig.mocap.images else ""
         todo.append(f"the recorded poses as {rig.mocap.file or rig.mocap.poses}{times}")
+    if rig.camera and rig.camera.flat_field:
+        todo.append(f"a white card, evenly lit, as {rig.camera.flat_field}, or leave the line flat_field out")
     if rig.spheres or rig.objects:
         todo.append(f"for every sphere and object one image a light ({', '.join(list(rig.lights)[:2])}, ...) and ambient, in its folder")
     return todo or ["fill in the sections that you need"]

@@ -7,7 +7,7 @@ or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` whe
 how well it, the clocks and the tracked poses are known (`records.placement.Tracking`), which places captures in the room. A lobe is one of
 
 - ``{kind: isotropic}``
-- ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `geometry.light_field.FORMULAS`
+- ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `records.lobes`
 - ``{kind: leds, exponent: m, position_m: [[..]], axis: [[..]], power: [..], angle_deg: [..], value: [..]}``: the sum of
   LEDs in the frame L, each power cos(angle)^m / r^2; the table is its mean over the roll
 - ``{kind: table, angle_deg: [...], value: [...], node_deg: [...], factor: [[...]]}``: monotone cubic through the table, 1 on the axis, 0
@@ -21,6 +21,7 @@ the light: beyond it the lobe is extrapolated. `factor`, if there, multiplies it
 from __future__ import annotations
 
 from dataclasses import replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -154,7 +155,14 @@ def lobe_document(lobe: Lobe) -> dict[str, Any]:
 
 
 def lobe_from_document(entry: dict[str, Any]) -> Lobe:
-    """A lobe as it was written."""
+    """A lobe as it was written.
+
+    Raises
+    ------
+    InputError
+        A key that its kind does not have.
+    """
+    _known_keys_alone(entry)
     if entry["kind"] in TABLED:
         seen_rad = np.radians(float(entry.get("seen_deg", np.nan)))
         lobe = Lobe(entry["kind"], angle_rad=np.radians(_numbers(entry, "angle_deg")), value=_numbers(entry, "value"), seen_rad=seen_rad)
@@ -169,6 +177,24 @@ def lobe_from_document(entry: dict[str, Any]) -> Lobe:
     return Lobe(entry["kind"], exponent=float(entry.get("exponent", 0.0)))
 
 
+LOBE_KEYS = {
+    "isotropic": (),
+    "table": ("angle_deg", "value", "node_deg", "factor", "seen_deg"),
+    "leds": ("angle_deg", "value", "exponent", "position_m", "axis", "power", "node_deg", "factor", "seen_deg"),
+}
+"""What a lobe holds beside its kind, by kind; any other kind holds its exponent alone."""
+
+
+def _known_keys_alone(entry: dict[str, Any]) -> None:
+    known = ("kind", *LOBE_KEYS.get(entry["kind"], ("exponent",)))
+    unknown = [str(key) for key in entry if key not in known]
+    if unknown:
+        near = get_close_matches(unknown[0], known, n=1)
+        todo = f"did you mean {near[0]}?" if near else "leave it out"
+        found = f"a lobe of kind {entry['kind']} with the unknown key {unknown[0]}"
+        raise InputError(found, needed=f"no other keys than {', '.join(known)}", todo=todo)
+
+
 def light_from_document(entry: dict[str, Any]) -> Light:
     """A light as it was written.
 
@@ -176,6 +202,8 @@ def light_from_document(entry: dict[str, Any]) -> Light:
     ------
     KeyError, ValueError
         A key is lacking or holds no numbers of the right count; the message is the key's name.
+    InputError
+        Its lobe has a key that its kind does not have.
     """
     near = entry.get("source_m") is not None
     intensity = np.atleast_1d(np.asarray(entry["intensity"], dtype=float))
@@ -202,6 +230,9 @@ def light_from_document(entry: dict[str, Any]) -> Light:
 def _light(path: Path, entry: dict[str, Any]) -> Light:
     try:
         return light_from_document(entry)
+    except InputError as error:
+        where = f"{path}, light {entry.get('name', '?')}"
+        raise InputError(error.found, where=where, needed=error.needed, todo=error.todo) from error
     except (KeyError, TypeError, ValueError) as error:
         name = entry.get("name", "?") if isinstance(entry, dict) else "?"
         raise InputError(

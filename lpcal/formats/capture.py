@@ -1,10 +1,14 @@
-"""Capture folders: one image a light, named after it, with ambient images, shorter exposures and a mask where there are any."""
+"""Capture folders: one image a light, named after it, with ambient images, shorter exposures and a mask where there are any.
+
+``lights: IMG_*.jpg`` in capture.yaml gives the lights by the order of their images, for photographs that a camera numbered.
+"""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,10 +16,10 @@ import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import full_size
-from lpcal.formats.capture_order import by_order, pattern_of
 from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import Numbers, read_image, read_numbers
+from lpcal.formats.import_lights import RESERVED, natural_stem
 from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import stated_place
@@ -261,10 +265,10 @@ def _by_name(folder: Path) -> dict[str, Path]:
 
 def _in_order(folder: Path, section: CaptureSection, lights: Sequence[str]) -> tuple[dict[str, Path], Sequence[str] | None, list[str]]:
     """The images by name, the lights that capture.yaml takes, and what is to be said where the images' order names them."""
-    files, pattern = _by_name(folder), pattern_of(section.lights)
+    files, pattern = _by_name(folder), _pattern_of(section.lights)
     if pattern is None:
         return files, section.lights, []
-    files = by_order(folder, pattern, lights, files)
+    files = _by_order(folder, pattern, lights, files)
     first, last = lights[0], lights[-1]
     return files, None, [f"lights by the order of {pattern}: {first} is {files[first].name}, ... {last} is {files[last].name}"]
 
@@ -346,3 +350,35 @@ def _read_mask(path: Path, shape: tuple[int, ...]) -> Mask:
             needed="a mask of the images' size",
         )
     return np.asarray(pixels.reshape(*pixels.shape[:2], -1).max(axis=2) > 0)
+
+
+def _pattern_of(lights: Sequence[str] | None) -> str | None:
+    """The pattern that stands for the lights' names; None where they are names."""
+    return lights[0] if lights is not None and len(lights) == 1 and any(sign in lights[0] for sign in "*?") else None
+
+
+def _by_order(folder: Path, pattern: str, lights: Sequence[str], files: dict[str, Path]) -> dict[str, Path]:
+    """The folder's images with the lights' names for those that the pattern matches, in their natural order.
+
+    Raises
+    ------
+    DisagreementError
+        Another number of images than of lights, or an image of a light's own name beside them.
+    """
+    matched = [stem for stem, path in files.items() if fnmatchcase(path.name.lower(), pattern.lower())]
+    matched = [stem for stem in matched if stem.lower() not in RESERVED and not stem.lower().startswith(("ambient", SHORT))]
+    matched.sort(key=natural_stem)
+    if len(matched) != len(lights):
+        raise DisagreementError(
+            f"{len(matched)} images match {pattern}",
+            where=str(folder),
+            needed=f"{len(lights)}, one a light, in the order of the calibration",
+            todo="move the others away, call them ambient_0, ..., or narrow the pattern",
+        )
+    twice = [light for light in lights if light in files and light not in matched]
+    if twice:
+        raise DisagreementError(
+            f"an image called {twice[0]} beside {pattern}", where=str(folder), needed="lights by name or by order", todo="not both"
+        )
+    others = {stem: path for stem, path in files.items() if stem not in matched}
+    return {light: files[stem] for light, stem in zip(lights, matched, strict=True)} | others

@@ -11,9 +11,23 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lpcal.errors import UsageError
-from lpcal.formats.installed import installed
+from lpcal.formats import (
+    export_cameras,
+    export_lights,
+    export_matlab,
+    export_meshroom,
+    export_poses,
+    export_rig_glb,
+    export_rti,
+    export_surfaces,
+    import_diligent,
+    import_directions,
+    import_luces,
+    import_near_ps,
+)
 from lpcal.records.calibration import Calibration
 from lpcal.records.exchange import ExchangeContent, Part
+from lpcal.records.installed import installed
 
 GROUP = "lpcal.formats"
 """The entry points of installed packages among which formats are looked for."""
@@ -65,6 +79,277 @@ class ExchangeFormat:
         return [part for part in self.needs if content.lacks(part)]
 
 
+SENSOR = "black and white level, gamma, flat field"
+LENS = "lens model, image size, K and distortion to the last digit"
+NO_LIGHT = f"lights, {SENSOR}, standard deviations"
+DISTANT = f"places, lobes, camera, {SENSOR}, standard deviations"
+
+CAMERAS = (
+    ExchangeFormat(
+        "opencv",
+        "OpenCV FileStorage, camera.opencv.yml",
+        ("camera",),
+        LENS,
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_opencv,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "ros",
+        "ROS camera_info, camera.ros.yaml",
+        ("camera",),
+        f"{LENS}; R = 1, P = [K 0]",
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_ros,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "kalibr",
+        "Kalibr camchain.yaml, pinhole-radtan",
+        ("camera",),
+        "image size, K, k1 k2 p1 p2",
+        f"{NO_LIGHT}, H_PC; k3 to k6 and a splined lens (fitted)",
+        export_cameras.write_kalibr,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "colmap",
+        "COLMAP model, colmap/cameras.txt, rigs.txt",
+        ("camera",),
+        f"{LENS}, half a pixel added",
+        f"{NO_LIGHT}, H_PC; a splined lens (fitted)",
+        export_cameras.write_colmap,
+        export_cameras.read_camera_alone,
+    ),
+    ExchangeFormat(
+        "mrcal",
+        "mrcal camera.cameramodel",
+        ("camera",),
+        f"{LENS}, splined lenses too; H_PC as rt_cam_ref",
+        NO_LIGHT,
+        export_cameras.write_mrcal,
+        export_cameras.read_mrcal,
+        export_cameras.is_mrcal,
+    ),
+    ExchangeFormat(
+        "metashape",
+        "Metashape camera.metashape.xml",
+        ("camera",),
+        "image size, f cx cy b1 k1 k2 k3 p1 p2, half a pixel added",
+        f"{NO_LIGHT}, H_PC; k4 to k6 and a splined lens (fitted)",
+        export_cameras.write_metashape,
+        export_cameras.read_metashape,
+        export_cameras.is_metashape,
+    ),
+    ExchangeFormat(
+        "meshroom",
+        "Meshroom SfMData, meshroom.sfm",
+        ("camera",),
+        "image size, K, k1 k2 k3 p1 p2, a view a light",
+        f"{NO_LIGHT}, H_PC; k4 to k6 and a splined lens (fitted)",
+        export_meshroom.write_meshroom,
+        export_meshroom.read_meshroom,
+        export_meshroom.is_meshroom,
+    ),
+)
+POSES = (
+    ExchangeFormat(
+        "tf",
+        "ROS tf, tf_static.sh and tf_static.yaml",
+        ("hand-eye",),
+        "H_PC",
+        "camera, lights, the covariance",
+        export_poses.write_tf,
+        export_poses.read_tf,
+        export_poses.is_tf,
+    ),
+    ExchangeFormat(
+        "urdf",
+        "URDF, rig.urdf",
+        ("hand-eye",),
+        "H_PC, H_CL of every light",
+        "lens, sources, lobes, intensities, the covariance",
+        export_poses.write_urdf,
+        export_poses.read_urdf,
+        export_poses.is_urdf,
+    ),
+    ExchangeFormat(
+        "easy_handeye",
+        "easy_handeye.yaml",
+        ("hand-eye",),
+        "H_PC",
+        "camera, lights, the covariance",
+        export_poses.write_handeye_yaml,
+        export_poses.read_easy_handeye,
+        export_poses.is_easy_handeye,
+    ),
+)
+LIGHTS = (
+    ExchangeFormat(
+        "lp",
+        "RTI light file, lights.lp: directions",
+        ("lights",),
+        "directions at the working point",
+        f"{DISTANT}, intensities",
+        export_lights.write_lp,
+        lambda path: import_directions.read_lp(path)[0],
+        import_directions.is_lp,
+    ),
+    ExchangeFormat(
+        "lp-positions",
+        "RTI light file, lights_positions.lp: mm",
+        ("near lights",),
+        "places about the working point",
+        f"where that point is, lobes, intensities, camera, {SENSOR}, standard deviations",
+        export_lights.write_lp_positions,
+        lambda path: import_directions.read_lp(path, "positions")[0],
+    ),
+    ExchangeFormat(
+        "dome",
+        "RelightLab rig.dome",
+        ("lights",),
+        "places about the working point, directions, colours",
+        f"lobes, camera, {SENSOR}, standard deviations",
+        export_lights.write_dome,
+        export_lights.read_dome,
+        export_lights.is_dome,
+    ),
+    ExchangeFormat(
+        "diligent",
+        "DiLiGenT folder, diligent/",
+        ("lights",),
+        "directions, intensities as they arrive; images of a capture",
+        DISTANT,
+        export_lights.write_diligent,
+        import_diligent.read,
+        import_diligent.is_one,
+    ),
+    ExchangeFormat(
+        "luces",
+        "LUCES folder, luces/led_params.txt",
+        ("camera", "near lights"),
+        "places, axes, intensities, pinhole camera; images of a capture",
+        f"lobes (a cosine fitted), fy, distortion (images are made free of it), {SENSOR}, standard deviations",
+        export_lights.write_luces,
+        import_luces.read,
+        import_luces.is_one,
+    ),
+    ExchangeFormat(
+        "near_ps",
+        "near_ps folder, near_ps/light.mat, camera.mat",
+        ("camera", "near lights"),
+        "places, axes, intensities, K; images of a capture",
+        f"lobes (a cosine fitted), image size, distortion (images are made free of it), {SENSOR}, standard deviations",
+        export_lights.write_near_ps,
+        import_near_ps.read,
+        import_near_ps.is_one,
+    ),
+    ExchangeFormat(
+        "meshroom-lights",
+        "Meshroom lights, meshroom_lights.json",
+        ("lights",),
+        "directions at the working point, intensities",
+        DISTANT,
+        export_lights.write_meshroom_lights,
+        export_lights.read_meshroom_lights,
+        export_lights.is_meshroom_lights,
+    ),
+)
+WHOLE = (
+    ExchangeFormat(
+        "matlab",
+        "MATLAB, Octave, calibration.mat",
+        (),
+        "camera, H_PC, lights with frames, sources, lobes (over the angle), intensities, standard deviations",
+        f"names of the lights, lobes that are not round, {SENSOR}, the covariance; a splined lens (fitted)",
+        export_matlab.write_matlab,
+        export_matlab.read_matlab,
+        export_matlab.is_matlab,
+    ),
+    ExchangeFormat(
+        "rig-glb",
+        "glTF scene of the rig, rig.glb",
+        ("camera",),
+        "camera, H_PC, lights as spots (KHR_lights_punctual) with place, axis, colour; the lens whole, in extras",
+        f"principal point and distortion in the view, lobes (a soft cone fitted), {SENSOR}, standard deviations",
+        export_rig_glb.write_rig_glb,
+    ),
+)
+RTI = "the images themselves, places and lobes, camera, normals, depth"
+RELIGHTABLE = (
+    ExchangeFormat(
+        "ptm",
+        "RTI as PTM 1.2, relight.ptm",
+        ("lights", "capture"),
+        "each pixel as a polynomial of the light's direction, 6 terms in 8 bit, display-encoded",
+        RTI,
+        export_rti.write_ptm,
+    ),
+    ExchangeFormat(
+        "hsh",
+        "RTI as hemispherical harmonics, relight.rti",
+        ("lights", "capture"),
+        "each pixel as 4 or 9 harmonics of the light's direction, in 8 bit, display-encoded",
+        RTI,
+        export_rti.write_hsh,
+    ),
+    ExchangeFormat(
+        "openlime",
+        "RelightLab and OpenLIME folder, relight/info.json",
+        ("lights", "capture"),
+        "the same harmonics, as JPEGs",
+        RTI,
+        export_rti.write_openlime,
+    ),
+)
+SURFACE_LOST = "standard deviations, pieces, alternatives"
+SURFACES = (
+    ExchangeFormat(
+        "ply", "mesh.ply", ("surface",), "vertices, measured normals, colours, faces; C, m", SURFACE_LOST, export_surfaces.write_ply
+    ),
+    ExchangeFormat("glb", "glTF mesh, mesh.glb", ("surface",), "the same; y up, m", SURFACE_LOST, export_surfaces.write_glb),
+    ExchangeFormat(
+        "obj", "Wavefront OBJ, obj/mesh.obj", ("surface",), "the same, albedo as texture; y up, m", SURFACE_LOST, export_surfaces.write_obj
+    ),
+    ExchangeFormat(
+        "stl", "STL, mesh.stl", ("surface",), "faces; y up, mm", f"measured normals, colours, {SURFACE_LOST}", export_surfaces.write_stl
+    ),
+    ExchangeFormat(
+        "depth-tiff",
+        "TIFF float32, depth_m.tif",
+        ("surface",),
+        "depth and its standard deviation, unit in the description",
+        "normals, albedo, mask but for NaN",
+        export_surfaces.write_depth_tiff,
+    ),
+    ExchangeFormat(
+        "depth-exr",
+        "OpenEXR float32, depth_m.exr",
+        ("surface",),
+        "depth, normals, albedo, standard deviations, unit in the comments",
+        "pieces but for their sigma",
+        export_surfaces.write_depth_exr,
+    ),
+    ExchangeFormat(
+        "points",
+        "point cloud, points.ply",
+        ("surface",),
+        "a point a pixel with normal, colour, sigma, piece; C, m",
+        "faces",
+        export_surfaces.write_points,
+    ),
+    ExchangeFormat(
+        "normals",
+        "normal maps, normals_gl.png, normals_dx.png",
+        ("surface",),
+        "normals in 16 bit, green up (glTF, Blender) and down (DirectX)",
+        "all else",
+        export_surfaces.write_normals,
+    ),
+)
+OWN = (*CAMERAS, *POSES, *LIGHTS, *WHOLE, *RELIGHTABLE, *SURFACES)
+"""lpcal's own formats, in the order of `lpcal export --list`."""
+
 ADDED: dict[str, ExchangeFormat] = {}
 """Formats that this program has registered, by name."""
 
@@ -82,8 +367,6 @@ def known_formats() -> dict[str, ExchangeFormat]:
     InputError
         An installed package names what is no format.
     """
-    from lpcal.formats.exchange_own import OWN
-
     return {one.name: one for one in (*OWN, *of_packages())} | ADDED
 
 

@@ -1,26 +1,28 @@
 """A capture that is too large to be held: each image is read once, kept on the disk as it is stored, and in memory in coarse pixels.
 
 A coarse pixel is the mean of the numbers of a square of pixels. Where one of these is as bright as the numbers get, the whole counts as
-saturated, as one that is no longer a mean of light.
+saturated, as one that is no longer a mean of light. On the disk the images lie in square parts, of which one is read at a time.
 """
 
 from __future__ import annotations
 
+import math
+import tempfile
 import threading
+import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lpcal.formats.full_scale import FullScale, full_scale
 from lpcal.formats.images import Numbers
-from lpcal.formats.scratch import Scratch
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.geometry.piled import piled
-from lpcal.records.full_images import FullImages
+from lpcal.records.full_images import PART, FullImages
 from lpcal.records.observations import RawCapture
 
 HELD = 40_000_000
@@ -134,3 +136,52 @@ def read_all(paths: Sequence[Path], read: Any, lights: int, first: Numbers) -> S
     sieve = Sieve.of(first, len(paths), lights)
     shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
     return sieve
+
+
+class Scratch:
+    """Images (N, H, W[, 3]) of one kind in a file that has no name and goes with the process; all images of a part lie together."""
+
+    def __init__(self, shape: tuple[int, ...], dtype: npt.DTypeLike) -> None:
+        """An empty file for images of a shape (N, H, W[, 3]) and a type."""
+        self.shape, self.dtype = shape, np.dtype(dtype)
+        self.parts = (-(-shape[1] // PART), -(-shape[2] // PART))
+        self._of_part = (PART, PART, *shape[3:])
+        self._bytes = math.prod(self._of_part) * self.dtype.itemsize
+        self._file: IO[bytes] = tempfile.TemporaryFile(prefix="lpcal-")  # noqa: SIM115
+        weakref.finalize(self, self._file.close)
+        self._lock = threading.Lock()
+
+    def keep(self, k: int, image: npt.NDArray[Any]) -> None:
+        """Write image k (H, W[, 3])."""
+        for row in range(self.parts[0]):
+            band = image[row * PART : (row + 1) * PART]
+            for column in range(self.parts[1]):
+                some = band[:, column * PART : (column + 1) * PART]
+                part = np.zeros(self._of_part, self.dtype)
+                part[: some.shape[0], : some.shape[1]] = some
+                with self._lock:
+                    self._file.seek(self._place(row, column, k))
+                    self._file.write(part.tobytes())
+
+    def read(self, images: slice, rows: slice, columns: slice) -> npt.NDArray[Any]:
+        """Part (N, h, w[, 3]) of some of the images."""
+        first, last, _ = images.indices(self.shape[0])
+        found = np.empty((last - first, rows.stop - rows.start, columns.stop - columns.start, *self.shape[3:]), self.dtype)
+        for row in range(rows.start // PART, -(-rows.stop // PART)):
+            for column in range(columns.start // PART, -(-columns.stop // PART)):
+                with self._lock:
+                    self._file.seek(self._place(row, column, first))
+                    stored = self._file.read(self._bytes * (last - first))
+                part = np.frombuffer(stored, self.dtype).reshape(last - first, *self._of_part)
+                at, of = zip(_both(rows, row * PART), _both(columns, column * PART), strict=True)
+                found[(slice(None), *at)] = part[(slice(None), *of)]
+        return found
+
+    def _place(self, row: int, column: int, k: int) -> int:
+        return ((row * self.parts[1] + column) * self.shape[0] + k) * self._bytes
+
+
+def _both(wanted: slice, first: int) -> tuple[slice, slice]:
+    """Where a part that begins at `first` lies in what is wanted, and what of it is."""
+    low, high = max(wanted.start, first), min(wanted.stop, first + PART)
+    return slice(low - wanted.start, high - wanted.start), slice(low - first, high - first)

@@ -1,6 +1,6 @@
 """Calibrations from other systems' files, whatever they hold: lights, a camera alone, or the camera's place alone.
 
-Formats that others added are asked first; then those of `exchange_own` that know their files; then a file of a camera; then lights.
+Formats that others added are asked first; then those of `exchange` that know their files; then a file of a camera; then lights.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from lpcal.errors import InputError
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import FORMULAS, TABLED
+from lpcal.records import lobes
 from lpcal.records.calibration import Calibration, Light, Lobe
 from lpcal.records.rig import reserved
 
@@ -199,8 +200,7 @@ def _wrong(light: Light) -> tuple[str, str]:
 
 def _wrong_lobe(lobe: Lobe) -> tuple[str, str]:
     """What is wrong with a lobe, and what it should be, in words; empty where nothing is."""
-    known = sorted({*FORMULAS, *TABLED})
-    if lobe.kind not in known:
+    if lobe.kind not in FORMULAS and lobe.kind not in (known := lobes.known()):
         return f"a lobe of kind {lobe.kind!r}", f"one of {', '.join(known)}"
     if not 0 <= lobe.exponent <= SHARPEST:
         return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}", f"an exponent of 0 to {SHARPEST:g}"

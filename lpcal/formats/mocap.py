@@ -51,6 +51,12 @@ def _read(path: Path, body: str | None, quaternion: str | None, units: str | Non
         raise InputError("no such file", where=str(path), needed="a motion-capture recording", todo="correct mocap.file in panel.yaml")
     head = b"" if path.is_dir() else _head(path)
     if (added := format_of(head, path)) is not None:
+        if quaternion or units:
+            what = "units" if units else "quaternion"
+            todo = f"leave mocap.{what} out, or mend the format"
+            raise InputError(
+                f"mocap.{what} says nothing to the format {added.name}", where=str(path), needed="metres, as it reads", todo=todo
+            )
         return _by(added, path, body, direction)
     table = _table(path, head, body, quaternion, units)
     return markers_of(table, path, body) if isinstance(table, MarkerTable) else stream_of(table, path, direction)
@@ -91,7 +97,7 @@ def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> Pos
     if not isinstance(found, PoseStream | MarkerStream):
         raise InputError(f"the format {added.name} gave a {type(found).__name__}", where=str(path), needed="a PoseStream or a MarkerStream")
     if isinstance(found, MarkerStream):
-        return found
+        return given.markers(found, str(path))
     stream = given.stream(found, str(path))
     poses = stream.H_OP
     return replace(stream, H_OP=se3.inv(poses) if direction == "H_PO" else poses)

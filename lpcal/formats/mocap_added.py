@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lpcal.errors import InputError
-from lpcal.formats.installed import installed
+from lpcal.records.installed import installed
 from lpcal.records.observations import MarkerStream, PoseStream
 
 GROUP = "lpcal.mocap"
@@ -30,6 +30,14 @@ class MocapFormat:
         ``recognise(head: bytes) -> bool``: whether the first 4096 bytes of a file are those of one of its files; b"" for a folder.
     read : callable
         ``read(path: Path, body: str | None) -> PoseStream | MarkerStream``: the recorded body, or its markers; metres, seconds.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> def read(path, body):
+    ...     raise ValueError("holds no poses yet")
+    >>> lpcal.extend.MocapFormat("our lab's", lambda head: head.startswith(b"OURS"), read).recognise(b"OURS 1")
+    True
     """
 
     name: str

@@ -61,7 +61,25 @@ TRIPLES: dict[tuple[str, ...], str] = {
 
 @dataclass(frozen=True)
 class ImagePoses:
-    """H_AB (N, 4, 4), and the images that they belong to where the file names them."""
+    """One pose an image.
+
+    Parameters
+    ----------
+    H : ndarray (N, 4, 4)
+        The body in the room, metres.
+    files : tuple of str, optional
+        The images that they belong to, where the file names them.
+    notes : tuple of str
+        What the reader had to decide, in words.
+    lost : tuple of int
+        Rows of H that are exactly the identity, as a lost body is written.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> lpcal.tables.ImagePoses(np.eye(4)[None], ("a.png",)).files
+    ('a.png',)
+    """
 
     H: Array
     files: tuple[str, ...] | None

@@ -40,8 +40,8 @@ def table_lobe(angle_rad: Array, knots_rad: Array, value: Array) -> Array:
     """Cubic through the table (monotone between knots, even about the axis), 0 beyond its last angle."""
     from scipy.interpolate import PchipInterpolator
 
-    found = PchipInterpolator(knots_rad, value, extrapolate=False)(np.clip(angle_rad, knots_rad[0], None))
-    return np.nan_to_num(np.asarray(found, dtype=float), nan=0.0)
+    found = PchipInterpolator(knots_rad, value, extrapolate=False)(np.clip(np.abs(angle_rad), knots_rad[0], None))
+    return np.maximum(np.nan_to_num(np.asarray(found, dtype=float), nan=0.0), 0.0)  # rounding falls below a last knot of 0
 
 
 def near_light(x_C: Array, source_C: Array, axis_C: Array) -> tuple[Array, Array, Array]:

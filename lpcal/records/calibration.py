@@ -15,6 +15,7 @@ from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
+from lpcal.records.lobes import LedCluster, Lobe
 from lpcal.records.observations import SphereKind
 from lpcal.records.placement import Tracking
 from lpcal.records.sensor import StatedSensor
@@ -172,46 +173,6 @@ class Wings(Shown):
 
     def _block(self, k: int) -> Array:
         return self.covariance[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]
-
-
-@dataclass(frozen=True)
-class LedCluster:
-    """The LEDs of a blob, in its mechanical frame L: power 1 in all on the axis, each with the lobe cos(angle)^exponent."""
-
-    position_L: Array
-    """(n, 3) metres."""
-    axis_L: Array
-    """(n, 3)."""
-    power: Array
-    """(n,)."""
-    exponent: float
-
-
-@dataclass(frozen=True)
-class Lobe:
-    """How a light's intensity falls with the angle from its axis, seen from its source; 1 on the axis.
-
-    kind ``isotropic``: constant. ``cosine``: cos(angle)^exponent. Others of one parameter: `light_field.FORMULAS`. ``table``: cubic
-    through (angle_rad, value), 0 beyond the last. ``leds``: the sum of `leds`, which is not round; the table then holds its mean over the
-    roll. A table may carry a smooth factor over the directions, `factor` (n, n) at the nodes `node_rad` (n,) of `geometry.lobe_map`, in
-    the light's frame.
-    """
-
-    kind: str = "isotropic"
-    exponent: float = 0.0
-    angle_rad: Array = field(default_factory=lambda: np.zeros(0))
-    value: Array = field(default_factory=lambda: np.zeros(0))
-    leds: LedCluster | None = None
-    node_rad: Array = field(default_factory=lambda: np.zeros(0))
-    factor: Array = field(default_factory=lambda: np.zeros((0, 0)))
-    seen_rad: float = float("nan")
-    """Largest angle from the axis at which spheres showed this light: beyond it the lobe is extrapolated. NaN: not known."""
-
-    def __call__(self, angle_rad: Array) -> Array:
-        """Relative intensity (...) at angles (...) from the axis."""
-        if self.kind in light_field.TABLED:
-            return light_field.table_lobe(angle_rad, self.angle_rad, self.value)
-        return light_field.FORMULAS[self.kind](angle_rad, self.exponent)
 
 
 @dataclass(frozen=True, repr=False)

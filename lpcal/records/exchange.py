@@ -27,7 +27,25 @@ class LinearImages:
 
 @dataclass(frozen=True)
 class ExchangeContent:
-    """What is written in other systems' formats."""
+    """What is written in other systems' formats: `write` of an `ExchangeFormat` gets it.
+
+    Parameters
+    ----------
+    calibration : Calibration
+        A calibration, in parts or whole.
+    surface : Surface, optional
+        A surface.
+    capture : LinearImages, optional
+        A capture made linear, the ambient light taken off.
+    body : str
+        The name of the tracked body.
+
+    Examples
+    --------
+    >>> import lpcal
+    >>> lpcal.extend.ExchangeContent().lacks("lights")
+    True
+    """
 
     calibration: Calibration = field(default_factory=lambda: Calibration("rig", ()))
     surface: Surface | None = None

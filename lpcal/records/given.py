@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Array
-from lpcal.records.observations import PoseStream
+from lpcal.records.observations import MarkerStream, PoseStream
 
 RIGID = 0.02
 """How far the product of a rotation with its transpose may be from the identity: numbers of two digits are taken for a rotation."""
@@ -94,14 +94,48 @@ def stream(given: PoseStream, name: str) -> PoseStream:
     poses = transforms(given.H_OP, f"{name}, H_OP")
     if not len(poses):
         raise DegenerateError("no pose", where=f"{name}, H_OP", needed="a recording of some seconds")
-    t_s = times(given.t_s, len(poses), f"{name}, t_s", "H_OP")
+    t_s = _increasing(times(given.t_s, len(poses), f"{name}, t_s", "H_OP"), name)
+    error_m = numbers(given.error_m, f"{name}, error_m", finite=False)
+    if error_m.shape != t_s.shape:
+        needed = f"({len(t_s)},): one marker error for each of H_OP, NaN where there is none"
+        raise DisagreementError(f"an array of {shape_of(error_m)}", where=f"{name}, error_m", needed=needed)
+    return replace(given, t_s=t_s, H_OP=poses, error_m=error_m, rate_hz=_rate_hz(given.rate_hz, t_s))
+
+
+def markers(given: MarkerStream, name: str) -> MarkerStream:
+    """Markers that somebody else has recorded, where they are some; `name` is their place in messages.
+
+    Raises
+    ------
+    InputError, DisagreementError
+        Places that are no numbers (N, M, 3), times that do not increase, or more or fewer times or names than places.
+    DegenerateError
+        They are empty.
+    """
+    x_O = numbers(given.x_O, f"{name}, x_O", finite=False)
+    if x_O.ndim != 3 or x_O.shape[2] != 3:
+        raise InputError(f"an array of {shape_of(x_O)}", where=f"{name}, x_O", needed="markers (N, M, 3) in metres")
+    if len(given.names) != x_O.shape[1]:
+        raise DisagreementError(f"{len(given.names)} names", where=f"{name}, names", needed=f"{x_O.shape[1]}: one for each marker of x_O")
+    if not np.isfinite(x_O).any():
+        raise DegenerateError("no marker", where=f"{name}, x_O", needed="a recording of some seconds")
+    t_s = _increasing(times(given.t_s, len(x_O), f"{name}, t_s", "x_O"), name)
+    return replace(given, t_s=t_s, x_O=x_O, rate_hz=_rate_hz(given.rate_hz, t_s))
+
+
+def _increasing(t_s: Array, name: str) -> Array:
     if np.any(np.diff(t_s) <= 0):
         row = int(np.flatnonzero(np.diff(t_s) <= 0)[0]) + 1
-        raise InputError(
-            f"{t_s[row]:g} s after {t_s[row - 1]:g} s", where=f"{name}, t_s[{row}]", needed="times that increase", todo="sort the poses"
-        )
-    rate_hz = 1 / float(np.median(np.diff(t_s))) if len(t_s) > 1 else float("nan")
-    return replace(given, t_s=t_s, H_OP=poses, rate_hz=rate_hz if np.isnan(given.rate_hz) else given.rate_hz)
+        found = f"{t_s[row]:g} s after {t_s[row - 1]:g} s"
+        raise InputError(found, where=f"{name}, t_s[{row}]", needed="times that increase", todo="sort the samples")
+    return t_s
+
+
+def _rate_hz(stated: float, t_s: Array) -> float:
+    """Samples a second, from the times where it is not stated."""
+    if not np.isnan(stated):
+        return stated
+    return 1 / float(np.median(np.diff(t_s))) if len(t_s) > 1 else float("nan")
 
 
 def shape_of(values: npt.NDArray[Any]) -> str:

@@ -180,13 +180,38 @@ class PoseStream(Shown):
 
 @dataclass(frozen=True)
 class MarkerStream:
-    """The markers of one body, x_O (N, M, 3) at times t_s (N,), increasing; NaN where one was not seen. No pose yet."""
+    """The markers of one body, x_O (N, M, 3) at times t_s (N,), increasing; NaN where one was not seen. No pose yet.
+
+    Parameters
+    ----------
+    body : str
+        The body's name.
+    t_s : ndarray (N,)
+        Seconds on the mocap's clock, increasing.
+    names : tuple of str
+        The markers' names (M,), without the body's.
+    x_O : ndarray (N, M, 3)
+        The markers in the room, metres; NaN where one was not seen.
+    rate_hz : float
+        Samples a second; NaN: `read_mocap` finds it from the times.
+    notes : tuple of str
+        What the reader had to decide or repair, in words.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> places = np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]])
+    >>> stream = lpcal.extend.MarkerStream("cart", np.arange(4) / 100, ("a", "b", "c"), np.tile(places, (4, 1, 1)))
+    >>> stream.x_O.shape
+    (4, 3, 3)
+    """
 
     body: str
     t_s: Array
     names: tuple[str, ...]
     """(M,) without the body's."""
     x_O: Array
+    """(N, M, 3) metres, NaN where a marker was not seen."""
     rate_hz: float = float("nan")
     notes: tuple[str, ...] = ()
 

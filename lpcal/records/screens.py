@@ -262,8 +262,9 @@ def _evaluation(found: Evaluation) -> RecordScreen:
 @screen_of.register
 def _pose_stream(stream: PoseStream) -> RecordScreen:
     t_s, x_mm = stream.t_s, 1e3 * stream.H_OP[:, :3, 3]
+    rate = f" at {stream.rate_hz:.4g} Hz" if np.isfinite(stream.rate_hz) else ""
     rows = [
-        ("samples", f"{len(t_s)} at {stream.rate_hz:.4g} Hz, {stream.lost} lost"),
+        ("samples", f"{len(t_s)}{rate}, {stream.lost} lost"),
         ("time", f"{t_s[0]:.3f} to {t_s[-1]:.3f} s" if len(t_s) else "none"),
         ("moves over", f"{_numbers(np.ptp(x_mm, axis=0), 1)} mm along x, y, z of O" if len(t_s) else "nothing"),
         ("markers", ", ".join(list(stream.markers_O)[:LISTED]) or "none"),

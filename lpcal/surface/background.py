@@ -153,7 +153,7 @@ def logit(odds: Array) -> Array:
 
 
 def _odds(clues: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
-    total = weights[""] + sum(weights[name] * value for name, value in clues.items())
+    total = sum(weights[name] * value for name, value in ({"": 1.0} | dict(clues)).items())
     return np.asarray(1 / (1 + np.exp(-np.clip(total, -30, 30))))
 
 

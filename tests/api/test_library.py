@@ -67,6 +67,16 @@ def test_every_parameter_is_documented(name: str) -> None:
         assert "Raises" in found or name == "mesh"
 
 
+@pytest.mark.parametrize(("module", "name"), [(module, name) for module in ("extend", "tables") for name in getattr(lpcal, module).__all__])
+def test_what_public_modules_hold_has_an_example_that_runs(module: str, name: str) -> None:
+    found = getattr(getattr(lpcal, module), name)
+    assert "Parameters\n----------" in inspect.getdoc(found)
+    examples = [one for one in doctest.DocTestFinder(recurse=False).find(found, name, globs={}) if one.examples]
+    assert examples
+    for one in examples:
+        assert doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(one).failed == 0
+
+
 def imported_by(program: str) -> set[str]:
     """The packages that are imported once a program has run."""
     program += "\nimport sys\nprint(*sorted({name.partition('.')[0] for name in sys.modules}))"
@@ -91,5 +101,5 @@ def test_the_package_is_typed() -> None:
 def test_no_name_is_a_modules_too() -> None:
     """Once it is imported, a module of the package stands under its name there, whatever stood there before."""
     package = Path(lpcal.__file__).parent
-    modules = {path.stem for path in package.iterdir() if path.suffix == ".py" or path.is_dir()} - {"errors"}
+    modules = {path.stem for path in package.iterdir() if path.suffix == ".py" or path.is_dir()} - set(lpcal.MODULES)
     assert not modules & set(lpcal.__all__)

@@ -78,6 +78,7 @@ def test_a_lobe_of_ones_own_is_what_the_page_says(capsys: pytest.CaptureFixture[
     try:
         exec(compile(code, "add-your-own.md", "exec"), {})
     finally:
-        FORMULAS.pop("gaussian", None)
+        for kind in ("gaussian", "flat-top"):
+            FORMULAS.pop(kind, None)
     (said,) = re.findall(r"# (\[.*\])$", code, re.MULTILINE)
     assert capsys.readouterr().out.split() == said.split()

@@ -14,7 +14,7 @@ from lpcal.api.full_size import BinnedCamera
 from lpcal.errors import UsageError
 from lpcal.formats import full_size
 from lpcal.formats.capture import read_capture
-from lpcal.formats.scratch import Scratch
+from lpcal.formats.full_size import Scratch
 from lpcal.records.full_images import PART
 from lpcal.surface.bands import cores
 from lpcal.surface.full_size import _ramp, tiles

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handeye_scene import static_session
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_paired
 from lpcal.errors import DisagreementError
 from lpcal.formats.robot_poses import ROTATIONS, Stated, read_robot_poses
 from lpcal.geometry import se3

@@ -11,8 +11,8 @@ import yaml
 
 from handeye_scene import Session, moving_session, static_session
 from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye import HandEyeFinding, HandEyeOptions, solve_moving, solve_paired
 from lpcal.chain.h_pc_handeye.set_up import SetUp, of_pairs
-from lpcal.chain.h_pc_handeye.solve import HandEyeFinding, HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye, write_handeye
 from lpcal.formats.pasted_transforms import write_easy_handeye

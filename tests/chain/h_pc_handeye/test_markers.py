@@ -10,7 +10,7 @@ import pytest
 from handeye_scene import Noise, moving_session
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import poses_at
 from lpcal.records.observations import MarkerStream

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_paired
 from lpcal.chain.h_pc_handeye.ends import settled_ends
 from lpcal.chain.h_pc_handeye.moved import find_step
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array

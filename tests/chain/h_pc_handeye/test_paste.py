@@ -11,7 +11,7 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from handeye_scene import static_session
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_paired
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_paired
 from lpcal.formats.pasted_transforms import both_ways, matrix_lines, write_easy_handeye
 from lpcal.geometry import se3
 

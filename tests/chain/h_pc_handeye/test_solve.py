@@ -9,9 +9,9 @@ import pytest
 
 from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, robot_session, static_session
 from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving, solve_paired
 from lpcal.chain.h_pc_handeye.advice import _turned, advise
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving, solve_paired
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.records.calibration import Camera

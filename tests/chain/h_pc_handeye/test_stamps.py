@@ -9,7 +9,7 @@ import pytest
 
 from handeye_scene import moving_session
 from lpcal.chain.h_op_panel import track_of
-from lpcal.chain.h_pc_handeye.solve import HandEyeOptions, solve_moving
+from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving
 
 
 def warnings(session, t_camera_s: np.ndarray) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import light_sigmas
-from lpcal.chain.refine_lights.judged import FarLight
+from lpcal.chain.refine_lights import FarLight
 from lpcal.chain.refine_lights.volume import level_by_source, shading_by_source, volume_points
 from lpcal.errors import DegenerateError
 

@@ -43,6 +43,12 @@ def stream(count: int = 20, **change: object) -> lpcal.PoseStream:
     return lpcal.PoseStream(**given)
 
 
+def markers(**change: object) -> lpcal.extend.MarkerStream:
+    places = np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0.05, 0.08]])
+    given = {"body": "rail", "t_s": 0.1 * np.arange(20), "names": ("a", "b", "c", "d"), "x_O": np.tile(places, (20, 1, 1))} | change
+    return lpcal.extend.MarkerStream(**given)
+
+
 @pytest.fixture
 def recording(tmp_path: Path) -> Path:
     path = tmp_path / "run.dat"
@@ -71,6 +77,21 @@ def test_poses_of_the_room_in_the_body_are_turned(recording: Path) -> None:
     np.testing.assert_allclose(turned.H_OP, np.linalg.inv(as_is.H_OP))
 
 
+def test_bare_markers_are_made_a_body(recording: Path) -> None:
+    lpcal.register_mocap("ours", lambda head: head[:4] == b"RAIL", lambda path, body: markers())
+    found = lpcal.read_mocap(recording)
+    assert found.rate_hz == pytest.approx(10)
+    assert "20 at 10 Hz" in str(found)
+    assert "nan" not in str(stream())
+
+
+@pytest.mark.parametrize("stated", [{"units": "mm"}, {"quaternion": "wxyz"}])
+def test_what_the_format_knows_itself_is_not_stated_for_it(recording: Path, stated: dict[str, str]) -> None:
+    lpcal.register_mocap("ours", lambda head: head[:4] == b"RAIL", lambda path, body: stream())
+    with pytest.raises(InputError, match=f"mocap.{next(iter(stated))} says nothing to the format ours"):
+        lpcal.read_mocap(recording, **stated)
+
+
 def fails(path: Path, body: str | None) -> lpcal.PoseStream:
     raise RuntimeError("line 7 is odd")
 
@@ -83,6 +104,11 @@ def fails(path: Path, body: str | None) -> lpcal.PoseStream:
         (lambda path, body: stream(0), DegenerateError, "no pose"),
         (lambda path, body: stream(t_s=np.zeros(20)), InputError, "times that increase"),
         (lambda path, body: stream(t_s=np.zeros(19)), DisagreementError, "one time for each"),
+        (lambda path, body: stream(error_m=np.zeros(19)), DisagreementError, "one marker error for each"),
+        (lambda path, body: markers(x_O=np.zeros((20, 4))), InputError, "markers \\(N, M, 3\\)"),
+        (lambda path, body: markers(names=("a",)), DisagreementError, "one for each marker"),
+        (lambda path, body: markers(t_s=np.zeros(20)), InputError, "times that increase"),
+        (lambda path, body: markers(x_O=np.full((20, 4, 3), np.nan)), DegenerateError, "no marker"),
         (lambda path, body: stream(H_OP=np.full((20, 4, 4), np.nan)), InputError, "not finite"),
         (lambda path, body: stream(H_OP=2 * np.tile(np.eye(4), (20, 1, 1))), InputError, "no rigid transform"),
     ],

@@ -10,7 +10,7 @@ import pytest
 
 import lpcal
 from lpcal.api.compared import slopes_of
-from lpcal.api.methods import Shading
+from lpcal.methods import Shading
 from lpcal.surface.sight import ray_map
 
 Y, X = np.mgrid[-1.1:1.1:60j, -1.1:1.1:60j]
