@@ -19,6 +19,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 import lpcal
+from lpcal.geometry import led_cluster, se3
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 TARGET = REPOSITORY / "docs" / "pictures"
@@ -117,6 +118,50 @@ def handeye() -> None:
     save(figure, "handeye_sigmas")
 
 
+def boards_seen(reach: float) -> Any:
+    """Corners (N, rows, columns, 2) of boards within a share of the picture, with a tenth of a pixel of noise."""
+    rng = np.random.default_rng(2)
+    x_B = np.stack([*np.meshgrid(0.025 * np.arange(9), 0.025 * np.arange(6)), np.zeros((6, 9))], axis=-1) - [0.1, 0.0625, 0]
+    K = np.array([[620, 0, 319.5], [0, 620, 239.5], [0, 0, 1.0]])
+    true = lpcal.Camera((640, 480), "opencv5", K, np.array([-0.25, 0.1, 0, 0, 0]))
+    views: list[Any] = []
+    while len(views) < 24:
+        place = np.array([*rng.uniform(-reach, reach, 2) * [0.5, 0.38], 1.0]) * rng.uniform(0.35, 0.7)
+        pixels = true.project(x_B @ se3.rotation(rng.normal(0, 0.4, 3)).T + place)
+        if (np.abs(pixels - [319.5, 239.5]) < [320 * reach, 240 * reach]).all():
+            views.append(pixels + rng.normal(0, 0.1, pixels.shape))
+    return np.stack(views)
+
+
+def camera() -> None:
+    """Where a camera is sure: boards all over the picture, and boards in its middle alone."""
+    figure, every = plt.subplots(1, 2, figsize=(7.2, 2.7), layout="constrained", sharey=True)
+    board, shown = lpcal.Board((9, 6), (0.025, 0.025)), None
+    for axes, (title, reach) in zip(every, (("boards all over the picture", 1.0), ("boards in its middle", 0.6)), strict=True):
+        corners = boards_seen(reach)
+        found = lpcal.calibrate_camera(corners, board, (640, 480), model="opencv5", solver="opencv").evidence.projection_uncertainty
+        assert found is not None
+        shown = axes.pcolormesh(
+            found.columns_px, found.rows_px, found.worst_direction_std_px, vmin=0, vmax=0.3, cmap="viridis", shading="gouraud"
+        )
+        axes.plot(*corners.reshape(-1, 2).T, ".", color="w", ms=0.6, alpha=0.5)
+        axes.set(title=title, aspect="equal", xlim=(0, 639), ylim=(479, 0), xticks=[], yticks=[])
+    figure.colorbar(shown, ax=every, label="sigma of a projected point, px", shrink=0.9, extend="max")
+    save(figure, "camera_sigmas")
+
+
+def lobes() -> None:
+    """Lobes by formula and of LED clusters."""
+    angle = np.linspace(0, np.pi / 2, 200)
+    figure, axes = plt.subplots(figsize=(4.6, 2.6), layout="constrained")
+    for leds, colour in ((1, XYZ[0]), (7, XYZ[1]), (19, XYZ[2])):
+        axes.plot(np.degrees(angle), led_cluster.mean_lobe(angle, leds), color=colour, label=f"{leds} LED{'s' * (leds > 1)}")
+    axes.plot(np.degrees(angle), lpcal.extend.Lobe()(angle), color=GREY, label="isotropic")
+    axes.set(xlabel="angle from the axis, deg", ylabel="relative intensity", ylim=(0, 1.05))
+    axes.legend(frameon=False, fontsize="small")
+    save(figure, "lobes")
+
+
 def maps(name: str, panels: list[tuple[str, Any, str | None]]) -> None:
     figure, every = plt.subplots(1, len(panels), figsize=(2.6 * len(panels), 2.3), layout="constrained")
     for axes, (title, picture, bar) in zip(every, panels, strict=True):
@@ -176,6 +221,8 @@ def main() -> None:
     shutil.copy(REPOSITORY / "tools" / "readme" / "what_it_does.png", TARGET)
     frames()
     handeye()
+    camera()
+    lobes()
     surfaces()
     mocap()
 
