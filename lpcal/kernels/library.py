@@ -26,6 +26,7 @@ SIGNATURES = {
     "behind": "i f i i f f f",
     "best_three": "i i f f b f d d f",
     "cluster": "i i f f f f d f f",
+    "coupled": "i i m f f f f f f d i d",
     "cubic": "i i i i s s d d f n f s",
     "distort": "i f f f f",
     "gathered": "i i f f i f f f b i b f f f f f",

@@ -252,3 +252,69 @@ KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t 
     }
     memcpy(x, guess, (size_t)n * sizeof *x);
 }
+
+/* right - A x of blocks (P, 3, 3) at pixels and links between neighbours; vectors (P, 3). */
+static void left_over(Shape shape, const double *block, const double *across, const double *up, const double *down, const double *right,
+                      const double *x, double *restrict found) {
+    for (int64_t s = 0; s < shape.stretches; s++) {
+        const int32_t *at = shape.stretch + 4 * s;
+        for (int64_t k = 0; k < at[1]; k++) {
+            int64_t p = at[0] + k;
+            const double *M = block + 9 * p, *here = x + 3 * p, *above = x + 3 * (at[2] + k), *below = x + 3 * (at[3] + k);
+            for (int i = 0; i < 3; i++) {
+                double around = (across[p] * here[3 + i] + across[p - 1] * here[i - 3]) + (up[p] * above[i] + down[p] * below[i]);
+                double own = M[3 * i] * here[0] + M[3 * i + 1] * here[1] + M[3 * i + 2] * here[2];
+                found[3 * p + i] = (right ? right[3 * p + i] : 0.0) + (around - own);
+            }
+        }
+    }
+}
+
+/* x (P, 3) of a system of blocks and links by conjugate gradients from x, preconditioned by the blocks (L D L', raised by `small`), until the
+   residual is no longer than `enough`. `work` is zero: links and the direction with a pixel more at both ends, and 15 numbers a pixel.
+   Twin: surface/field.py (_System.solved). */
+KERNEL void lpcal_coupled(int64_t pixels, int64_t stretches, const int32_t *stretch, const double *block, const double *across,
+                          const double *down, const double *right, double *x, double *work, double enough, int64_t most, double small) {
+    Shape shape = {pixels, stretches, NULL, stretch};
+    int64_t n = 3 * pixels;
+    double *next = work + 1, *above = work + pixels + 3, *direction = work + 2 * pixels + 6 + 3, *residual = direction + n + 3;
+    double *image = residual + n, *z = image + n, *factor = z + n, before = 1.0;
+    memcpy(next, across, (size_t)pixels * sizeof *next);
+    for (int64_t s = 0; s < stretches; s++) {
+        const int32_t *at = stretch + 4 * s;
+        if (at[3] != at[0])
+            for (int64_t k = 0; k < at[1]; k++) above[at[3] + k] = down[at[0] + k];
+    }
+    for (int64_t p = 0; p < pixels; p++) {
+        const double *M = block + 9 * p;
+        double *f = factor + 6 * p, d0 = M[0] + small, l10 = M[3] / d0, l20 = M[6] / d0;
+        double d1 = M[4] + small - l10 * M[3], rest = M[7] - l20 * M[3], l21 = rest / d1;
+        f[0] = l10;
+        f[1] = l20;
+        f[2] = l21;
+        f[3] = 1 / d0;
+        f[4] = 1 / d1;
+        f[5] = 1 / (M[8] + small - l20 * M[6] - l21 * rest);
+    }
+    memcpy(direction, x, (size_t)n * sizeof *x);
+    left_over(shape, block, next, above, down, right, direction, residual);
+    memset(direction, 0, (size_t)n * sizeof *x);
+    for (int64_t step = 0; step < most && !(sqrt(dot(n, residual, residual)) < enough); step++) {
+        for (int64_t p = 0; p < pixels; p++) {
+            const double *f = factor + 6 * p, *r = residual + 3 * p;
+            double y1 = r[1] - f[0] * r[0], y2 = r[2] - f[1] * r[0] - f[2] * y1;
+            z[3 * p + 2] = y2 * f[5];
+            z[3 * p + 1] = y1 * f[4] - f[2] * z[3 * p + 2];
+            z[3 * p] = r[0] * f[3] - f[0] * z[3 * p + 1] - f[1] * z[3 * p + 2];
+        }
+        double now = dot(n, residual, z), turn = step ? now / before : 0.0;
+        for (int64_t i = 0; i < n; i++) direction[i] = z[i] + turn * direction[i];
+        left_over(shape, block, next, above, down, NULL, direction, image);
+        double by = -now / dot(n, direction, image);
+        for (int64_t i = 0; i < n; i++) {
+            x[i] += by * direction[i];
+            residual[i] += by * image[i];
+        }
+        before = now;
+    }
+}

@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,9 +29,6 @@ from lpcal.surface import bands, gloss, pieces
 from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, joined
 from lpcal.surface.sight import Lit, Sight
-
-if TYPE_CHECKING:
-    from scipy import sparse
 
 TURN = 0.15
 """Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of
@@ -209,35 +205,41 @@ def _gathered(
 class _System:
     """The normal equations of the energy at b (P, 3): of the pixels' own samples, and of the links between them."""
 
+    grid: Grid
     block: Array
     """(P, 3, 3)."""
-    links: sparse.csr_array
-    """Weights between neighbours (P, P)."""
+    link: Array
+    """(edges,) weights between neighbours."""
 
     @classmethod
     def at(cls, grid: Grid, b: Array, own: Array) -> _System:
         """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
-        from scipy import sparse
-
-        P = len(b)
         albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
         both = albedo[grid.a] * albedo[grid.b]
         apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
         link = 1 / (both * TURN**2) / (1 + apart / 4) ** 2
-        links = sparse.coo_array((link, (grid.a, grid.b)), shape=(P, P)).tocsr()
-        links = links + links.T
-        return cls(own + np.asarray(links.sum(axis=1)).reshape(-1, 1, 1) * np.eye(3), links)
+        total = np.bincount(grid.a, link, len(b)) + np.bincount(grid.b, link, len(b))
+        return cls(grid, own + total[:, None, None] * np.eye(3), link)
 
     def times(self, x: Array) -> Array:
         """The system's left side (P, 3) of x."""
-        return np.asarray(np.einsum("pij,pj->pi", self.block, x) - self.links @ x)
+        a, b = self.grid.a, self.grid.b
+        around = [np.bincount(a, self.link * one[b], len(x)) + np.bincount(b, self.link * one[a], len(x)) for one in x.T]
+        return np.asarray(np.einsum("pij,pj->pi", self.block, x) - np.stack(around, axis=1))
 
     def solved(self, right: Array, begin: Array) -> Array:
         """x (P, 3) of a right side, by conjugate gradients from a beginning."""
+        block = self.block
+        small = 1e-12 * float(np.trace(block, axis1=1, axis2=2).max())
+        if run := kernel("coupled"):
+            stretches, (across, down) = self.grid.pyramid.levels[0].stretches, self.grid.pyramid.levels[0].by_pixel(self.link)
+            x, work = np.array(begin, float), np.zeros(3 * (len(right) + 2) + 18 * len(right) + 12)
+            given = (np.ascontiguousarray(one, float) for one in (block, across, down, right))
+            run(len(right), len(stretches), stretches, *given, x, work, SOLVED * float(np.linalg.norm(right)), MOST_STEPS, small)
+            return x
         from scipy.sparse import linalg
 
-        block = self.block
-        inverse = np.linalg.inv(block + 1e-12 * np.trace(block, axis1=1, axis2=2).max() * np.eye(3))
+        inverse = np.linalg.inv(block + small * np.eye(3))
         shape = (begin.size, begin.size)
         A = linalg.LinearOperator(shape, matvec=lambda x: self.times(x.reshape(-1, 3)).ravel(), dtype=float)
         M = linalg.LinearOperator(shape, matvec=lambda x: np.einsum("pij,pj->pi", inverse, x.reshape(-1, 3)).ravel(), dtype=float)

@@ -66,6 +66,13 @@ class PixelLevel:
         first = np.flatnonzero(~(one_row & np.r_[False, linked[:-1]]))
         return np.stack([first, np.diff(np.r_[first, self.pixels]), above[first], below[first]], axis=1).astype(np.int32)
 
+    def by_pixel(self, weight: Array) -> tuple[Array, Array]:
+        """Weights of the edges (edges,) at the left and at the upper pixel (P,) of each; 0 where there is none."""
+        across, down = np.zeros(self.pixels), np.zeros(self.pixels)
+        right_of, below = slice(None, self.to_the_right), slice(self.to_the_right, None)
+        across[self.a[right_of]], down[self.a[below]] = weight[right_of], weight[below]
+        return across, down
+
 
 @dataclass(frozen=True)
 class Pyramid:
@@ -136,10 +143,7 @@ def solve(A: Matrix, right: Array, start: Array, *, precision: float = 1e-6, mos
     enough = precision * float(np.linalg.norm(right - start.mean() * A.hold) + 1e-300)
     if run := kernel("multigrid"):
         sizes, parents, stretches, band = A.pyramid.laid_out
-        finest = A.pyramid.levels[0]
-        right_of, count = slice(None, finest.to_the_right), len(right)
-        across, down = np.zeros(count), np.zeros(count)
-        across[finest.a[right_of]], down[finest.a[finest.to_the_right :]] = A.weight[right_of], A.weight[finest.to_the_right :]
+        count, (across, down) = len(right), A.pyramid.levels[0].by_pixel(A.weight)
         x, work = np.array(start, float), np.zeros(8 * (count + 2) + (max(band, 0) + 2) * sizes[-1, 0])
         singles = np.zeros(9 * np.sum(sizes[:, 0] + 2), np.float32)
         given = (np.ascontiguousarray(one, float) for one in (A.hold, across, down, right))

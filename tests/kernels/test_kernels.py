@@ -131,6 +131,14 @@ def solved(rng):
     return np.concatenate([*found, multigrid.solve(alone, right[:900], np.zeros(900), precision=1e-13)])
 
 
+def coupled(rng):
+    y, x = np.indices((40, 50))
+    grid = Grid.of((x - 25) ** 2 + (y - 20) ** 2 < 18**2 + 100 * np.sin(x))
+    b = rng.normal(size=(len(grid.rows), 3))
+    own = np.einsum("pki,pkj->pij", *[rng.normal(size=(len(b), 4, 3))] * 2)
+    return field._System.at(grid, b, own).solved(rng.normal(size=b.shape), b).ravel()
+
+
 def cluster(rng):
     axes = led_cluster.led_axes(19)
     x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
@@ -174,6 +182,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     lobe_costs: (1e-12, {"lobe_costs"}),
     many: (1e-8, {"many", "weighted"}),
     gathered: (1e-10, {"gathered"}),
+    coupled: (1e-9, {"coupled"}),
     cubic: (1e-13, {"cubic"}),
     cluster: (1e-12, {"cluster"}),
     turns: (1e-10, {"turns"}),
