@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from lpcal.api.files import write_calibration as write_calibration
     from lpcal.api.files import write_camera as write_camera
     from lpcal.api.files import write_surface as write_surface
+    from lpcal.api.fusing import fuse as fuse
     from lpcal.api.handeye import solve_handeye as solve_handeye
     from lpcal.api.handeye_check import check_handeye as check_handeye
     from lpcal.api.lights import assemble_calibration as assemble_calibration
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
     from lpcal.records.calibration import HandEye as HandEye
     from lpcal.records.calibration import Light as Light
     from lpcal.records.calibration import Wing as Wing
+    from lpcal.records.model import ObjectModel as ObjectModel
     from lpcal.records.observations import Board as Board
     from lpcal.records.observations import PoseStream as PoseStream
     from lpcal.records.placement import Placement as Placement
@@ -77,6 +79,7 @@ _HOME = {
         "write_camera",
         "write_surface",
     ),
+    "api.fusing": ("fuse",),
     "api.handeye": ("solve_handeye",),
     "api.handeye_check": ("check_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),
@@ -90,6 +93,7 @@ _HOME = {
     "extend": ("register_mocap",),
     "formats.exchange": ("ExchangeFormat",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
+    "records.model": ("ObjectModel",),
     "records.observations": ("Board", "PoseStream"),
     "records.placement": ("Placement",),
     "records.sensor": ("StatedSensor",),

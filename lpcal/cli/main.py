@@ -37,6 +37,7 @@ COMMANDS = {
     "refine": "lights.yaml: the lights refined from images of spheres, with the wings as prior",
     "export": "calibration.yaml, the product, from whatever stages are up to date",
     "reconstruct": "normals, albedo, depth and mesh of a capture",
+    "fuse": "one model of surfaces whose captures are placed in the room",
     "integrate": "depth and mesh of a normal map from elsewhere",
     "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
     "diff": "has my rig moved: two calibrations, light by light, each change with its sigma",

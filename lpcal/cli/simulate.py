@@ -17,6 +17,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="another number, another rig (default 1)")
     parser.add_argument("--size", default="640x400", metavar="WxH", help="the camera's image size (default 640x400)")
     parser.add_argument("--stations", type=int, default=22, metavar="N", help="board views (default 22)")
+    parser.add_argument(
+        "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 60, in session/"
+    )
+    parser.add_argument(
+        "--object", default="bust", metavar="NAME", help="the object of the session: bust, pair, vase, knot, stone or beast"
+    )
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
@@ -25,11 +31,16 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     from lpcal.formats.panel_yaml import read_rig
     from lpcal.pipeline.simulate import simulate
     from lpcal.simulate.recipe import Recipe
+    from lpcal.simulate.tour import SHAPES
 
     size = re.fullmatch(r"(\d+)x(\d+)", options.size)
     if not size or min(int(n) for n in size.groups()) < 120 or max(int(n) for n in size.groups()) > 8192:
         raise UsageError(f"--size {options.size}", needed="width x height in pixels, 120 to 8192 each", todo="write for example 640x400")
     if options.stations < 4 or options.seed < 0:
         raise UsageError(f"--stations {options.stations} --seed {options.seed}", needed="at least 4 stations, a seed of 0 or more")
+    if options.session and not 4 <= options.session <= 60:
+        raise UsageError(f"--session {options.session}", needed="4 to 60 stops", todo="write for example 16")
+    if options.object not in SHAPES:
+        raise UsageError(f"--object {options.object}", needed=f"one of {', '.join(SHAPES)}", todo="correct it")
     recipe = Recipe(seed=options.seed, image_size=(int(size[1]), int(size[2])), stations=options.stations)
-    return simulate(read_rig(rig_file(options.rig)), options.folder, recipe, progress)
+    return simulate(read_rig(rig_file(options.rig)), options.folder, recipe, progress, stops=options.session, item=options.object)

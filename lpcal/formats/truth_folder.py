@@ -16,7 +16,7 @@ import yaml
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import write_text
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Index
 
 README = """# Truth of a simulated rig
 
@@ -81,3 +81,12 @@ def write_surface(path: Path, arrays: Mapping[str, Array]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     single = {name: np.asarray(value, np.float32) if np.issubdtype(value.dtype, np.floating) else value for name, value in arrays.items()}
     np.savez_compressed(path, allow_pickle=False, **single)
+
+
+def write_solid(path: Path, vertices: Array, normals: Array, faces: Index) -> None:
+    """A mesh (V, 3), (V, 3), (F, 3) as PLY, in metres, at double precision: a room is large, what is compared with it is not."""
+    import trimesh
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    mesh = trimesh.Trimesh(vertices=vertices, faces=faces, vertex_normals=normals, process=False)
+    path.write_bytes(mesh.export(file_type="ply", vertex_normal=True))

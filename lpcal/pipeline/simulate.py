@@ -20,12 +20,13 @@ from lpcal.formats.outputs import NEW, refuse_place, whole, write_text
 from lpcal.formats.truth_folder import README, write_field, write_leds, write_poses, write_surface, write_yaml
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.pipeline.simulate_session import write_session
+from lpcal.pipeline.simulated_captures import write_capture, write_image
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import Rig, RigFile
 from lpcal.simulate.built import Built
-from lpcal.simulate.captures import Capture, object_captures, sphere_captures
+from lpcal.simulate.captures import object_captures, sphere_captures
 from lpcal.simulate.recipe import Recipe
-from lpcal.simulate.sensor import Stored
 from lpcal.simulate.tracking import Recording
 
 
@@ -38,8 +39,8 @@ class _BoardImages:
     t_camera_s: Array
 
 
-def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress) -> Outcome:
-    """Write the rig folder.
+def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress, *, stops: int = 0, item: str = "bust") -> Outcome:
+    """Write the rig folder; with `stops` also a robot's path round an object of a name, its captures placed by its own recording.
 
     Raises
     ------
@@ -49,6 +50,9 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
     rig = rig_file.rig
     refuse_place(folder, NEW)
     _check(rig_file)
+    if stops and (rig.mocap is None or not rig.mocap.file or not rig.lights):
+        needed = "mocap.file and lights: a session is tracked, and its captures are lit"
+        raise InputError("no session can be simulated", where=str(rig_file.file), needed=needed, todo="take another rig")
     session = simulation_of(rig, recipe)
     with whole(folder, NEW) as draft:
         draft.mkdir()
@@ -57,12 +61,13 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
         _write_camera(draft, rig, session.built, recipe)
         counts = _write_boards(draft, session, progress) if rig.board else {}
         counts |= _write_captures(draft, session, progress) if rig.lights else {}
+        counts |= write_session(draft, session, item, stops, progress) if stops else {}
     made = ", ".join(f"{count} {what}" for what, count in counts.items())
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
     return Outcome(
         summary=[f"{folder}: a simulated {rig.name}, seed {recipe.seed}: {made}; {size / 1e6:.1f} MB, truth in {folder / 'truth'}"],
         document={"folder": str(folder), "seed": recipe.seed, "bytes": size, **counts},
-        next_command=f"cd {folder} && lpcal run",
+        next_command=f"cd {folder} && lpcal run" + " && lpcal reconstruct session/stop_* && lpcal fuse session/stop_*" * bool(stops),
     )
 
 
@@ -141,7 +146,7 @@ def _write_boards(folder: Path, session: Simulation, progress: Progress) -> dict
     groups = _board_images(session)
     names = [name for group in groups for name in group.names]
     for k, (name, image) in enumerate(zip(names, session.board_images(), strict=True)):
-        _write_image(folder / name, image)
+        write_image(folder / name, image)
         progress("board images", k + 1, len(names))
     truth = folder / "truth"
     write_poses(truth / "H_CB.csv", names, true.H_CB)
@@ -228,17 +233,17 @@ def _write_captures(folder: Path, session: Simulation, progress: Progress) -> di
     _write_lights(truth, session.built)
     spheres = studio.spheres
     if rig.camera and rig.camera.flat_field:
-        _write_image(folder / rig.camera.flat_field, studio.flat(np.random.default_rng([recipe.seed, 9])))
+        write_image(folder / rig.camera.flat_field, studio.flat(np.random.default_rng([recipe.seed, 9])))
     total = len(rig.spheres) + len(rig.objects)
     for done, (name, capture) in enumerate(sphere_captures(studio)):
-        _write_capture(folder / rig.spheres[name].images, capture)
+        write_capture(folder / rig.spheres[name].images, capture)
         progress("captures", done + 1, total)
     if spheres:
         found = {name: {"kind": s.kind, "centre_m": s.centre_C, "radius_m": s.radius_m} for name, s in spheres.items()}
         write_yaml(truth / "spheres.yaml", found)
     notes = {}
     for done, (name, capture) in enumerate(object_captures(studio, list(rig.objects))):
-        _write_capture(folder / rig.objects[name], capture)
+        write_capture(folder / rig.objects[name], capture)
         maps = {key: getattr(capture.truth, key) for key in ("normals", "depth", "albedo", "mask", "component")}
         write_surface(truth / "objects" / f"{name}.npz", maps)
         notes[name] = {"material": "diffuse", "note": capture.note}
@@ -259,26 +264,3 @@ def _write_lights(truth: Path, built: Built) -> None:
         truth / "leds.npz", {light.name: (light.position_C, light.axis_C, light.power) for light in built.lights}, built.lights[0].exponent
     )
     write_field(truth, built.points_C, {light.name: light.field(built.points_C) for light in built.lights})
-
-
-def _write_capture(folder: Path, capture: Capture) -> None:
-    for name, image in capture.images.items():
-        _write_image(folder / f"{name}.png", image)
-    lines = [f"exposure: {1e3 * capture.exposure_s:g} ms", "gain: 1.0"]
-    if capture.exposures_s:
-        lines.append("exposures: {" + ", ".join(f"{name}: {1e3 * seconds:g} ms" for name, seconds in capture.exposures_s.items()) + "}")
-    write_text(folder / "capture.yaml", "\n".join(lines) + "\n")
-
-
-def _write_image(path: Path, image: Stored) -> None:
-    """A noisy image packs best without a search for repeats, a dark one with runs: the smaller of the two is kept."""
-    import cv2
-
-    path.parent.mkdir(parents=True, exist_ok=True)
-    ways = [cv2.IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY, cv2.IMWRITE_PNG_STRATEGY_RLE] if path.suffix.lower() == ".png" else [None]
-    if not cv2.haveImageWriter(path.name):
-        raise InputError(
-            "cannot be written as an image", where=str(path), needed="a name that ends in .png or .tif", todo="change the pattern"
-        )
-    packed = [cv2.imencode(path.suffix, image, [] if way is None else [cv2.IMWRITE_PNG_STRATEGY, way])[1].tobytes() for way in ways]
-    path.write_bytes(min(packed, key=len))

@@ -48,6 +48,8 @@ SHORT_PEAK = 0.6
 DEFAULT_SPHERE_M = 0.025
 SPHERE_WALL, OBJECT_WALL = 0.3, 0.32
 WALL_BEHIND_SPHERE_M = 0.3
+SCREEN_BEHIND_M = (0.25, 0.45)
+"""How far behind an object of a session its screen stands: the room behind a robot's path is seldom near."""
 CARD_HALF_RADII = 4.4
 """Half the side of the dark card behind a sphere, in its radii."""
 ROD_M = 0.003
@@ -117,15 +119,18 @@ class Studio:
         make = shapes.SHAPES.get(name, makers[index % 3])
         lens, focus_C = self.built.lens, self.built.focus_C
         half_m = focus_C[2] * min(lens.image_size[0] / lens.K[0, 0], lens.image_size[1] / lens.K[1, 1]) / 2
-        bare = make(0.56 * float(half_m))
-        shape = shapes.Shape(
-            bare.note, bare.bound_m, bare.pieces, bare.albedo, bare.texture, bare.texture_length_m, shapes.grain(bare.texture_length_m, rng)
-        )
+        shape = shapes.grained(make(0.56 * float(half_m)), rng)
         x_C = focus_C + rng.uniform(-0.03, 0.03, 3) * half_m
         H_CS = se3.transform(se3.rotation(rng.normal(0, [0.08, 0.25, 0.05])), x_C)
         wall_m = float(x_C[2] + 1.25 * shape.bound_m + rng.uniform(0.02, 0.05))
         scene = self._scene(shape, H_CS, wall_m, rng)
         return self._develop(render(lens, scene), rng, shape.note)
+
+    def stop(self, shape: shapes.Shape, H_CS: Array, rng: np.random.Generator) -> Capture:
+        """The capture of an object of a session, at H_CS (4, 4), a screen standing behind it."""
+        wall_m = float(H_CS[2, 3] + shape.bound_m + rng.uniform(*SCREEN_BEHIND_M))
+        scene = self._scene(shape, H_CS, wall_m, rng)
+        return self._develop(render(self.built.lens, scene), rng, shape.note)
 
     def flat(self, rng: np.random.Generator) -> Stored:
         """The image of an evenly lit white card."""

@@ -104,6 +104,17 @@ def plan(built: Built, corners: tuple[int, int], square_m: tuple[float, float], 
     return Session(t_s, motion(t_s), station_s, motion(station_s), sweep_s, motion(sweep_s), dwells[:-1])
 
 
+def round_trip(stops: Array, recipe: Recipe, rng: np.random.Generator) -> Session:
+    """The panel carried from stop to stop, H_OP (N, 4, 4), resting at each; the camera looks in the middle of every rest."""
+    travel = [_travel_s(stops[k], stops[k + 1]) for k in range(len(stops) - 1)]
+    starts = LEAD_IN_S + np.concatenate([[0.0], np.cumsum(np.array(travel) + recipe.dwell_s)])
+    dwells = np.stack([starts, starts + recipe.dwell_s], axis=1)
+    t_s = np.arange(0, float(dwells[-1, 1]) + LEAD_IN_S, 1 / recipe.tracking.rate_hz)
+    stop_s = dwells.mean(axis=1)
+    motion = _Motion(stops, dwells, stops[-1:], 0.0, _tremor(rng))
+    return Session(t_s, motion(t_s), stop_s, motion(stop_s), np.zeros(0), np.zeros((0, 4, 4)), dwells)
+
+
 SWEEP_OVERSAMPLING = 10
 
 

@@ -8,7 +8,7 @@ Unions of ellipsoids are blended with a polynomial smooth minimum. Source: J. C.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -133,8 +133,82 @@ def bowl(size_m: float) -> Shape:
     return Shape("bowl: shallow, seen from inside", 1.1 * size_m, (whole,), albedo=0.6)
 
 
+def vase(size_m: float) -> Shape:
+    """A fluted vase with two handles."""
+
+    def whole(x_S: Array) -> Array:
+        x, y, z = x_S / size_m
+        r, angle = np.sqrt(x * x + z * z), np.arctan2(z, x)
+        profile = 0.34 + 0.16 * np.cos(2.6 * (y - 0.15)) + 0.10 * np.maximum(-y - 0.55, 0)
+        flutes = 0.018 * np.cos(12 * angle) * np.exp(-(((y - 0.15) / 0.45) ** 4))
+        side = 0.72 * (r - profile - flutes)
+        ends = np.abs(y) - 0.92
+        body = np.hypot(np.maximum(side, 0), np.maximum(ends, 0)) + np.minimum(np.maximum(side, ends), 0) - 0.03
+        handle = np.hypot(np.hypot(np.abs(x) - 0.40, y + 0.42) - 0.26, z) - 0.065
+        return np.asarray(0.9 * size_m * _blend(body, handle, 0.06))
+
+    return Shape("vase: fluted, with two handles", 1.1 * size_m, (whole,), albedo=0.68)
+
+
+def knot(size_m: float) -> Shape:
+    """A trefoil knot of a thick rope."""
+    t = np.linspace(0, 2 * np.pi, 97)
+    line = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=0) * 0.26
+
+    def whole(x_S: Array) -> Array:
+        x, best = x_S / size_m, np.full(x_S.shape[1], np.inf)
+        for a, b in zip(line.T[:-1], line.T[1:], strict=True):
+            along = np.clip((b - a) @ (x - a[:, None]) / ((b - a) @ (b - a)), 0, 1)
+            best = np.minimum(best, ((x - a[:, None] - (b - a)[:, None] * along) ** 2).sum(axis=0))
+        return np.asarray(size_m * (np.sqrt(best) - 0.19))
+
+    return Shape("knot: a trefoil of thick rope", 1.1 * size_m, (whole,), albedo=0.72)
+
+
+def stone(size_m: float) -> Shape:
+    """A boulder: an ellipsoid with waves of three lengths."""
+    rng = np.random.default_rng(5)
+    direction = rng.standard_normal((3, 8, 3))
+    direction /= np.linalg.norm(direction, axis=2, keepdims=True)
+    phase = rng.uniform(0, 2 * np.pi, (3, 8))
+
+    def whole(x_S: Array) -> Array:
+        x = x_S / size_m
+        found = _ellipsoid(x, (0, 0, 0), (0.82, 0.66, 0.72))
+        for k, (rate, height) in enumerate(((3.0, 0.020), (8.0, 0.007), (20.0, 0.002))):
+            found = found - height * np.sin(rate * (direction[k] @ x) + phase[k][:, None]).sum(axis=0)
+        return np.asarray(0.6 * size_m * found)
+
+    return Shape("stone: a boulder with waves of three lengths", 1.1 * size_m, (whole,), albedo=0.6)
+
+
+def beast(size_m: float) -> Shape:
+    """An animal on four legs: trunk, head, muzzle, ears, tail, blended."""
+
+    def whole(x_S: Array) -> Array:
+        x = x_S / size_m
+        x[2] = np.abs(x[2])
+        trunk = _ellipsoid(x, (0.05, 0.0, 0), (0.62, 0.32, 0.30))
+        found = _blend(trunk, _ellipsoid(x, (-0.62, -0.34, 0), (0.26, 0.24, 0.22)), 0.22)
+        found = _blend(found, _ellipsoid(x, (-0.84, -0.24, 0), (0.16, 0.12, 0.12)), 0.08)
+        found = _blend(found, _ellipsoid(x, (-0.56, -0.56, 0.14), (0.06, 0.14, 0.05)), 0.04)
+        found = _blend(found, _ellipsoid(x, (0.70, -0.12, 0), (0.14, 0.06, 0.06)), 0.08)
+        for place in (-0.32, 0.46):
+            found = _blend(found, _ellipsoid(x, (place, 0.42, 0.17), (0.13, 0.40, 0.12)), 0.10)
+        return np.asarray(size_m * found)
+
+    return Shape("beast: an animal on four legs", 1.1 * size_m, (whole,), albedo=0.7)
+
+
+ROUND: dict[str, Callable[[float], Shape]] = {"vase": vase, "knot": knot, "stone": stone, "beast": beast}
+"""Objects that are worth a look from all sides, by name."""
 SHAPES: dict[str, Callable[[float], Shape]] = {"bust": bust, "relief": relief, "pair": pair, "card": card, "bowl": bowl}
 """Objects by name; an object of panel.yaml with another name gets the next in turn."""
+
+
+def grained(bare: Shape, rng: np.random.Generator) -> Shape:
+    """The object with a random texture."""
+    return replace(bare, waves=grain(bare.texture_length_m, rng))
 
 
 def grain(length_m: float, rng: np.random.Generator) -> Array:

@@ -1,0 +1,33 @@
+"""``lpcal fuse``: one model of surfaces whose captures are placed."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from lpcal.cli.rig_option import add_rig_option, length, open_workspace
+from lpcal.errors import InputError
+from lpcal.records.outcome import Outcome, Progress
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's words."""
+    parser.add_argument(
+        "captures", nargs="*", type=Path, metavar="CAPTURE", help="surfaces, or captures that were reconstructed (default: all of the rig)"
+    )
+    parser.add_argument("-o", "--output", type=Path, default=Path("model"), metavar="DIR", help="where to (default: model)")
+    parser.add_argument("--step", metavar="LENGTH", help="length of the model's edges, such as 0.5mm (default: 1.4 pixels on the object)")
+    add_rig_option(parser)
+
+
+def run(options: argparse.Namespace, progress: Progress) -> Outcome:
+    """Fuse them."""
+    from lpcal.pipeline.fuse import fuse_folders
+
+    try:
+        rig = open_workspace(options)
+    except InputError:
+        if not options.captures or options.rig != Path():
+            raise
+        rig = None
+    return fuse_folders(options.captures, options.output, rig, length(options.step), progress)

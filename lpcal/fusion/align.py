@@ -1,0 +1,255 @@
+r"""Where every view really stands: all pairs of overlapping views in one least-squares problem, the tracked poses as prior.
+
+Symbols: e the error of H_PC that all views share, c a scale of all distances that they share (light intensities), for each view i its own
+twist xi_i and its bending b_i; H_i the tracked pose::
+
+    H_AC,i = exp(xi_i + by_handeye,i e) H_i,      delta_i = c + bending(b_i)
+    cost   = sum_pairs sum_points rho(n . (p - q) / sigma) / m  +  priors of e, c, xi_i, b_i
+
+m counts the points that share one error: a residual's neighbours within a knot's cell are off together. rho is Geman and McClure's, so
+that what is not the same surface has no say. Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for normals of both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.fusion.bending import bending_of
+from lpcal.fusion.pairs import Meeting, Placed, meet
+from lpcal.fusion.views import PlacedView
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Index
+from lpcal.records.outcome import Progress, silent
+
+POINTS = 1300
+"""Points of a view that are looked up in the others: some for each knot, and enough for all pairs."""
+KNOTS = 1400
+"""Knots of all views together, about: their information matrix is dense, and its inverse takes the cube of this."""
+LEAST_STEP_PX, MOST_STEP_PX = 12, 96
+"""Bounds of the distance between knots, in pixels."""
+ROUNDS = 6
+"""Rounds of looking up points and stepping: the step is under a hundredth of the noise after five."""
+SHARED_SCALE_STD = 0.004
+"""Standard deviation, relative, of a scale that all distances share: what 1 % of light intensity is worth at the working distance."""
+START_GATE = 3.5
+"""Gate of the first round, in standard deviations of what priors allow."""
+GATE = 5.0
+"""Gate of later rounds, in scales of the residuals."""
+LEAST_GATE_PX = 2.0
+"""Least gate, in footprints of a pixel: nearer points are one surface at any rate."""
+LEAST_SIGMA_PX = 0.15
+"""Least standard deviation of a residual, in footprints of a pixel: what interpolation between pixels leaves."""
+ROBUST = 2.5
+"""Scale of the loss, in standard deviations of a residual."""
+SHARED = 7
+"""Parameters that all views share: e (6) and c."""
+
+
+@dataclass(frozen=True)
+class Aligned:
+    """Views where they stand, and what the solve knows of it."""
+
+    placed: tuple[Placed, ...]
+    parameters: Array
+    """(n,) e, c, then each view's xi and bending."""
+    covariance: Array
+    """(n, n)."""
+    starts: Index
+    """(N,) place of each view's xi among the parameters."""
+    pairs: dict[tuple[int, int], PairFit]
+    sigma_m: float
+    """Standard deviation of a residual between two views."""
+    before_m: float
+    """Robust rms of the residuals with the tracked poses alone."""
+    after_m: float
+
+    def shift(self, view: int) -> tuple[Array, Array]:
+        """Twist (6,) by which a view moved against its tracked pose, and its prior's covariance."""
+        start = self.starts[view]
+        return self.parameters[start : start + 6], self.placed[view].view.placement.noise_covariance
+
+
+@dataclass(frozen=True)
+class PairFit:
+    """How two views agree: points that meet, points that contradict, robust rms of the residuals in metres."""
+
+    agree: int
+    contradict: int
+    rms_m: float
+
+
+def align(views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progress = silent) -> Aligned:
+    """Align views; `H_PC_covariance` (6, 6) is that of the transform that all placements share, zero where it is exact."""
+    state = _start(views)
+    problem = _Problem.of(state, H_PC_covariance)
+    x = np.zeros(problem.size)
+    sigma_m, gate_m, before_m = 0.0, _first_gate(views, H_PC_covariance), 0.0
+    for done in range(ROUNDS):
+        meetings = all_meetings(state, gate_m)
+        spread_m = spread(meetings)
+        before_m = before_m or spread_m
+        floor_m = LEAST_SIGMA_PX * float(np.median([view.footprint_m for view in views]))
+        sigma_m = max(spread_m, floor_m)
+        N, g = problem.normal_equations(state, meetings, sigma_m)
+        prior = problem.prior(state, x)
+        x = x - np.linalg.solve(N + prior, g + prior @ x)
+        state = problem.moved(state, x)
+        gate_m = max(GATE * sigma_m, LEAST_GATE_PX * floor_m / LEAST_SIGMA_PX)
+        progress("rounds of alignment", done + 1, ROUNDS)
+    meetings = all_meetings(state, gate_m)
+    after_m = spread(meetings)
+    N, _ = problem.normal_equations(state, meetings, max(after_m, floor_m))
+    covariance = np.linalg.inv(N + problem.prior(state, x))
+    pairs = {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
+    return Aligned(tuple(state), x, covariance, problem.starts, pairs, max(after_m, floor_m), before_m, after_m)
+
+
+def compared(views: Sequence[PlacedView], H_PC_covariance: Array) -> dict[tuple[int, int], PairFit]:
+    """How views agree where their placements put them."""
+    meetings = all_meetings(_start(views), _first_gate(views, H_PC_covariance))
+    return {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
+
+
+def all_meetings(state: Sequence[Placed], gate_m: float) -> dict[tuple[int, int], Meeting]:
+    """What every view's points meet in every other view."""
+    points = [one.points() for one in state]
+    found = {}
+    for i in range(len(state)):
+        for j in range(len(state)):
+            met = meet(points[i], state[j], gate_m) if i != j else None
+            if met is not None:
+                found[i, j] = met
+    return found
+
+
+def spread(meetings: dict[tuple[int, int], Meeting]) -> float:
+    """Robust standard deviation of all residuals, metres; 0 where there are none."""
+    residuals = [found.residual_m for found in meetings.values() if len(found.residual_m)]
+    return float(1.4826 * np.median(np.abs(np.concatenate(residuals)))) if residuals else 0.0
+
+
+def _start(views: Sequence[PlacedView]) -> list[Placed]:
+    area = sum(int((view.component > 0).sum()) for view in views)
+    step_px = int(np.clip(np.sqrt(area / KNOTS), LEAST_STEP_PX, MOST_STEP_PX))
+    state = []
+    for view in views:
+        bending = bending_of(view, step_px)
+        row, column = sampled(view, POINTS)
+        state.append(Placed(view, bending, view.placement.H_AC, np.zeros(bending.size), row, column))
+    return state
+
+
+def sampled(view: PlacedView, count: int) -> tuple[Index, Index]:
+    """Pixels of a view that bear witness, on a square grid, about so many."""
+    step = max(int(np.sqrt(view.witness.sum() / count)), 1)
+    row, column = np.nonzero(view.witness[step // 2 :: step, step // 2 :: step])
+    return row * step + step // 2, column * step + step // 2
+
+
+def _first_gate(views: Sequence[PlacedView], H_PC_covariance: Array) -> float:
+    """How far apart two views' surfaces may be at the start, metres."""
+    variances = []
+    for view in views:
+        placement = view.placement
+        by = placement.by_handeye
+        across = placement.noise_covariance + by @ H_PC_covariance @ by.T
+        at_object = se3.adjoint(se3.transform(np.eye(3), -se3.apply(placement.H_AC, np.array([[0, 0, view.distance_m]]))[0]))
+        local = at_object @ across @ at_object.T
+        scale_std = max(std for _, std in view.pieces)
+        variances.append(np.trace(local[3:, 3:]) / 3 + (view.distance_m * scale_std) ** 2 + float(np.nanmedian(view.depth_std_m)) ** 2)
+    least_m = LEAST_GATE_PX * float(np.median([view.footprint_m for view in views]))
+    return max(START_GATE * float(np.sqrt(2 * np.median(variances))), least_m)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    starts: Index
+    size: int
+    H_PC_covariance: Array
+
+    @classmethod
+    def of(cls, state: Sequence[Placed], H_PC_covariance: Array) -> _Problem:
+        sizes = [6 + one.bending.size for one in state]
+        starts = SHARED + np.concatenate([[0], np.cumsum(sizes)])[:-1].astype(np.intp)
+        size = SHARED + sum(sizes)
+        return cls(starts, size, H_PC_covariance)
+
+    def prior(self, state: Sequence[Placed], x: Array) -> Array:
+        """Information (n, n) of the priors, where the views' bendings stand."""
+        prior = np.zeros((self.size, self.size))
+        prior[:6, :6] = _information(self.H_PC_covariance)
+        prior[6, 6] = SHARED_SCALE_STD**-2.0
+        for start, one in zip(self.starts, state, strict=True):
+            prior[start : start + 6, start : start + 6] = _information(one.view.placement.noise_covariance)
+            rows, columns, values = one.bending.information(x[start + 6 : start + 6 + one.bending.size])
+            np.add.at(prior, (start + 6 + rows, start + 6 + columns), values)
+        return prior
+
+    def moved(self, state: Sequence[Placed], x: Array) -> list[Placed]:
+        """The views by the parameters."""
+        found = []
+        for start, one in zip(self.starts, state, strict=True):
+            placement = one.view.placement
+            H_AC = se3.exp(x[start : start + 6] + placement.by_handeye @ x[:6]) @ placement.H_AC
+            field = x[start + 6 : start + 6 + one.bending.size].copy()
+            field[: len(one.view.pieces)] += x[6]
+            found.append(replace(one, H_AC=H_AC, field=field))
+        return found
+
+    def normal_equations(self, state: Sequence[Placed], meetings: dict[tuple[int, int], Meeting], sigma_m: float) -> tuple[Array, Array]:
+        """Information (n, n) and gradient (n,) of the points that meet."""
+        from scipy.sparse import csr_array
+
+        share = _share(state)
+        N, g = np.zeros((self.size, self.size)), np.zeros(self.size)
+        for (i, j), met in meetings.items():
+            if not len(met.residual_m):
+                continue
+            columns, values = self._rows(state[i], state[j], i, j, met)
+            w = (1 + (met.residual_m / (ROBUST * sigma_m)) ** 2) ** -2.0 / (share[i] * sigma_m**2)
+            used, local = np.unique(columns, return_inverse=True)
+            rows = np.repeat(np.arange(len(w)), columns.shape[1])
+            J = csr_array((values.ravel(), (rows, local.ravel())), shape=(len(w), len(used)))
+            product = (J.T @ (J * w[:, None])).toarray()
+            N[np.ix_(used, used)] += product
+            g[used] += J.T @ (w * met.residual_m)
+        return N, g
+
+    def _rows(self, first: Placed, second: Placed, i: int, j: int, met: Meeting) -> tuple[Index, Array]:
+        """Columns and derivatives (N, k) of each residual."""
+        n = met.n_A
+        by_p, by_q = np.hstack([np.cross(met.p_A, n), n]), -np.hstack([np.cross(met.q_A, n), n])
+        grow_p, grow_q = np.einsum("ij,ij->i", n, met.from_p), -np.einsum("ij,ij->i", n, met.from_q)
+        shared = by_p @ first.view.placement.by_handeye + by_q @ second.view.placement.by_handeye
+        row, column = first.row[met.index], first.column[met.index]
+        pixel = np.column_stack([column, row]).astype(float)
+        place_p, weight_p = first.bending.basis(pixel, first.view.component[row, column])
+        place_q, weight_q = second.bending.basis(met.pixel, met.component)
+        count, si, sj = len(n), self.starts[i], self.starts[j]
+        columns = [
+            np.broadcast_to(np.arange(SHARED), (count, SHARED)),
+            np.broadcast_to(si + np.arange(6), (count, 6)),
+            np.broadcast_to(sj + np.arange(6), (count, 6)),
+            si + 6 + place_p,
+            sj + 6 + place_q,
+        ]
+        values = [shared, (grow_p + grow_q)[:, None], by_p, by_q, weight_p * grow_p[:, None], weight_q * grow_q[:, None]]
+        return np.concatenate(columns, axis=1), np.concatenate(values, axis=1)
+
+
+def _share(state: Sequence[Placed]) -> Array:
+    """How many points of each view share one error: those in a knot's cell, counted from both sides of a pair."""
+    found = []
+    for one in state:
+        step = max(int(np.sqrt(one.view.witness.sum() / POINTS)), 1)
+        found.append(max(2 * (one.bending.step_px / (2 * step)) ** 2, 2.0))
+    return np.array(found)
+
+
+def _information(covariance: Array) -> Array:
+    """Inverse of a covariance; a transform that is exact hardly moves."""
+    floor = np.diag([1e-12] * 3 + [1e-14] * 3)
+    return np.asarray(np.linalg.inv(covariance + floor))

@@ -1,0 +1,105 @@
+r"""Which views are wrong: those whose pose, distance or object the others contradict.
+
+Symbols: for views i, j at their tracked poses, of the points of i that j should have seen::
+
+    A_ij = agree / (agree + contradict),      A_i = sum_j weight A / sum_j weight   over both ways round
+
+A view that stands elsewhere puts its points where others see through, or sees through theirs. The worst is left out, the rest is judged
+anew without it, until all that are left agree: each with most of the others. After the alignment a view that had to move, or to grow, by
+far more than its sigmas say is left out as well, and the rest is aligned anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.fusion.align import Aligned, PairFit
+from lpcal.geometry.arrays import Array
+
+LEAST_AGREEMENT = 0.75
+"""Least share of a view's points that the others must confirm: whole sessions had 0.9 and more, a view 20 mm off had under 0.6."""
+BELOW_OTHERS = 0.12
+"""How far under the median view's share a view must lie to be left out: where all views are poor, none is the odd one."""
+FEWEST_POINTS = 30
+"""Fewest points in common that say anything of a pair."""
+MOST_SIGMAS = 6.0
+"""By how many sigmas, over all six parameters of a pose, a view may have moved in the alignment."""
+MOST_SCALE_SIGMAS = 5.0
+"""By how many of its sigmas the distance of a view's largest piece may have grown."""
+
+
+@dataclass(frozen=True)
+class Doubted:
+    """A view that is left out: its place in the list, and why, in words."""
+
+    index: int
+    why: str
+
+
+def outvoted(count: int, pairs: Mapping[tuple[int, int], PairFit]) -> list[Doubted]:
+    """The views that the others contradict at their tracked poses, the worst first."""
+    out: list[Doubted] = []
+    while count - len(out) > 2:
+        left = [k for k in range(count) if k not in {one.index for one in out}]
+        share = agreement(left, pairs)
+        judged = {k: value for k, value in share.items() if np.isfinite(value)}
+        if len(judged) < 3:
+            break
+        worst = min(judged, key=lambda k: judged[k])
+        usual = float(np.median(list(judged.values())))
+        if judged[worst] >= min(LEAST_AGREEMENT, usual - BELOW_OTHERS):
+            break
+        out.append(Doubted(worst, f"the others confirm {100 * judged[worst]:.0f} % of it, and {100 * usual:.0f} % of each other"))
+    return out
+
+
+def agreement(left: Sequence[int], pairs: Mapping[tuple[int, int], PairFit]) -> dict[int, float]:
+    """The share of each view's points that the other ones confirm; NaN where too few say anything.
+
+    A view's share is the median over its partners, so that one wrong partner does not spoil it.
+    """
+    found = {}
+    for k in left:
+        shares, weights = [], []
+        for other in left:
+            both = [pairs[key] for key in ((k, other), (other, k)) if key in pairs]
+            agree, contradict = sum(one.agree for one in both), sum(one.contradict for one in both)
+            if agree + contradict >= FEWEST_POINTS:
+                shares.append(agree / (agree + contradict))
+                weights.append(agree + contradict)
+        found[k] = _weighted_median(np.array(shares), np.array(weights)) if shares else float("nan")
+    return found
+
+
+def moved_too_far(aligned: Aligned) -> list[Doubted]:
+    """Views that the alignment moved or scaled by far more than their sigmas say, the worst first; only the worst is sure."""
+    found: list[tuple[float, Doubted]] = []
+    for k, one in enumerate(aligned.placed):
+        xi, covariance = aligned.shift(k)
+        squared = float(xi @ np.linalg.solve(covariance + 1e-16 * np.eye(6), xi))
+        sigmas = float(np.sqrt(max(squared, 0.0) / 6))
+        start = aligned.starts[k] + 6
+        pieces = one.view.pieces
+        sizes = [int((one.view.component == label).sum()) for label, _ in pieces]
+        largest = int(np.argmax(sizes))
+        grown = float(aligned.parameters[start + largest])
+        scale_sigmas = abs(grown) / pieces[largest][1]
+        if sigmas > MOST_SIGMAS:
+            at = one.H_AC[:3, 3] - one.view.placement.H_AC[:3, 3]
+            why = f"it fits the others {1e3 * np.linalg.norm(at):.1f} mm beside its pose, {sigmas:.0f} sigmas"
+            found.append((sigmas / MOST_SIGMAS, Doubted(k, why)))
+        elif scale_sigmas > MOST_SCALE_SIGMAS:
+            why = (
+                f"its distance differs by {1e3 * grown * one.view.distance_m:+.1f} mm from what fits the others, {scale_sigmas:.0f} sigmas"
+            )
+            found.append((scale_sigmas / MOST_SCALE_SIGMAS, Doubted(k, why)))
+    return [doubt for _, doubt in sorted(found, key=lambda each: -each[0])]
+
+
+def _weighted_median(values: Array, weights: Array) -> float:
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(total, total[-1] / 2)])

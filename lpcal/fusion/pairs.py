@@ -1,0 +1,122 @@
+r"""What two views say of the same places: points of one looked up in the other.
+
+Symbols: p a point of view i, q what view j shows in its direction, n the normal there, both in the common frame A::
+
+    r = n . (p - q)
+
+A point that lies in front of what j shows, or beside the object where j sees the background, contradicts j, which should have seen it;
+so does one whose normal differs much from the one there. One behind the surface is hidden from j and says nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.fusion.bending import Bending
+from lpcal.fusion.views import PlacedView, look
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Index, Labels, Mask
+
+TURN = np.cos(np.radians(40.0))
+"""Least cosine between two views' normals of one place: measured ones differ by some degrees, those of two sides of an edge by more."""
+LIKE = np.cos(np.radians(14.0))
+"""Least cosine at which normals confirm each other. They know nothing of distances, so a view that is turned shows in them at once."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A view where it stands now."""
+
+    view: PlacedView
+    bending: Bending
+    H_AC: Array
+    field: Array
+    """Parameters of its bending."""
+    row: Index
+    column: Index
+    """Pixels of the points that are looked up in other views."""
+
+    def points(self) -> tuple[Array, Array, Array]:
+        """Its points and normals in A, (N, 3) each, and the vectors from the camera to the points."""
+        pixel = np.column_stack([self.column, self.row]).astype(float)
+        grown = np.exp(self.bending.at(self.field, pixel, self.view.component[self.row, self.column]))
+        x_C = self.view.points_C(self.row, self.column) * grown[:, None]
+        n_A = se3.rotate(self.H_AC, self.view.normals_C[self.row, self.column])
+        return se3.apply(self.H_AC, x_C), n_A, se3.rotate(self.H_AC, x_C)
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Points (N) of one view that meet another's surface."""
+
+    index: Index
+    """Which of the points looked up."""
+    p_A: Array
+    q_A: Array
+    n_A: Array
+    """Mean of both normals."""
+    from_p: Array
+    """Vector from the first camera to p."""
+    from_q: Array
+    """Vector from the second camera to q."""
+    pixel: Array
+    component: Labels
+    """Pixel and piece of q."""
+    residual_m: Array
+    agree: int
+    contradict: int
+
+    def __getitem__(self, some: Mask) -> Meeting:
+        picked = {name: getattr(self, name)[some] for name in ("index", "p_A", "q_A", "n_A", "from_p", "from_q", "pixel", "component")}
+        return Meeting(**picked, residual_m=self.residual_m[some], agree=self.agree, contradict=self.contradict)
+
+
+def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Meeting | None:
+    """Points of one view, as `Placed.points`, looked up in another; None where they show no common side.
+
+    `gate_m` is how far apart the two surfaces may be, along the normal, to be taken for one.
+    """
+    p_A, n_p, from_p = first
+    camera_A = second.H_AC[:3, 3]
+    to_camera = camera_A - p_A
+    facing = np.flatnonzero(np.einsum("ij,ij->i", n_p, to_camera) > 0.3 * np.linalg.norm(to_camera, axis=1))
+    if len(facing) < 10:
+        return None
+    x_C = se3.apply(se3.inv(second.H_AC), p_A[facing])
+    seen = look(second.view, x_C)
+    delta = np.zeros(len(facing))
+    at = np.flatnonzero(seen.ok)
+    delta[at] = second.bending.at(second.field, seen.pixel[at], seen.component[at])
+    z = seen.depth * np.exp(delta)
+    q_C = x_C * (z / x_C[:, 2])[:, None]
+    n_q = se3.rotate(second.H_AC, seen.normal_C)
+    n_A = n_p[facing] + n_q
+    n_A /= np.maximum(np.linalg.norm(n_A, axis=1, keepdims=True), 1e-12)
+    q_A = se3.apply(second.H_AC, q_C)
+    r = np.einsum("ij,ij->i", n_A, p_A[facing] - q_A)
+    cosine = np.einsum("ij,ij->i", n_p[facing], n_q)
+    close = seen.ok & (np.abs(r) < gate_m)
+    before = seen.ok & ~close & (x_C[:, 2] < z - gate_m)
+    beside = seen.in_image & _background(second.view, seen.pixel)
+    keep = np.flatnonzero(close & (cosine > TURN))
+    return Meeting(
+        facing[keep],
+        p_A[facing[keep]],
+        q_A[keep],
+        n_A[keep],
+        from_p[facing[keep]],
+        se3.rotate(second.H_AC, q_C[keep]),
+        seen.pixel[keep],
+        seen.component[keep],
+        r[keep],
+        int((close & (cosine > LIKE)).sum()),
+        int((close & (cosine <= LIKE)).sum() + before.sum() + beside.sum()),
+    )
+
+
+def _background(view: PlacedView, pixel: Array) -> Mask:
+    """Pixels (N, 2) that are well outside the object."""
+    column, row = (np.clip(np.rint(pixel[:, k]).astype(int), 0, n - 1) for k, n in enumerate(view.depth.shape[::-1]))
+    return view.far_outside[row, column]

@@ -1,0 +1,224 @@
+r"""What each vertex of a model rests on: the views that see it, where each puts the surface, its normal and albedo there.
+
+Symbols: v a vertex, n its normal, q_i what view i shows in its direction, n_i the view's normal there, w_i its weight::
+
+    r_i = n_i . (q_i - v)               how far outside v the view puts the surface
+    v  += n sum_i a_i r_i,   a_i = w_i rho_i / sum w rho        rho: Geman and McClure's weight of (r_i - mean)
+    n   = sum_i w_i n_i / |..|,   log albedo = sum_i f_i (log albedo_i - g_i) / sum f_i
+
+f_i fades to nothing at a view's edges, so no seam shows; g_i is how bright a capture came out against the others. Where views differ by
+more than their doubt, the difference stays in the vertex's disagreement and in its standard deviation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.fusion.align import SHARED, Aligned
+from lpcal.fusion.pairs import Placed
+from lpcal.fusion.views import look
+from lpcal.fusion.volume import Triangles, normals_of, weight_of
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Image, Index, Mask
+
+FACING = 0.3
+"""Least cosine between a vertex's normal and the line of sight of a view that counts."""
+GATE_PX = 4.0
+"""How far from a vertex a view may put the surface and still mean the same one, in footprints of a pixel."""
+FADE_PX = 16.0
+"""Over how many pixels from its edges a view's albedo comes in."""
+SCALE_PX = 0.5
+"""Scale of the robust mean over views, in footprints of a pixel: about what aligned views scatter by."""
+PASSES = 2
+"""How often vertices are moved onto the views' mean."""
+BIAS_RAD = float(np.radians(1.0))
+"""What every normal of a view may be off by at least: light between surfaces shows in no standard deviation of one view."""
+SIGMA_VERTICES = 800
+"""Vertices at which the covariance of the views' places is carried over; between them it is the nearest one's."""
+NOT_SEEN_HERE = 3.0
+"""Factor on the disagreement of the fewest views: of two that differ, either may be the right one."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What views (N) say of vertices (V), each (N, V); 0 or NaN where a view does not see a vertex."""
+
+    weight: Array
+    residual_m: Array
+    normals_A: Image
+    """(N, V, 3)."""
+    row: Index
+    column: Index
+
+
+@dataclass(frozen=True)
+class Vertices:
+    """The model's vertices."""
+
+    triangles: Triangles
+    normals_A: Array
+    """(V, 3) photometric, the mean over views."""
+    albedo: Array
+    """(V, 3) linear, relative."""
+    sigma_m: Array
+    """Standard deviation of each vertex along its normal."""
+    disagreement_m: Array
+    """Robust rms of what views say of it; 0 where one alone sees it."""
+    views: Index
+    """How many see it."""
+    normal_sigma_rad: Array
+
+
+def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
+    """The vertices moved onto the weighted mean of the views, with what they rest on."""
+    state, faces = aligned.placed, rough.faces
+    v, n = rough.vertices_A, rough.normals_A
+    footprint_m = float(np.median([one.view.footprint_m for one in state]))
+    for _ in range(PASSES):
+        found = evidence(state, v, n, GATE_PX * footprint_m)
+        share = _robust(found, SCALE_PX * footprint_m)
+        v = v + n * np.einsum("nv,nv->v", share, found.residual_m)[:, None]
+        n = normals_of(v, faces)
+    v, n_photometric, normal_sigma = _with_detail(found, share, v, n, faces, footprint_m)
+    found = evidence(state, v, n, GATE_PX * footprint_m)
+    share = _robust(found, SCALE_PX * footprint_m)
+    off = np.where(found.weight > 0, found.residual_m - np.einsum("nv,nv->v", share, found.residual_m), 0.0)
+    count = (found.weight > 0).sum(axis=0)
+    disagreement = np.sqrt(np.einsum("nv,nv->v", found.weight > 0, off**2) / np.maximum(count - 1, 1))
+    sigma = _sigma(aligned, found, share, v, n, disagreement, footprint_m)
+    return Vertices(Triangles(v, n, faces), n_photometric, _albedo(state, found), sigma, disagreement, count, normal_sigma)
+
+
+def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> Evidence:
+    """What every view says of vertices with normals (V, 3)."""
+    shape = len(state), len(v_A)
+    weight, residual, normals = np.zeros(shape), np.zeros(shape), np.zeros((*shape, 3), np.float32)
+    row, column = np.zeros(shape, np.intp), np.zeros(shape, np.intp)
+    for k, one in enumerate(state):
+        to_camera = one.H_AC[:3, 3] - v_A
+        cosine = np.einsum("ij,ij->i", to_camera, n_A) / np.linalg.norm(to_camera, axis=1)
+        some = np.flatnonzero(cosine > FACING)
+        x_C = se3.apply(se3.inv(one.H_AC), v_A[some])
+        seen = look(one.view, x_C)
+        ok = np.flatnonzero(seen.ok)
+        x_C, n_C = x_C[ok], seen.normal_C[ok]
+        z = seen.depth[ok] * np.exp(one.bending.at(one.field, seen.pixel[ok], seen.component[ok]))
+        r = np.einsum("ij,ij->i", n_C, x_C) * (z / x_C[:, 2] - 1)
+        n_view = se3.rotate(one.H_AC, n_C)
+        same = (np.abs(r) < gate_m) & (np.einsum("ij,ij->i", n_view, n_A[some[ok]]) > 0.7)
+        at, kept = some[ok][same], ok[same]
+        row[k, at], column[k, at] = np.rint(seen.pixel[kept, 1]), np.rint(seen.pixel[kept, 0])
+        weight[k, at] = weight_of(one, row[k, at], column[k, at], cosine[at])
+        residual[k, at], normals[k, at] = r[same], n_view[same]
+    return Evidence(weight, residual, normals, row, column)
+
+
+def _robust(found: Evidence, scale_m: float) -> Array:
+    """Share (N, V) of each view in a vertex; they sum to 1 where any sees it."""
+    share = found.weight / np.maximum(found.weight.sum(axis=0), 1e-30)
+    for _ in range(4):
+        off = found.residual_m - np.einsum("nv,nv->v", share, found.residual_m)
+        w = found.weight / (1 + (off / scale_m) ** 2) ** 2
+        share = w / np.maximum(w.sum(axis=0), 1e-30)
+    return np.asarray(share)
+
+
+def _with_detail(found: Evidence, share: Array, v: Array, n: Array, faces: Index, footprint_m: float) -> tuple[Array, Array, Array]:
+    """Vertices whose faces lie as the photometric normals say, those normals, and their standard deviation.
+
+    Least squares over steps h along the normals: ``sum (h / sigma_h)^2 + sum_edges (m . (e + h_b n_b - h_a n_a) / (|e| sigma_n))^2`` with
+    m the mean of the two measured normals of the edge e. Source: D. Nehab et al., Efficiently combining positions and normals (2005).
+    """
+    from scipy.sparse import coo_array, diags_array
+    from scipy.sparse.linalg import cg
+
+    mean = np.einsum("nv,nvk->vk", share, found.normals_A)
+    length = np.linalg.norm(mean, axis=1)
+    lit = length > 0.3
+    m = np.where(lit[:, None], mean / np.maximum(length, 1e-12)[:, None], n)
+    count = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
+    sigma_n = np.sqrt(BIAS_RAD**2 + (2 * np.maximum(1 - length, 0)) / np.maximum(count, 1))
+    edges = np.unique(np.sort(np.concatenate([faces[:, :2], faces[:, 1:], faces[:, ::2]]), axis=1), axis=0)
+    a, b = edges.T
+    e = v[b] - v[a]
+    me = m[a] + m[b]
+    me /= np.maximum(np.linalg.norm(me, axis=1, keepdims=True), 1e-12)
+    w = (
+        np.where(lit[a] & lit[b], 1.0, 0.05)
+        / (np.maximum(np.linalg.norm(e, axis=1), 0.1 * footprint_m) * np.hypot(sigma_n[a], sigma_n[b])) ** 2
+    )
+    ja, jb, r = -np.einsum("ij,ij->i", me, n[a]), np.einsum("ij,ij->i", me, n[b]), np.einsum("ij,ij->i", me, e)
+    count_v = len(v)
+    rows, columns = np.concatenate([a, b, a, b]), np.concatenate([a, b, b, a])
+    values = np.concatenate([w * ja * ja, w * jb * jb, w * ja * jb, w * ja * jb])
+    A = coo_array((values, (rows, columns)), shape=(count_v, count_v)).tocsr()
+    A = A + diags_array(np.full(count_v, (HOLD_PX * footprint_m) ** -2.0))
+    g = np.bincount(a, w * ja * r, count_v) + np.bincount(b, w * jb * r, count_v)
+    h, _ = cg(A, -g, rtol=1e-3, maxiter=300, M=diags_array(1 / A.diagonal()))
+    return v + n * h[:, None], m, sigma_n
+
+
+HOLD_PX = 0.25
+"""How far normals may pull a vertex off the views' mean, one standard deviation, in footprints of a pixel."""
+
+
+def _sigma(aligned: Aligned, found: Evidence, share: Array, v: Array, n: Array, disagreement: Array, footprint_m: float) -> Array:
+    """Standard deviation of each vertex along its normal: the views' places, and what they still differ by."""
+    from scipy.spatial import cKDTree
+
+    step = max(len(v) // SIGMA_VERTICES, 1)
+    some = np.arange(0, len(v), step)
+    places = np.zeros(len(some))
+    for k, vertex in enumerate(some):
+        columns, values = _row(aligned, found, share, int(vertex), v[vertex], n[vertex])
+        used, local = np.unique(columns, return_inverse=True)
+        row = np.bincount(local, values, len(used))
+        places[k] = row @ aligned.covariance[np.ix_(used, used)] @ row
+    _, nearest = cKDTree(v[some]).query(v)
+    count = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
+    lone = np.where((found.weight > 0).sum(axis=0) < 2, aligned.sigma_m**2, 0.0)
+    left = (disagreement**2 + (0.1 * footprint_m) ** 2) / np.maximum(count, 1)
+    return np.asarray(np.sqrt(places[nearest] + left + lone))
+
+
+def _row(aligned: Aligned, found: Evidence, share: Array, vertex: int, v: Array, n: Array) -> tuple[Index, Array]:
+    """Derivative of a vertex's place along its normal by the parameters of the alignment."""
+    columns, values = [np.arange(SHARED)], [np.zeros(SHARED)]
+    by = np.concatenate([np.cross(v, n), n])
+    for k in np.flatnonzero(share[:, vertex] > 0.01):
+        one, a, start = aligned.placed[k], share[k, vertex], aligned.starts[k]
+        grow = float(n @ (v - one.H_AC[:3, 3]))
+        row, column = found.row[k, vertex], found.column[k, vertex]
+        place, weight = one.bending.basis(np.array([[column, row]], dtype=float), one.view.component[row, column][None])
+        columns += [start + np.arange(6), start + 6 + place[0]]
+        values += [a * by, a * grow * weight[0]]
+        values[0] = values[0] + a * np.append(by @ one.view.placement.by_handeye, grow)
+    return np.concatenate(columns), np.concatenate(values)
+
+
+def _albedo(state: Sequence[Placed], found: Evidence) -> Array:
+    """Albedo (V, 3) of the vertices, without seams; NaN where none saw it."""
+    from scipy.ndimage import distance_transform_edt
+
+    log, fade = np.zeros((*found.weight.shape, 3), np.float32), np.zeros(found.weight.shape, np.float32)
+    for k, one in enumerate(state):
+        at = np.flatnonzero(found.weight[k] > 0)
+        row, column = found.row[k, at], found.column[k, at]
+        inside = distance_transform_edt(one.view.witness)
+        log[k, at] = np.log(np.maximum(one.view.albedo[row, column], 1e-4))
+        fade[k, at] = found.weight[k, at] * np.clip(inside[row, column] / FADE_PX, 0.02, 1) ** 2
+    gain = np.zeros(len(state))
+    both: Mask = (fade > 0).sum(axis=0) >= 2
+    for _ in range(6 if both.any() else 0):
+        mean = np.einsum("nv,nvc->vc", fade[:, both], log[:, both] - gain[:, None, None]) / fade[:, both].sum(axis=0)[:, None]
+        for k in range(len(state)):
+            seen = fade[k, both] > 0
+            if seen.any():
+                gain[k] = float(np.median(log[k, both][seen] - mean[seen]))
+        gain -= gain.mean()
+    total = fade.sum(axis=0)
+    blended = np.einsum("nv,nvc->vc", fade, log - gain[:, None, None]) / np.maximum(total, 1e-30)[:, None]
+    return np.where((total > 0)[:, None], np.exp(blended), np.nan)

@@ -1,0 +1,204 @@
+r"""A view of an object: its maps in C, where its camera was, and what a direction shows in it.
+
+Symbols: A the frame that views share (the room, or the body that the object rides on), H_AC the camera in it, r the ray of a pixel with
+length 1 in z, z its depth, delta by how much the logarithm of the depth is off::
+
+    x_A = H_AC (z exp(delta(pixel)) r)
+
+delta is a scale of each piece, and a field over it that bends slowly: a tent at each knot of a grid. Pixels of directions come from a
+polynomial that is fitted to the view's own rays, so that no lens model is needed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Index, Labels, Mask
+from lpcal.records.placement import Placement
+from lpcal.records.surface import Surface
+
+DEGREE = 5
+"""Degree of the polynomial from directions to pixels: leaves 0.01 px of a lens with a tenth of barrel distortion."""
+FITTED_RAYS = 4000
+"""Rays that it is fitted to, about: 100 for each of its terms are plenty."""
+MARGIN_PX = 2
+"""Pixels beside a break or the mask's edge that bear no witness: normals there mix two surfaces."""
+OUTSIDE_PX = 6
+"""Pixels beside the mask from where on a view is taken to see the background: an outline is sure within some."""
+STEEP = 0.25
+"""Least cosine between the normal and the line of sight of a pixel that bears witness, 75 degrees: beyond it a pixel spans too much."""
+UNSURE_DEG = 12.0
+"""Normals whose standard deviation is larger bear no witness: they are filled in from their neighbours, not measured."""
+
+
+@dataclass(frozen=True)
+class PlacedView:
+    """One surface with its place. Maps are (H, W), NaN outside the mask."""
+
+    name: str
+    placement: Placement
+    depth: Array
+    plane: Array
+    """(H, W, 2) x/z and y/z of each pixel's ray."""
+    normals_C: Array
+    albedo: Array
+    """(H, W, 3), linear."""
+    component: Labels
+    witness: Mask
+    """Pixels that bear witness of the surface: measured, not too steep, away from edges."""
+    whole: Mask
+    """(H-1, W-1) squares of four pixels of one piece, without a break between them."""
+    normal_std_rad: Array
+    depth_std_m: Array
+    pieces: tuple[tuple[int, float], ...]
+    """Label and relative standard deviation of the distance of each piece."""
+
+    @cached_property
+    def pixel_rad(self) -> float:
+        """Angle from a pixel to the next, in the middle of the object."""
+        return float(np.median(np.diff(self.plane[..., 0], axis=1)))
+
+    @cached_property
+    def distance_m(self) -> float:
+        """Median depth."""
+        return float(np.median(self.depth[self.witness])) if self.witness.any() else float(np.nanmedian(self.depth))
+
+    @cached_property
+    def footprint_m(self) -> float:
+        """Length of a pixel on a surface that faces the camera at the median depth."""
+        return self.pixel_rad * self.distance_m
+
+    @cached_property
+    def far_outside(self) -> Mask:
+        """Pixels well outside the object: the background."""
+        from scipy.ndimage import binary_dilation
+
+        return np.asarray(~binary_dilation(self.component > 0, iterations=OUTSIDE_PX))
+
+    @cached_property
+    def to_pixels(self) -> PixelsOfRays:
+        """Pixels of directions."""
+        return fitted(self.plane)
+
+    def points_C(self, row: Index, column: Index) -> Array:
+        """Points (N, 3) at pixels, as the view has them."""
+        z = self.depth[row, column]
+        return np.column_stack([self.plane[row, column] * z[:, None], z])
+
+
+@dataclass(frozen=True)
+class PixelsOfRays:
+    """A polynomial from x/z and y/z to pixels."""
+
+    middle: Array
+    span: float
+    terms: Array
+    """(T, 2)."""
+
+    def __call__(self, plane: Array) -> Array:
+        """Pixels (N, 2) as x, y."""
+        return np.asarray(_powers((plane - self.middle) / self.span) @ self.terms)
+
+
+def fitted(plane: Array) -> PixelsOfRays:
+    """The polynomial that maps a view's rays (H, W, 2) to its pixels."""
+    step = max(int(np.sqrt(plane[..., 0].size / FITTED_RAYS)), 1)
+    row, column = np.mgrid[0 : plane.shape[0] : step, 0 : plane.shape[1] : step]
+    rays = plane[row, column].reshape(-1, 2).astype(float)
+    middle, span = rays.mean(axis=0), float(np.ptp(rays[:, 0]) / 2)
+    pixels = np.column_stack([column.ravel(), row.ravel()]).astype(float)
+    terms, *_ = np.linalg.lstsq(_powers((rays - middle) / span), pixels, rcond=None)
+    return PixelsOfRays(middle, span, terms)
+
+
+def _powers(x: Array) -> Array:
+    """All products (N, T) of the two coordinates up to the degree."""
+    first, second = (_up_to(x[:, k]) for k in range(2))
+    return np.stack([first[i] * second[j] for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)], axis=1)
+
+
+def _up_to(x: Array) -> list[Array]:
+    found = [np.ones_like(x)]
+    for _ in range(DEGREE):
+        found.append(found[-1] * x)
+    return found
+
+
+@dataclass(frozen=True)
+class LookedUp:
+    """What a view shows in N directions; all NaN or 0 where `ok` is false."""
+
+    ok: Mask
+    in_image: Mask
+    pixel: Array
+    """(N, 2) as x, y."""
+    depth: Array
+    normal_C: Array
+    component: Labels
+
+
+def look(view: PlacedView, x_C: Array) -> LookedUp:
+    """What a view shows where points (N, 3) in its C lie: depth and normal between pixels, where the four around are one surface."""
+    front = x_C[:, 2] > 1e-6
+    plane = x_C[:, :2] / np.where(front, x_C[:, 2], 1.0)[:, None]
+    near = front & (np.abs(plane - view.to_pixels.middle) < 1.6 * view.to_pixels.span).all(axis=1)
+    pixel = np.full((len(x_C), 2), -1.0)
+    pixel[near] = view.to_pixels(plane[near])
+    height, width = view.depth.shape
+    inside = near & (pixel >= 0).all(axis=1) & (pixel[:, 0] < width - 1) & (pixel[:, 1] < height - 1)
+    column, row = (np.where(inside, pixel[:, k], 0).astype(int) for k in range(2))
+    ok = inside & view.whole[row, column]
+    at = np.flatnonzero(ok)
+    row, column = row[at], column[at]
+    fx, fy = pixel[at, 0] - column, pixel[at, 1] - row
+    depth, normal = np.full(len(x_C), np.nan), np.full((len(x_C), 3), np.nan)
+    weights = ((1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy)
+    corners = ((0, 0), (0, 1), (1, 0), (1, 1))
+    depth[at] = sum(w * view.depth[row + i, column + j] for w, (i, j) in zip(weights, corners, strict=True))
+    mixed = np.zeros((len(at), 3))
+    for w, (i, j) in zip(weights, corners, strict=True):
+        mixed += w[:, None] * view.normals_C[row + i, column + j]
+    normal[at] = mixed / np.maximum(np.linalg.norm(mixed, axis=1, keepdims=True), 1e-12)
+    component = np.zeros(len(x_C), view.component.dtype)
+    component[at] = view.component[row, column]
+    nearest_row, nearest_column = (np.clip(np.rint(pixel[at, 1 - k]).astype(int), 0, n - 1) for k, n in enumerate((height, width)))
+    ok[at] = view.witness[nearest_row, nearest_column]
+    return LookedUp(ok, inside, pixel, depth, normal, component)
+
+
+def view_of(surface: Surface, placement: Placement) -> PlacedView:
+    """A placed surface as a view."""
+    from scipy.ndimage import binary_dilation, binary_erosion
+
+    mask = surface.mask & np.isfinite(surface.depth) & np.isfinite(surface.normals).all(axis=-1)
+    rays = surface.rays_C[..., :2].astype(float)
+    sight = np.concatenate([rays, np.ones((*mask.shape, 1))], axis=-1)
+    cosine = -np.einsum("ijk,ijk->ij", np.where(mask[..., None], surface.normals, 0.0), sight) / np.linalg.norm(sight, axis=-1)
+    broken = np.zeros(mask.shape, bool)
+    right, below = surface.breaks
+    inner_right, inner_below = right[:, :-1] & mask[:, :-1] & mask[:, 1:], below[:-1] & mask[:-1] & mask[1:]
+    broken[:, :-1] |= inner_right
+    broken[:, 1:] |= inner_right
+    broken[:-1] |= inner_below
+    broken[1:] |= inner_below
+    away = binary_erosion(mask, iterations=MARGIN_PX) & ~binary_dilation(broken, iterations=MARGIN_PX - 1)
+    whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
+    whole &= ~(right[:-1, :-1] | right[1:, :-1] | below[:-1, :-1] | below[:-1, 1:])
+    albedo = surface.albedo if surface.albedo.ndim == 3 else np.repeat(surface.albedo[..., None], 3, axis=2)
+    return PlacedView(
+        surface.name,
+        placement,
+        surface.depth.astype(float),
+        rays,
+        surface.normals.astype(float),
+        albedo.astype(float),
+        surface.component,
+        away & (cosine > STEEP) & (surface.normal_std_deg < UNSURE_DEG),
+        whole,
+        np.radians(surface.normal_std_deg.astype(float)),
+        surface.depth_std.astype(float),
+        tuple((piece.label, max(piece.scale_std, 1e-4)) for piece in surface.components),
+    )

@@ -1,0 +1,186 @@
+r"""The surface that views share, as a signed distance on a grid, and its triangles.
+
+Symbols: x a grid point, q what a view shows in its direction, n the view's normal there, T the truncation::
+
+    d(x) = n . (x - q)                  signed distance to the view's tangent plane: the measured normal carries the detail
+    D(x) = sum_i w_i clip(d_i, -T, T) / sum_i w_i          views for which x is not hidden: d_i > -T
+
+w falls with the view's own doubt: the normal's standard deviation, the slant. Only boxes near points of any view are computed, and
+triangles are made only where every corner was seen: what nobody saw stays open. Source: B. Curless and M. Levoy, A volumetric method for
+building complex models from range images (1996); marching cubes are scikit-image's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.errors import DegenerateError
+from lpcal.fusion.pairs import Placed
+from lpcal.fusion.views import look
+from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array, Image, Index, Mask
+from lpcal.geometry.isosurface import isosurface
+
+TRUNCATION = 3.0
+"""Truncation in grid steps: further away than this a plane is no longer the surface."""
+STEP_PX = 1.4
+"""VoxelGrid step in footprints of a pixel: finer ones cost the cube and show only what the vertices get from the views afterwards."""
+BOX = 4
+"""Edge of a box of grid points that is computed as a whole, in grid steps."""
+MOST_POINTS = 320**3
+"""Most points of the grid, 33 million: 260 MB for distance and weight. A finer grid is coarsened until it fits."""
+AT_ONCE = 1 << 18
+"""VoxelGrid points that are looked up in a view at a time."""
+CARVING = 0.1
+"""Weight of a view that looks through a grid point at a surface far behind it, over that of one that shows a surface there."""
+
+
+@dataclass(frozen=True)
+class VoxelGrid:
+    """Points ``origin + step index``."""
+
+    origin_A: Array
+    step_m: float
+    size: tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Triangles:
+    """Vertices (V, 3) in A, outward normals (V, 3), faces (F, 3)."""
+
+    vertices_A: Array
+    normals_A: Array
+    faces: Index
+
+
+def surface_of(state: Sequence[Placed], step_m: float | None = None) -> Triangles:
+    """Triangles of the surface that placed views share.
+
+    Raises
+    ------
+    DegenerateError
+        No two neighbouring grid points were seen.
+    """
+    points_A = np.concatenate([_all_points(one) for one in state])
+    grid = grid_about(points_A, step_m or STEP_PX * float(np.median([one.view.footprint_m for one in state])))
+    distance, weight = _distances(state, grid, _near(points_A, grid))
+    seen = weight > 0
+    cells = seen[:-1, :-1, :-1].copy()
+    for i, j, k in np.ndindex(2, 2, 2):
+        cells &= seen[i : seen.shape[0] - 1 + i, j : seen.shape[1] - 1 + j, k : seen.shape[2] - 1 + k]
+    if not cells.any() or not (distance[seen].min() < 0 < distance[seen].max()):
+        raise DegenerateError("the views show no surface in common", where="fuse", needed="surfaces of one object that overlap")
+    distance[~seen] = TRUNCATION
+    vertices, faces = isosurface(distance)
+    middle = np.floor(vertices[faces].mean(axis=1)).astype(int)
+    faces = faces[cells[tuple(middle.T)]]
+    return _clean(grid.origin_A + grid.step_m * vertices, faces)
+
+
+def grid_about(points_A: Array, step_m: float) -> VoxelGrid:
+    """A grid about points (N, 3) with some steps to spare, coarser where it would be too large."""
+    low, high = points_A.min(axis=0), points_A.max(axis=0)
+    while True:
+        spare = (TRUNCATION + 2) * step_m
+        size = np.ceil((high - low + 2 * spare) / step_m / BOX).astype(int) * BOX
+        if float(np.prod(size.astype(float))) <= MOST_POINTS:
+            return VoxelGrid(low - spare, step_m, (int(size[0]), int(size[1]), int(size[2])))
+        step_m *= 1.05
+
+
+def _all_points(one: Placed) -> Array:
+    """Every second point of a view that bears witness."""
+    row, column = np.nonzero(one.view.witness)
+    row, column = row[::2], column[::2]
+    pixel = np.column_stack([column, row]).astype(float)
+    delta = one.bending.at(one.field, pixel, one.view.component[row, column])
+    return se3.apply(one.H_AC, one.view.points_C(row, column) * np.exp(delta)[:, None])
+
+
+def _near(points_A: Array, grid: VoxelGrid) -> Index:
+    """Flat places of the grid points whose box, or one beside it, holds a point."""
+    from scipy.ndimage import binary_dilation
+
+    boxes = np.zeros(tuple(n // BOX for n in grid.size), bool)
+    at = np.clip(np.floor((points_A - grid.origin_A) / (BOX * grid.step_m)).astype(int), 0, np.array(boxes.shape) - 1)
+    boxes[tuple(at.T)] = True
+    boxes = binary_dilation(boxes, structure=np.ones((3, 3, 3), bool))
+    near = np.repeat(np.repeat(np.repeat(boxes, BOX, axis=0), BOX, axis=1), BOX, axis=2)
+    return np.flatnonzero(near)
+
+
+def _distances(state: Sequence[Placed], grid: VoxelGrid, near: Index) -> tuple[Image, Image]:
+    """Mean signed distance and weight at every grid point, in steps."""
+    total, weight = np.zeros(grid.size, np.float32), np.zeros(grid.size, np.float32)
+    flat_total, flat_weight = total.reshape(-1), weight.reshape(-1)
+    for start in range(0, len(near), AT_ONCE):
+        some = near[start : start + AT_ONCE]
+        x_A = grid.origin_A + grid.step_m * np.stack(np.unravel_index(some, grid.size), axis=1)
+        for one in state:
+            at, d, w = _one_view(one, x_A, grid.step_m)
+            flat_total[some[at]] += (w * d).astype(np.float32)
+            flat_weight[some[at]] += w.astype(np.float32)
+    np.divide(total, weight, out=total, where=weight > 0)
+    return total, weight
+
+
+def _one_view(one: Placed, x_A: Array, step_m: float) -> tuple[Index, Array, Array]:
+    """Which points a view says something of, their distance to its surface in steps, and its weight."""
+    x_C = se3.apply(se3.inv(one.H_AC), x_A)
+    seen = look(one.view, x_C)
+    at = np.flatnonzero(seen.ok)
+    x_C, n_C = x_C[at], seen.normal_C[at]
+    z = seen.depth[at] * np.exp(one.bending.at(one.field, seen.pixel[at], seen.component[at]))
+    behind = z / x_C[:, 2] - 1
+    along = np.einsum("ij,ij->i", n_C, x_C)
+    d = -along * behind / step_m
+    gap = behind * np.linalg.norm(x_C, axis=1) / step_m
+    column, row = (np.rint(seen.pixel[at, k]).astype(int) for k in range(2))
+    w = weight_of(one, row, column, -along / np.linalg.norm(x_C, axis=1))
+    through = d > TRUNCATION
+    keep = (d > -TRUNCATION) & (gap > -2 * TRUNCATION)
+    w = np.where(through, CARVING * w, w)
+    return at[keep], np.clip(d, -TRUNCATION, TRUNCATION)[keep], w[keep]
+
+
+def weight_of(one: Placed, row: Index, column: Index, cosine: Array) -> Array:
+    """How much a view's pixels count: by the normal's doubt, the slant and the footprint."""
+    sigma = np.maximum(one.view.normal_std_rad[row, column], np.radians(0.5)) * one.view.footprint_m
+    return np.asarray((1e-5 * np.maximum(cosine, 0.05) / sigma) ** 2)
+
+
+def _clean(vertices_A: Array, faces: Index) -> Triangles:
+    """Without crumbs, with area-weighted normals."""
+    faces = faces[_large(len(vertices_A), faces)]
+    used, faces = np.unique(faces, return_inverse=True)
+    vertices_A, faces = vertices_A[used], faces.reshape(-1, 3)
+    return Triangles(vertices_A, normals_of(vertices_A, faces), faces)
+
+
+def _large(count: int, faces: Index) -> Mask:
+    """Faces of connected parts that are more than a crumb: a hundredth of the largest."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    edges = np.concatenate([faces[:, :2], faces[:, 1:]])
+    _, part = connected_components(coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(count, count)), directed=False)
+    size = np.bincount(part[faces[:, 0]], minlength=part.max() + 1)
+    return np.asarray(size[part[faces[:, 0]]] >= CRUMB * size.max())
+
+
+CRUMB = 0.01
+"""Least share of the faces of the largest part that a part must have: what is smaller is noise at an outline."""
+
+
+def normals_of(vertices_A: Array, faces: Index) -> Array:
+    """Area-weighted unit normals (V, 3)."""
+    a, b, c = (vertices_A[faces[:, k]] for k in range(3))
+    flat = np.cross(b - a, c - a)
+    found = np.zeros_like(vertices_A)
+    for k in range(3):
+        for axis in range(3):
+            found[:, axis] += np.bincount(faces[:, k], flat[:, axis], len(vertices_A))
+    return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-30))

@@ -1,0 +1,94 @@
+"""``lpcal fuse``: surfaces read, fused, written as a model."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from lpcal.api.fusing import fuse
+from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.model_files import MODEL, summary_of, write_model
+from lpcal.formats.outputs import refuse_place
+from lpcal.formats.surface_files import MAPS_FILE, read_surface
+from lpcal.pipeline.workspace import Workspace
+from lpcal.records.model import ObjectModel, ViewInModel
+from lpcal.records.outcome import Outcome, Progress
+
+SURFACES = "surfaces"
+"""The folder of a rig that holds its surfaces."""
+
+
+def fuse_folders(captures: Sequence[Path], target: Path, rig: Workspace | None, step_m: float | None, progress: Progress) -> Outcome:
+    """Fuse surfaces, each its own folder or that of its capture, and write the model.
+
+    Raises
+    ------
+    InputError, DisagreementError, DegenerateError
+        As `surface_folders` and `fuse`.
+    """
+    folders = surface_folders(captures, rig)
+    refuse_place(target, MODEL, folders)
+    begun = time.process_time()
+    surfaces = []
+    for done, folder in enumerate(folders):
+        surfaces.append(read_surface(folder))
+        progress("surfaces read", done + 1, len(folders))
+    model = fuse(surfaces, name=target.resolve().name, step_m=step_m, progress=progress)
+    seconds = time.process_time() - begun
+    document = {"times_s": {"fuse": seconds}, "inputs": [str(folder) for folder in folders]}
+    write_model(target, model, document)
+    return Outcome(_said(target, model), {**summary_of(model), **document, "folder": str(target)}, list(model.warnings))
+
+
+def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Path]:
+    """The folders of surfaces that are named, or of the captures that are named; without a name all surfaces of the rig.
+
+    Raises
+    ------
+    InputError
+        One has no surface.
+    DisagreementError
+        One is named twice.
+    """
+    held = rig.folder / SURFACES if rig is not None else Path(SURFACES)
+    if not captures:
+        found = sorted(path.parent for path in held.glob(f"*/{MAPS_FILE}"))
+        if not found:
+            raise InputError("no surface", where=str(held), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct first")
+        return found
+    found = []
+    for capture in captures:
+        place = next((path for path in (capture, held / capture.resolve().name) if (path / MAPS_FILE).is_file()), None)
+        if place is None:
+            todo = "run lpcal reconstruct on it first"
+            raise InputError(
+                "no surface there", where=str(capture), needed="a surface's folder, or a capture that was reconstructed", todo=todo
+            )
+        found.append(place)
+    twice = next((path for k, path in enumerate(found) if path.resolve() in {other.resolve() for other in found[:k]}), None)
+    if twice is not None:
+        raise DisagreementError("named twice", where=str(twice), needed="each surface once", todo="leave one of them out")
+    return found
+
+
+def _said(target: Path, model: ObjectModel) -> list[str]:
+    figures = model.figures
+    used = [view for view in model.views if view.used]
+    lines = [
+        f"{target}: {len(model.vertices_A)} vertices, {1e4 * figures.area_m2:.1f} cm2, in {model.frame}; "
+        f"{len(used)} of {len(model.views)} surfaces, {figures.pairs} pairs overlap",
+        f"overlapping surfaces differ by {1e3 * figures.before_m:.2f} mm as placed, by {1e3 * figures.after_m:.3f} mm aligned; "
+        f"a vertex is known to {1e3 * figures.sigma_m:.2f} mm",
+        f"{100 * figures.seen_by_two:.0f} % of the area is seen by two or more; they disagree on {100 * figures.disagreeing:.1f} % of it; "
+        f"{1e3 * figures.open_edges_m:.0f} mm of open edges",
+    ]
+    return lines + [_line(view) for view in model.views]
+
+
+def _line(view: ViewInModel) -> str:
+    if not view.used:
+        return f"  {view.name}: left out: {view.why}"
+    confirmed = "placed by its pose alone" if view.agreement is None else f"confirmed by {100 * view.agreement:.0f} %"
+    moved = f"moved {1e3 * (view.moved_m or 0):.2f} mm, distance {1e3 * (view.distance_change_m or 0):+.2f} mm"
+    return f"  {view.name}: {confirmed}; {moved}; within {1e3 * (view.residual_m or 0):.3f} mm of the others"

@@ -1,0 +1,125 @@
+"""One model of several placed surfaces: its vertices with what each rests on, and how each view fits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Index
+from lpcal.records.shown import Shown
+
+
+@dataclass(frozen=True)
+class ViewInModel:
+    """How one surface fits the others."""
+
+    name: str
+    used: bool
+    why: str | None
+    """Why it was left out; None: it was used."""
+    agreement: float | None
+    """Share of its points, of those that other views should have seen, that these confirm at the tracked poses; None: too few in common."""
+    moved_m: float | None = None
+    """How far its camera was moved against its placement."""
+    turned_rad: float | None = None
+    """By how much it was turned."""
+    distance_change_m: float | None = None
+    """By how much its distances were changed, the median."""
+    residual_m: float | None = None
+    """Robust rms of its points from the other views' surfaces, along the normal."""
+    H_AC: Array | None = None
+    """(4, 4) the camera in the model's frame, as aligned."""
+
+
+@dataclass(frozen=True)
+class ModelFigures:
+    """Figures of a model as a whole; metres."""
+
+    before_m: float
+    """Robust rms of what overlapping views differ by along the normal, with the placements alone."""
+    after_m: float
+    """The same once aligned."""
+    pairs: int
+    """Pairs of views that overlap."""
+    area_m2: float
+    step_m: float
+    """Median length of an edge."""
+    sigma_m: float
+    """Median standard deviation of a vertex along its normal."""
+    seen_by_two: float
+    """Share of the area that two or more views see."""
+    disagreeing: float
+    """Share of that area where views differ by more than three of its sigmas."""
+    open_edges_m: float
+    """Length of the edges of what was not seen."""
+    distance_scale: float
+    """By how much all distances were changed together, relative."""
+    distance_scale_std: float
+
+
+@dataclass(frozen=True, repr=False)
+class ObjectModel(Shown):
+    """One surface of an object in the room, or in the body that it rides on.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    frame : str
+        The frame A of its vertices, in words: the room, or the body.
+    vertices_A : ndarray (V, 3)
+        Metres.
+    normals_A : ndarray (V, 3)
+        Unit normals, outward, as the images say: the weighted mean of the views' photometric normals.
+    faces : ndarray (F, 3) of int
+        Vertices of each triangle, counter-clockwise seen from outside.
+    albedo : ndarray (V, 3)
+        Linear, relative, without the views' different brightness.
+    sigma_m : ndarray (V,)
+        Standard deviation of each vertex along its normal, everything counted.
+    normal_sigma_rad : ndarray (V,)
+        Standard deviation of each normal, an axis.
+    disagreement_m : ndarray (V,)
+        Rms of where the views that see a vertex put it; 0 where one alone does.
+    seen_by : ndarray (V,) of int
+        How many views see it.
+    views : tuple of ViewInModel
+        What became of each surface.
+    figures : ModelFigures
+        Figures of the whole.
+    warnings : tuple of str
+        What is to be said of it: the surfaces that were left out, and why.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> from lpcal.records.model import ModelFigures
+    >>> ones = np.ones(3)
+    >>> figures = ModelFigures(0, 0, 1, 0.5, 1, 0, 1, 0, 3, 0, 0)
+    >>> corners, faces = np.eye(3), np.array([[0, 1, 2]])
+    >>> found = lpcal.ObjectModel("tile", "the room", corners, corners, faces, corners, ones, ones, ones, faces[0], (), figures)
+    >>> found.colours.shape, found.name
+    ((3, 3), 'tile')
+    """
+
+    name: str
+    frame: str
+    vertices_A: Array
+    normals_A: Array
+    faces: Index
+    albedo: Array
+    sigma_m: Array
+    normal_sigma_rad: Array
+    disagreement_m: Array
+    seen_by: Index
+    views: tuple[ViewInModel, ...]
+    figures: ModelFigures
+    warnings: tuple[str, ...] = field(default=())
+
+    @property
+    def colours(self) -> Array:
+        """Albedo (V, 3) as a share of its 99th percentile at nine tenths, linear; grey where none is known."""
+        known = self.albedo[np.isfinite(self.albedo).all(axis=1)]
+        top = float(np.percentile(known, 99)) if len(known) else 1.0
+        return np.clip(np.nan_to_num(self.albedo / max(top, 1e-12) * 0.9, nan=0.45), 0, 1)

@@ -1,0 +1,162 @@
+"""Placed surfaces to one model: how near the truth, how honest, which view is named."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import lpcal
+from fusion_views import Scene, scene
+from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.formats.model_files import read_model, write_model
+from lpcal.fusion import align
+from lpcal.fusion.consensus import outvoted
+from lpcal.fusion.model import shared_covariance
+from lpcal.fusion.views import fitted, view_of
+from lpcal.geometry import se3
+from lpcal.records.model import ObjectModel
+from lpcal.records.surface import Surface
+
+pytest.importorskip("skimage")
+
+
+@cache
+def fused() -> tuple[Scene, ObjectModel]:
+    """Ten views of a stone, fused."""
+    found = scene()
+    return found, lpcal.fuse(found.surfaces)
+
+
+def test_the_model_is_nearer_than_the_views_and_says_how_near() -> None:
+    """Also with a calibration and distances that are off."""
+    found, model = fused()
+    off_m = found.off_m(model.vertices_A)
+    single = []
+    for surface in found.surfaces:
+        points = se3.apply(surface.placement.H_AC, (surface.rays_C * surface.depth[..., None])[surface.mask].astype(float))
+        single.append(float(np.sqrt(np.mean(found.off_m(points) ** 2))))
+    assert float(np.sqrt(np.mean(off_m**2))) < 0.6 * float(np.median(single))
+    assert np.mean(np.abs(off_m) < 2 * model.sigma_m) > 0.7
+    assert model.figures.after_m < model.figures.before_m / 8
+    angle = np.degrees(np.arccos(np.clip((found.normals(model.vertices_A) * model.normals_A).sum(axis=1), -1, 1)))
+    assert np.median(angle) < 2.0
+    assert all(view.used and view.agreement is not None and view.agreement > 0.8 for view in model.views)
+    assert not model.warnings
+    assert "10 of 10 used" in repr(model)
+
+
+def test_all_round_is_closed_and_outward() -> None:
+    """An object that is seen all round has few open edges; its faces look outward."""
+    found, model = fused()
+    a, b, c = (model.vertices_A[model.faces[:, k]] for k in range(3))
+    outward = found.normals((a + b + c) / 3)
+    assert np.mean((np.cross(b - a, c - a) * outward).sum(axis=1) > 0) > 0.99
+    assert model.figures.open_edges_m < 0.3
+
+
+def test_what_is_not_seen_stays_open() -> None:
+    """Views of one side alone give that side."""
+    found, whole = fused()
+    model = lpcal.fuse(found.surfaces[:3])
+    assert model.figures.area_m2 < 0.8 * whole.figures.area_m2
+    assert model.figures.open_edges_m > 0.1
+
+
+@pytest.mark.parametrize("kind", ["shifted", "flipped", "other object"])
+def test_a_wrong_view_is_named_and_left_out(kind: str) -> None:
+    """20 mm beside its pose; turned as a tracker's swapped markers turn it; of something else."""
+    surfaces = list(scene().surfaces)
+    surfaces[3] = _wrong(surfaces[3], kind)
+    views = [view_of(surface, surface.placement) for surface in surfaces]
+    pairs = align.compared(views, shared_covariance(views))
+    out = outvoted(len(views), pairs)
+    assert [one.index for one in out] == [3]
+    assert "the others confirm" in out[0].why
+
+
+@pytest.mark.slow
+def test_the_model_is_unharmed_by_a_wrong_view() -> None:
+    """It is as near the truth as with the view in its place."""
+    found, whole = fused()
+    surfaces = list(found.surfaces)
+    surfaces[3] = _wrong(surfaces[3], "shifted")
+    model = lpcal.fuse(surfaces)
+    assert [view.name for view in model.views if not view.used] == ["stop_03"]
+    assert "stop_03 is left out" in model.warnings[0]
+    rms = [float(np.sqrt(np.mean(found.off_m(one.vertices_A) ** 2))) for one in (model, whole)]
+    assert rms[0] < 1.5 * rms[1]
+
+
+def _wrong(surface: Surface, kind: str) -> Surface:
+    if kind == "other object":
+        other = scene("beast").surfaces[5]
+        return replace(other, name=surface.name, placement=surface.placement)
+    twist = np.array([0, 0, 0, 0.02, 0, 0]) if kind == "shifted" else np.array([0, 0, 1.3, 0, 0, 0])
+    return replace(surface, placement=replace(surface.placement, H_AC=surface.placement.H_AC @ se3.exp(twist)))
+
+
+def test_refused() -> None:
+    """What cannot be fused is said."""
+    found = scene().surfaces
+    with pytest.raises(DegenerateError, match="1 surface"):
+        lpcal.fuse(found[:1])
+    with pytest.raises(InputError, match="is not placed"):
+        lpcal.fuse([found[0], replace(found[1], placement=None)])
+    with pytest.raises(DisagreementError, match="the body cart"):
+        lpcal.fuse([found[0], replace(found[1], placement=replace(found[1].placement, body="cart"))])
+    with pytest.raises(DegenerateError, match="do not overlap"):
+        lpcal.fuse([found[0], found[4]])
+
+
+def test_written_and_read(tmp_path: pytest.TempPathFactory) -> None:
+    """What a model's folder holds is what was written, for other readers too."""
+    import trimesh
+
+    _, model = fused()
+    folder = tmp_path / "model"
+    write_model(folder, model, {"times_s": {"fuse": 1.0}})
+    again = read_model(folder)
+    assert again.views[0].name == "stop_00"
+    np.testing.assert_array_equal(again.vertices_A, model.vertices_A)
+    np.testing.assert_allclose(again.sigma_m, model.sigma_m, rtol=1e-6)
+    assert again.figures == model.figures
+    for name in ("mesh.ply", "mesh.glb", "mesh.obj"):
+        mesh = trimesh.load(folder / name, force="mesh", process=False)
+        assert len(mesh.faces) == len(model.faces)
+        np.testing.assert_allclose(np.sort(mesh.bounds, axis=0), [model.vertices_A.min(axis=0), model.vertices_A.max(axis=0)], atol=1e-4)
+    head = (folder / "mesh.ply").read_bytes()[:800].decode("ascii", "replace")
+    assert "property float sigma_m" in head
+    assert "comment frame the room, metres" in head
+
+
+def test_pixels_of_directions() -> None:
+    """The polynomial undoes a lens."""
+    plane = scene().surfaces[0].rays_C[..., :2]
+    pixels = fitted(plane)(plane.reshape(-1, 2))
+    row, column = np.indices(plane.shape[:2])
+    np.testing.assert_allclose(pixels, np.column_stack([column.ravel(), row.ravel()]), atol=0.01)
+
+
+def test_derivatives_are_those_of_the_residual() -> None:
+    """A step of the parameters changes the residuals by as much as the rows say."""
+    surfaces = scene().surfaces[:3]
+    views = [view_of(surface, surface.placement) for surface in surfaces]
+    state = align._start(views)
+    problem = align._Problem.of(state, shared_covariance(views))
+    x = np.zeros(problem.size)
+    rng = np.random.default_rng(2)
+    met = align.all_meetings(problem.moved(state, x), 0.006)[0, 1]
+    columns, values = problem._rows(state[0], state[1], 0, 1, met)
+    step = 1e-5 * rng.standard_normal(problem.size) * np.r_[np.ones(3), 0.3 * np.ones(3), 1, np.ones(problem.size - 7)]
+    moved = problem.moved(state, x + step)
+    p_A, _, _ = moved[0].points()
+    # the same points of the second view, moved with it
+    pixel = met.pixel
+    grown = np.exp(moved[1].bending.at(moved[1].field, pixel, met.component))
+    q_C = se3.apply(se3.inv(state[1].H_AC), met.q_A) * grown[:, None]
+    after = np.einsum("ij,ij->i", met.n_A, p_A[met.index] - se3.apply(moved[1].H_AC, q_C))
+    expected = (values * step[columns]).sum(axis=1)
+    np.testing.assert_allclose(after - met.residual_m, expected, atol=2e-3 * float(np.abs(expected).max()))
