@@ -32,8 +32,12 @@ def wing_settings(
     ----------
     distance_m : float
         Working distance in metres, from the plane of the joints along the disc's axis.
-    disc_radius_m, joint_m, blob_m : float
-        Disc axis to rim, half a joint, end of the spacer to the middle of the blob; metres.
+    disc_radius_m : float
+        From the disc's axis to its rim, metres.
+    joint_m : float
+        Half a joint, metres.
+    blob_m : float
+        From the end of the spacer to the middle of the blob, metres.
     spacers_m : sequence of float
         The lengths that a spacer can have, metres.
     leds : int

@@ -60,6 +60,18 @@ class HandEye(Shown):
         ``t_camera = t_mocap + clock_offset_s``, seconds; None where the data cannot show it.
     views : tuple of ViewVerdict
         What became of each view.
+    clock_drift, clock_middle_s : float
+        By how much the camera's clock runs faster, s/s (0: no drift shows), and the camera's time at which the offset holds, seconds.
+    warnings : tuple of str
+        What is worth knowing.
+    evidence : HandEyeEvidence, optional
+        What the solve rests on; None where the transform was not solved for here.
+    carries : {"camera", "board"}
+        What the tracked body carries.
+    taken_offset_s : float
+        The clock offset at which the body's poses were taken, where the data do not show it too, seconds.
+    misread : bool
+        Whether the body's poses turned out to be the inverse of what was stated.
 
     Examples
     --------
@@ -190,6 +202,8 @@ class Light(Shown):
         Unit vector in C from the focus to the light.
     intensity : ndarray (1,) or (3,)
         Relative; the mean over all lights is 1.
+    H_CL : ndarray (4, 4), optional
+        The light's mechanical frame: origin at the blob's centre, z its axis of emission.
     source_C, axis_C : ndarray (3,), optional
         The point that its rays seem to come from, metres, and its unit axis of emission; None for a distant light.
     lobe : Lobe
@@ -306,8 +320,20 @@ class Calibration(Shown):
         The camera.
     H_PC : ndarray (4, 4), optional
         The camera in the tracked body, metres.
-    d_object_m, focus_C : float, ndarray (3,), optional
-        The distance of the object from the disc and the point in C where the lights' axes meet, metres.
+    d_object_m : float, optional
+        The distance of the object from the disc, metres.
+    focus_C : ndarray (3,), optional
+        The point where the lights' axes meet, metres.
+    sensor : StatedSensor
+        What is stated of the sensor where there is no camera; else the camera holds it.
+    warnings : tuple of str
+        What is to be said of the file that it comes from, in words.
+    origin : str
+        The format of another system that it was read from.
+    carries : {"camera", "board"}
+        What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room.
+    tracking : Tracking, optional
+        How well H_PC, the clocks and the tracked poses are known: what it takes to place a capture in the room.
 
     Examples
     --------

@@ -34,14 +34,26 @@ class Camera(Shown):
         The camera matrix in pixels; pixel centres are at whole numbers.
     distortion : ndarray (4,), (5,) or (8,)
         OpenCV's coefficients.
-    black_level, white_level : float
-        Stored numbers of no light and of saturation, as fractions of full scale.
+    black_level : float
+        The stored number of no light, as a fraction of full scale.
+    white_level : float
+        The stored number of saturation, likewise.
     gamma : float or "srgb"
         ``stored = linear^(1/gamma)``.
     flat_field : FlatField, optional
         How lens and sensor weaken light over the image.
-    parameters, covariance : tuple of str, ndarray (P, P)
-        The parameters that were solved for, and their covariance.
+    rms_px : float
+        Residual of a corner's coordinate, rms, pixels; NaN where the camera was not solved for here.
+    parameters : tuple of str
+        The parameters that were solved for.
+    covariance : ndarray (P, P), optional
+        Their covariance, in that order.
+    lensmodel : str
+        Splined: mrcal's name of the model with its configuration.
+    spline : ndarray, optional
+        Splined: mrcal's vector, core and knots.
+    size_guessed : bool
+        Whether the image size was made out from the principal point: images of about that size tell the true one.
 
     Examples
     --------

@@ -33,6 +33,14 @@ class Board:
         Size of a square along x, along y, metres.
     warp : bool
         Whether its departure from a plane may be estimated.
+    kind : {"chessboard", "charuco"}
+        What is printed.
+    marker_m : float
+        Charuco: side of a marker, metres.
+    dictionary : str
+        Charuco: OpenCV's name of the markers' dictionary.
+    corner_fit : {"edges", "opencv"}
+        Where two blurred edges cross, or cornerSubPix, as other tools refine, for figures that compare with theirs.
 
     Examples
     --------

@@ -73,6 +73,16 @@ class Surface(Shown):
         0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it.
     components : tuple of Component
         The pieces, each with its distance and that distance's relative standard deviation.
+    figures : SurfaceFigures
+        Residuals and counts.
+    breaks : ndarray (2, H, W) of bool
+        Whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends.
+    warnings : tuple of str
+        What is to be said of the capture and of what was made of it, in words.
+    sensor : SensorInUse, optional
+        What the capture was made linear by; None: it was linear already, or there was none.
+    placement : Placement, optional
+        Where the camera was in the room or in the body that the object rides on; None: nothing tells it.
 
     Examples
     --------

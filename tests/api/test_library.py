@@ -59,10 +59,12 @@ def test_every_parameter_is_documented(name: str) -> None:
     found = dict(zip(sections[1::2], sections[2::2], strict=True))
     assert {"Parameters", "Examples"} <= set(found)
     named = {one.strip() for line in re.findall(r"^(\w[\w, ]*?) : ", found["Parameters"], re.MULTILINE) for one in line.split(",")}
-    taken = set(inspect.signature(getattr(lpcal, name)).parameters)
-    assert named <= taken, f"{name} documents what it does not take"
+    taken = inspect.signature(getattr(lpcal, name)).parameters
+    assert named == set(taken), f"{name} documents what it does not take, or takes what it does not document"
+    together = [re.findall(r"\w+", line) for line in re.findall(r"^(\w[\w, ]*?) : ", found["Parameters"], re.MULTILINE)]
+    defaults = [{repr(taken[one].default) for one in line} for line in together]
+    assert all(len(one) == 1 for one in defaults), f"{name}: the page shows one default for parameters that are documented together"
     if inspect.isfunction(getattr(lpcal, name)):
-        assert named == taken
         assert "Returns" in found or name.startswith("write_")
         assert "Raises" in found or name == "mesh"
 
