@@ -162,13 +162,15 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     solved = time.perf_counter()
     document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
+    distant = None
     if document["flatness"] and both_ways and raw.full is None:
         with cores(wishes.jobs):
-            document["flatness_distant"] = flatness(made(mask=surface.mask, method="distant"))
+            distant = made(mask=surface.mask, method="distant")
+        document["flatness_distant"] = flatness(distant)
     document["made_from"] = digest
     progress(f"{task.name}: writing", 0, 1)
     solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None
-    page = render(surface, calibration) if "page" in wishes.outputs else None
+    page = render(surface, calibration, distant) if "page" in wishes.outputs else None
     write_surface(task.target, surface, solid, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
     progress(f"{task.name}: writing", 1, 1)
     return document

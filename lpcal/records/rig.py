@@ -372,4 +372,7 @@ class CaptureSection(Section):
     lights: Names | None = None
     """Names of those that are taken; or one pattern of images, such as IMG_*.jpg, that are all the lights in their order."""
 
+    images: dict[str, str] = {}
+    """Light: the file that shows it, where files are not called after their lights."""
+
     _lights = field_validator("lights", mode="before")(_as_list)

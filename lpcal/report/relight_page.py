@@ -1,73 +1,62 @@
-"""surfaces/<object>/relight.html: the surface under a light that the pointer moves, in one file that opens offline.
+"""surfaces/<object>/relight.html: the surface in space, under a light that the pointer moves, in one file that opens offline.
 
 The page shades ``E albedo max(n . d, 0)`` and a gloss lobe, with E and d of a near light at every pixel's own point (see
-geometry/light_field.py), so that the object can also be lit as each calibrated light lit it. It draws with WebGL2, or on a plain canvas.
-Source of the gloss lobe: Walter et al., Microfacet models for refraction through rough surfaces, 2007 (GGX).
-
-A surface packed for the browser: planes of whole numbers, row differences, deflated, base64.
-
-Code of a plane: a normal's two octahedral coordinates and the depth in 16 bits (depth 0: outside the mask), the rest in 8. Each row is
-stored as differences from left to right, high bytes before low bytes; the browser inflates and sums them up again.
-Octahedral code of a unit n: ``m = n / (|nx| + |ny| + |nz|)``; ``(mx, my)`` where ``nz <= 0`` (towards the camera), folded over elsewhere.
-Source: Cigolle et al., A survey of efficient representations for independent unit vectors, 2014.
+geometry/light_field.py), so that the object can also be lit as each calibrated light lit it. It draws with three.js, or on a plain canvas
+where the browser has no WebGL2. Source of the gloss lobe: Walter et al., Microfacet models for refraction through rough surfaces, 2007
+(GGX). The surface comes packed (report/packing.py).
 """
 
 from __future__ import annotations
 
-import base64
-import zlib
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from lpcal import __version__
-from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.surface import Surface
+from lpcal.report import packing
+from lpcal.report.distant_shape import bend_of
 from lpcal.report.page import data_uri, script_json
-from lpcal.report.pictures import block_sum, bounds, png, shaded, shrink
-from lpcal.report.templates import environment
+from lpcal.report.pictures import bounds, png, shaded, shrink
+from lpcal.report.templates import environment, packed_three
 
 POSTER_PX = 420
+"""Largest side of the still picture that stands in the page until it draws."""
+MOST_PIXELS = 300_000
+"""Pixels of the first picture: half a megapixel is inflated and drawn within half a second by a slow machine."""
+MOST_FULL = 9_000_000
+"""Pixels of the surface at full size; a larger one is averaged over blocks, which the page says."""
+LARGEST_SIDE = 8192
+"""Pixels along a side that every WebGL2 of the last ten years takes as a texture."""
+LOBE_KNOTS = 48
+"""Angles at which the page is given a lobe: every two degrees, between which it is linear."""
+LOBE_STOP_RAD = np.pi / 2
+"""The largest of them: a light does not shine backwards."""
 
 
-def render(surface: Surface, calibration: Calibration | None) -> str:
-    """The page, whole; with a calibration it offers the calibrated lights."""
+def render(surface: Surface, calibration: Calibration | None, distant: Surface | None = None) -> str:
+    """The page, whole; with a calibration it offers the calibrated lights, and the shape that distant ones would have given.
+
+    `distant` is the surface of the same capture by lights taken as distant; without it, that shape is predicted.
+    """
+    data, bands = pack(surface, calibration, distant)
     return (
         environment()
         .get_template("relight.html")
         .render(
             name=surface.name,
             version=__version__,
-            data=script_json(pack(surface, calibration)),
+            data=script_json(data),
+            bands=[text for _, text in bands],
+            three=packed_three(),
             poster=data_uri(png(shrink(shaded(surface.normals), surface.mask, POSTER_PX))),
             pieces=surface.components,
+            metric=surface.metric,
         )
     )
-
-
-MOST_PIXELS = 700_000
-GRID = 33
-LOBE_KNOTS = 48
-LOBE_STOP_RAD = np.pi / 2
-SIGMA_SCALE = 25.0
-
-type Planes = list[npt.NDArray[np.uint8] | npt.NDArray[np.uint16]]
-
-
-@dataclass(frozen=True)
-class Reduced:
-    """A surface's maps (H, W) as the page shows them, normals (H, W, 3) and albedo (H, W[, 3])."""
-
-    mask: Mask
-    normals: Image
-    depth: Image
-    albedo: Image
-    sigma: Image
-    lights: Labels
-    component: Labels
 
 
 @dataclass(frozen=True)
@@ -83,107 +72,46 @@ class PageLight:
     """Emission at LOBE_KNOTS angles from the axis, from 0 to LOBE_STOP_RAD."""
 
 
-def pack(surface: Surface, calibration: Calibration | None) -> dict[str, Any]:
-    """Everything that the page's script reads, as plain data."""
+def pack(surface: Surface, calibration: Calibration | None, distant: Surface | None = None) -> tuple[dict[str, Any], list[tuple[int, str]]]:
+    """Everything that the page's script reads at once, as plain data, and the bands of the full size (none of a small surface)."""
     window = bounds(surface.mask)
-    step = int(np.ceil(np.sqrt(max(1.0, surface.mask[window].size / MOST_PIXELS))))
-    maps = _reduced(surface, window, step)
-    mask, depth = maps.mask, maps.depth
-    low, high = _range(depth[mask])
-    perspective = bool(np.any(np.abs(np.nan_to_num(surface.rays_C[..., :2])) > 0))
-    nodes_px, rays = _grid(surface, window, perspective=perspective)
-    albedo = maps.albedo.reshape(*mask.shape, -1)
-    white = float(np.percentile(albedo[mask], 99.5)) if mask.any() else 1.0
-    planes: Planes = [*_octahedral(maps.normals), _code(depth, mask, low, high)]
-    planes += [_byte(255 * np.sqrt(np.clip(albedo[..., c] / max(white, 1e-9), 0, 1)), mask) for c in range(albedo.shape[-1])]
-    planes.append(_byte(SIGMA_SCALE * np.log2(1 + np.clip(maps.sigma, 0, 180)), mask))
-    planes += [_byte(maps.lights, mask), _byte(maps.component, mask)]
-    return {
+    shape = surface.mask[window].shape
+    step, fine = _step(shape, MOST_PIXELS), _step(shape, MOST_FULL)
+    maps = packing.reduced(surface, window, step)
+    scales = packing.Scales.of(maps, surface.depth[window][surface.mask[window]])
+    perspective = surface.metric
+    nodes_px, rays = packing.ray_grid(surface, window, perspective=perspective)
+    bands = packing.bands(surface, window, fine, scales) if fine < step else []
+    bend = None if calibration is None else bend_of(surface, calibration, distant)
+    document = {
         "name": surface.name,
-        "width": mask.shape[1],
-        "height": mask.shape[0],
-        "channels": albedo.shape[-1],
-        "planes": _deflate(planes),
-        "depth": [low, high],
+        "width": maps.mask.shape[1],
+        "height": maps.mask.shape[0],
+        "channels": 1 if maps.albedo.ndim == 2 else maps.albedo.shape[2],
+        "planes": packing.deflate(packing.planes_of(maps, scales)),
+        "depth": [scales.low, scales.high],
         "perspective": perspective,
         "origin": [window[1].start, window[0].start],
         "step": step,
-        "grid": {"size": GRID, "px": np.round(nodes_px, 3).tolist(), "ray": np.round(rays, 6).tolist()},
-        "sigmaScale": SIGMA_SCALE,
+        "grid": {"size": packing.GRID, "px": np.round(nodes_px, 3).tolist(), "ray": np.round(rays, 7).tolist()},
+        "sigmaScale": packing.SIGMA_SCALE,
+        "depthSigma": {"least": scales.least_sigma, "scale": packing.DEPTH_SIGMA_SCALE},
+        "scales": {str(piece.label): piece.scale_std for piece in surface.components},
         "lights": [] if calibration is None else [vars(light) for light in _lights(calibration, perspective=perspective)],
         "lobeStop": LOBE_STOP_RAD,
+        "bend": None if bend is None else bend.document(window),
+        "full": None if not bands else _full(shape, fine, [rows for rows, _ in bands]),
     }
+    return document, bands
 
 
-def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduced:
-    """The maps cropped, and averaged over blocks of step by step pixels."""
-    mask = surface.mask[window]
-    total = block_sum(mask.astype(np.float32), step)
-
-    def mean(value: Any) -> Any:
-        value = np.asarray(value[window], dtype=np.float32)
-        inside = mask.reshape(mask.shape + (1,) * (value.ndim - 2))
-        summed = block_sum(np.where(inside, np.nan_to_num(value), 0), step)
-        return summed / np.maximum(total, 1).reshape(total.shape + (1,) * (value.ndim - 2))
-
-    normals = mean(surface.normals)
-    length = np.linalg.norm(normals, axis=2, keepdims=True)
-    return Reduced(
-        mask=total > 0.5 * step * step if step > 1 else mask,
-        normals=normals / np.maximum(length, 1e-9),
-        depth=mean(surface.depth),
-        albedo=mean(surface.albedo),
-        sigma=mean(surface.normal_std_deg),
-        lights=surface.lights_used[window][::step, ::step],
-        component=surface.component[window][::step, ::step],
-    )
+def _step(shape: tuple[int, ...], most: int) -> int:
+    """The least block size that leaves `most` pixels or fewer, none of the sides too long for a texture."""
+    return max(1, int(np.ceil(np.sqrt(shape[0] * shape[1] / most))), -(-max(shape) // LARGEST_SIDE))
 
 
-def _range(values: Any) -> tuple[float, float]:
-    if not values.size:
-        return 0.0, 1.0
-    low, high = float(values.min()), float(values.max())
-    return low, max(high, low + 1e-9)
-
-
-def _grid(surface: Surface, window: tuple[slice, slice], *, perspective: bool) -> tuple[Array, Array]:
-    """Nodes over the crop: full-image pixels (GRID, GRID, 2) and their rays (x/z, y/z); orthographic: the pixels themselves."""
-    rows = np.linspace(window[0].start, window[0].stop - 1, GRID).round().astype(int)
-    columns = np.linspace(window[1].start, window[1].stop - 1, GRID).round().astype(int)
-    nodes = np.stack(np.meshgrid(columns, rows), axis=-1).astype(float)
-    if not perspective:
-        return nodes, nodes
-    rays = surface.rays_C[np.ix_(rows, columns)]
-    return nodes, np.nan_to_num(rays[..., :2] / rays[..., 2:])
-
-
-def _octahedral(normals: Any) -> Planes:
-    n = normals / np.maximum(np.abs(normals).sum(axis=2, keepdims=True), 1e-9)
-    x, y = n[..., 0], n[..., 1]
-    away = n[..., 2] > 0
-    folded_x = np.where(away, (1 - np.abs(y)) * np.where(x >= 0, 1, -1), x)
-    folded_y = np.where(away, (1 - np.abs(x)) * np.where(y >= 0, 1, -1), y)
-    return [np.asarray(np.round((c * 0.5 + 0.5) * 65535), dtype=np.uint16) for c in (folded_x, folded_y)]
-
-
-def _code(depth: Any, mask: Mask, low: float, high: float) -> npt.NDArray[np.uint16]:
-    scaled = 1 + np.round((np.nan_to_num(depth) - low) / (high - low) * 65534)
-    return np.asarray(np.where(mask, np.clip(scaled, 1, 65535), 0), dtype=np.uint16)
-
-
-def _byte(value: Any, mask: Mask) -> npt.NDArray[np.uint8]:
-    return np.asarray(np.where(mask, np.clip(np.round(np.nan_to_num(value)), 0, 255), 0), dtype=np.uint8)
-
-
-def _deflate(planes: Planes) -> str:
-    parts = []
-    for plane in planes:
-        wide = plane.astype(np.int64)
-        difference = np.diff(wide, axis=1, prepend=0) % (65536 if plane.dtype == np.uint16 else 256)
-        if plane.dtype == np.uint16:
-            parts.append((difference >> 8).astype(np.uint8).tobytes())
-        parts.append((difference & 255).astype(np.uint8).tobytes())
-    return base64.b64encode(zlib.compress(b"".join(parts), 9)).decode("ascii")
+def _full(shape: tuple[int, ...], step: int, rows: list[int]) -> dict[str, Any]:
+    return {"width": -(-shape[1] // step), "height": sum(rows), "step": step, "rows": rows, "bits": packing.FINE_BITS}
 
 
 def _lights(calibration: Calibration, *, perspective: bool) -> list[PageLight]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import zlib
 from functools import cache
+from importlib import resources
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -21,3 +24,10 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+
+
+@cache
+def packed_three() -> str:
+    """three.js, deflated and in base64: a third of its size in every page that draws in space."""
+    source = (resources.files(__name__) / "three.min.js").read_bytes()
+    return base64.b64encode(zlib.compress(source, 9)).decode("ascii")

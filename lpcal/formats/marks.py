@@ -1,0 +1,84 @@
+"""What `lpcal mark` writes: a sphere's hint in panel.yaml, mask.png beside the images, and the lights' images in capture.yaml."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from lpcal.formats.outputs import Kind, whole, write_text
+from lpcal.formats.panel_yaml import read_capture_section, read_rig
+from lpcal.formats.yaml_edit import with_value
+from lpcal.geometry.arrays import Mask
+
+SOFTWARE = "lpcal mark"
+"""What mask.png says made it: by that another one may replace it."""
+CAPTURE_FILE = "capture.yaml"
+MASK_FILE = "mask.png"
+
+
+def _is_marked(path: Path) -> bool:
+    from PIL import Image
+
+    try:
+        with Image.open(path) as head:
+            return head.info.get("Software") == SOFTWARE
+    except OSError:
+        return False
+
+
+MASK = Kind("a mask that was marked", _is_marked)
+"""A mask, as an output: one that was drawn otherwise is never replaced."""
+
+
+def edits_of(name: str) -> Kind:
+    """A file of a person's of this name, in which one value is set."""
+    return Kind(f"the {name}", lambda path: path.name == name)
+
+
+def write_hint(panel: Path, sphere: str, circle_px: Sequence[float]) -> None:
+    """Set ``spheres.<sphere>.hint`` of a panel.yaml.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or written, or the value cannot be set without touching the rest.
+    """
+    read_rig(panel)
+    text = panel.read_bytes().decode("utf-8-sig")
+    value = "[" + ", ".join(f"{x:.1f} px" for x in circle_px) + "]"
+    write_text(panel, with_value(text, ["spheres", sphere, "hint"], value, str(panel)), edits_of(panel.name))
+
+
+def write_light_images(folder: Path, images: Mapping[str, str]) -> None:
+    """Set ``images`` of a capture's capture.yaml: which file shows which light.
+
+    Raises
+    ------
+    InputError
+        As `write_hint`.
+    """
+    path = folder / CAPTURE_FILE
+    read_capture_section(path)
+    text = path.read_bytes().decode("utf-8-sig") if path.is_file() else ""
+    value = "{" + ", ".join(f"{json.dumps(light)}: {json.dumps(name, ensure_ascii=False)}" for light, name in images.items()) + "}"
+    write_text(path, with_value(text, ["images"], value, str(path)), edits_of(CAPTURE_FILE))
+
+
+def write_mask(folder: Path, mask: Mask) -> None:
+    """Write mask.png of a mask (H, W) into a capture's folder.
+
+    Raises
+    ------
+    InputError
+        A mask that was not marked is there already, or it cannot be written.
+    """
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    words = PngInfo()
+    words.add_text("Software", SOFTWARE)
+    with whole(folder / MASK_FILE, MASK) as draft:
+        Image.fromarray(np.asarray(mask, np.uint8) * np.uint8(255)).save(draft, format="PNG", pnginfo=words)
