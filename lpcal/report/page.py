@@ -28,8 +28,9 @@ from lpcal.records.surface import Component
 from lpcal.report import charts
 from lpcal.report.chain_sections import Drawing, camera_section, handeye_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport, designed
-from lpcal.report.scene import LineScene, layers_of, rig_caption, rig_scene, room_scene
-from lpcal.report.templates import environment
+from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
+from lpcal.report.scene_items import LineScene
+from lpcal.report.templates import environment, packed_three
 from lpcal.report.verdict import headline, verdicts
 from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of, with_sigma
 
@@ -59,6 +60,9 @@ def render(report: RigReport, stamp: str = "") -> str:
             lights=lights_section(report),
             spheres=spheres_section(report),
             rig=_script(rig),
+            rig_fields=[] if rig is None or rig.field is None else [light["name"] for light in rig.field["lights"]],
+            rig_sizes=rig is not None and any(item.kind in {"arrow", "ellipsoid"} for item in rig.items),
+            three=packed_three(),
             rig_layers=layers_of(rig),
             rig_caption=rig_caption(report),
             room=_script(room_scene(report)),

@@ -1,14 +1,12 @@
 """The rig and the room as line drawings in space, for the page's turning view.
 
-A scene holds polylines, points, labels and arrows with a tone and a layer. Positions are metres in the scene's own frame: C for the rig,
-O for the room.
+Positions are metres in the scene's own frame: C for the rig, O for the room.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,66 +16,8 @@ from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import Light, Lobe, Wings
 from lpcal.records.camera import Camera
 from lpcal.report.rig_report import RigReport, designed
-
-type Kind = Literal["line", "point", "label", "arrow"]
-
-
-@dataclass(frozen=True, kw_only=True)
-class LineItem:
-    """A line, a point, a label or an arrow; `points` (N, 3) metres, of an arrow its foot alone. Its look: tone, layer, and the flags."""
-
-    kind: Kind
-    points: Array
-    tone: str
-    layer: str
-    by: Array | None = None
-    """(3,) of an arrow, whose length the page may exaggerate: ``foot + k by``."""
-    text: str | None = None
-    r: float | None = None
-    """A point's radius, px."""
-    fill: float | None = None
-    """Opacity of a closed line's inside."""
-    closed: bool = False
-    thin: bool = False
-    dash: bool = False
-    bold: bool = False
-    hollow: bool = False
-
-    def document(self) -> dict[str, Any]:
-        """The item as the page's script reads it: what is not set is left out."""
-        points = np.round(self.points, DIGITS).tolist()
-        place = {"p": points} if self.by is None else {"from": points[0], "by": np.round(self.by, DIGITS).tolist()}
-        look = {name: value for name in LOOK if (value := getattr(self, name)) not in {None, False}}
-        return {"kind": self.kind, **place, "tone": self.tone, "layer": self.layer, **look}
-
-
-@dataclass(frozen=True)
-class LineScene:
-    """What is drawn, the middle (3,) and radius of it all, which way is up, and from where it is seen at first, radians."""
-
-    items: tuple[LineItem, ...]
-    centre: Array
-    radius: float
-    up: Array
-    yaw: float
-    pitch: float
-
-    def document(self) -> dict[str, Any]:
-        """The scene as the page's script reads it."""
-        return {
-            "items": [item.document() for item in self.items],
-            "centre": np.round(self.centre, DIGITS).tolist(),
-            "radius": round(self.radius, DIGITS),
-            "up": np.round(self.up, DIGITS).tolist(),
-            "yaw": self.yaw,
-            "pitch": self.pitch,
-        }
-
-
-LOOK = ("text", "r", "fill", "closed", "thin", "dash", "bold", "hollow")
-"""Fields of an item that the page's script knows under the same name."""
-DIGITS = 5
-"""Decimals of a metre that the page is given: hundredths of a millimetre."""
+from lpcal.report.scene_items import LineItem, LineScene
+from lpcal.report.scene_volumes import ellipsoids, field_plane, sources, working_volume
 
 CONE_M = 0.06
 DISTANT_M = (0.05, 0.3)
@@ -119,18 +59,28 @@ def rig_scene(report: RigReport) -> LineScene | None:
         drawn.append(LineItem(kind="point", points=focus[None], tone="focus", r=4, layer="rig"))
         drawn.append(LineItem(kind="label", points=focus[None], text=text, tone="focus", layer="rig"))
         reach.append(focus)
-    drawn += _boards(report)
-    return _scene(drawn, np.array(reach), up=np.array([0, -1.0, 0]), yaw=-0.75, pitch=0.35)
+    drawn += [*_boards(report), *sources(report), *ellipsoids(report), *working_volume(report)]
+    scene, field = _scene(drawn, np.array(reach), up=np.array([0, -1.0, 0]), yaw=-0.75, pitch=0.35), field_plane(report)
+    return scene if field is None else replace(scene, field=field.document())
 
 
-LAYERS = {"axes": "axes", "wings": "wings", "designed": "as designed", "frames": "frames", "boards": "board views"}
+LAYERS = {
+    "sources": "sources",
+    "sigma": "sigma of place",
+    "volume": "working volume",
+    "axes": "axes",
+    "wings": "wings",
+    "designed": "as designed",
+    "frames": "frames",
+    "boards": "board views",
+}
 """What of the rig can be shown or hidden, and its name on the page."""
 
 
 def layers_of(scene: LineScene | None) -> list[tuple[str, str, bool]]:
     """Layers that the scene has, their names, and whether they show at first."""
     found = {item.layer for item in scene.items} if scene is not None else set()
-    return [(layer, name, layer != "boards") for layer, name in LAYERS.items() if layer in found]
+    return [(layer, name, layer not in {"boards", "volume"}) for layer, name in LAYERS.items() if layer in found]
 
 
 def rig_caption(report: RigReport) -> str:

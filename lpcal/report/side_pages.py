@@ -18,8 +18,9 @@ from lpcal.records.calibration import Calibration
 from lpcal.records.comparison import CalibrationChange
 from lpcal.report.page import script_json
 from lpcal.report.rig_report import RigReport
-from lpcal.report.scene import LineItem, LineScene, rig_scene
-from lpcal.report.templates import environment
+from lpcal.report.scene import rig_scene
+from lpcal.report.scene_items import LineItem, LineScene
+from lpcal.report.templates import environment, packed_three
 
 DIFF_MARK = '<meta name="lpcal-page" content="diff">'
 """What tells the page from one of anybody else's."""
@@ -37,6 +38,7 @@ def diff_html(names: tuple[str, str], rigs: tuple[Calibration, Calibration], cha
             change=change,
             lines=lines,
             scene=None if scene is None else script_json(scene.document()),
+            three=packed_three(),
             version=__version__,
         )
     )

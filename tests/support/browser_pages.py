@@ -87,3 +87,9 @@ def ready(found: Opened) -> Opened:
     found.page.wait_for_function("document.documentElement.dataset.level || !document.getElementById('message').hidden", timeout=WAIT_MS)
     found.settle()
     return found
+
+
+def findings(page: Any) -> list[tuple[str, str]]:
+    """What axe-core finds wrong with a page as it stands: each rule, and the first element that breaks it."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    return [(found["id"], found["nodes"][0]["html"][:300]) for found in axe.run(page).response["violations"]]

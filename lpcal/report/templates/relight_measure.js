@@ -16,16 +16,25 @@ function distanceOf(a, b) {
   return { d, u, shape, scale, sigma: Math.hypot(Number.isNaN(shape) ? 0 : shape, scale), known: !Number.isNaN(shape) };
 }
 
-// The section: pixels along the straight line of the image between both, as far along the chord and above it, towards the camera.
+// The depth at a place between pixels, from the four about it; the nearest one's where they do not belong together.
+function between(surface, [x, y], px) {
+  const i = Math.floor(x), j = Math.floor(y), s = x - i, t = y - j, w = surface.w, k = j * w + i, near = px[1] * w + px[0];
+  const about = [k, k + (s ? 1 : 0), k + (t ? w : 0), k + (s ? 1 : 0) + (t ? w : 0)];
+  if (about.some((q) => !surface.code[q]) || surface.breaks[k] || (s && surface.breaks[about[2]] & 1) || (t && surface.breaks[about[1]] & 2)) return depthOf(surface, near);
+  const [a, b, c, d] = about.map((q) => depthOf(surface, q));
+  return (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d);
+}
+
+// The section: places along the straight line of the image between both, as far along the chord and above it, towards the camera.
 function sectionOf(surface, a, b) {
   const { u } = distanceOf(a, b), steps = Math.max(2, Math.min(600, Math.round(Math.hypot(b.px[0] - a.px[0], b.px[1] - a.px[1]))));
   const back = a.ray.map((x, c) => -(x + b.ray[c]) / 2), lean = dot3(back, u), m = back.map((x, c) => x - lean * u[c]), length = Math.hypot(...m) || 1;
   const up = m.map((x) => x / length), rows = [];
   for (let k = 0; k <= steps; k++) {
-    const px = [0, 1].map((c) => Math.round(a.px[c] + (k / steps) * (b.px[c] - a.px[c])));
+    const place = [0, 1].map((c) => a.px[c] + (k / steps) * (b.px[c] - a.px[c])), px = place.map(Math.round);
     if (!surface.code[px[1] * surface.w + px[0]]) { rows.push(null); continue; }
-    const at = placed(surface, px), by = at.p.map((x, c) => x - a.p[c]);
-    rows.push({ p: at.p, along: dot3(by, u), above: dot3(by, up), sigma: Math.abs(dot3(up, at.ray)) * (at.sigma || 0), piece: at.piece });
+    const at = placed(surface, px), p = pointAt(surface, ...place, between(surface, place, px)), by = p.map((x, c) => x - a.p[c]);
+    rows.push({ p, along: dot3(by, u), above: dot3(by, up), sigma: Math.abs(dot3(up, at.ray)) * (at.sigma || 0), piece: at.piece });
   }
   return rows;
 }
@@ -37,6 +46,8 @@ function runsOf(rows) {
   return runs.filter((run) => run.length > 1);
 }
 
+const plain = (x, digits) => x.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
+
 function chartOf(rows, unit) {
   const W = 240, H = 120, L = 34, B = 22, T = 8, found = rows.filter(Boolean), k = unit.k;
   const xs = found.map((r) => k * r.along), lows = found.map((r) => k * (r.above - r.sigma)), highs = found.map((r) => k * (r.above + r.sigma));
@@ -45,7 +56,7 @@ function chartOf(rows, unit) {
   const parts = runsOf(rows).map((run) => `<path class="band" d="M${run.map((r) => `${X(r)} ${Y(r.above + r.sigma)}`).join("L")}L${[...run].reverse().map((r) => `${X(r)} ${Y(r.above - r.sigma)}`).join("L")}Z"/><path class="run" d="M${run.map((r) => `${X(r)} ${Y(r.above)}`).join("L")}"/>`);
   const say = (v, x, y, anchor) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${v}</text>`;
   return `<svg viewBox="0 0 ${W} ${H}" role="img" aria-label="section: height above the chord against the way along it, ${unit.name}; from ${y0.toFixed(unit.digits)} to ${y1.toFixed(unit.digits)}">${parts.join("")}` +
-    say(y1.toFixed(unit.digits), L - 4, T + 8, "end") + say(y0.toFixed(unit.digits), L - 4, H - B, "end") + say("0", L, H - 8, "start") + say(`${x1.toFixed(unit.digits)} ${unit.name}`, W - 4, H - 8, "end") + `</svg>`;
+    say(plain(y1, unit.digits), L - 4, T + 8, "end") + say(plain(y0, unit.digits), L - 4, H - B, "end") + say("0", L, H - 8, "start") + say(`${x1.toFixed(unit.digits)} ${unit.name}`, W - 4, H - 8, "end") + `</svg>`;
 }
 
 function csvOf(rows, unit) {

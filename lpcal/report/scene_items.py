@@ -1,0 +1,76 @@
+"""What a drawing in space is made of: lines, points, labels, arrows and ellipsoids with a tone and a layer, in metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array
+
+type Kind = Literal["line", "point", "label", "arrow", "ellipsoid"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineItem:
+    """A line, a point, a label or an arrow; `points` (N, 3) metres, of an arrow its foot alone. Its look: tone, layer, and the flags."""
+
+    kind: Kind
+    points: Array
+    tone: str
+    layer: str
+    by: Array | None = None
+    """(3,) of an arrow, whose length the page may exaggerate: ``foot + k by``."""
+    axes: Array | None = None
+    """(3, 3) of an ellipsoid: its half axes, one a row, which the page may exaggerate."""
+    text: str | None = None
+    r: float | None = None
+    """A point's radius, px."""
+    fill: float | None = None
+    """Opacity of a closed line's inside."""
+    closed: bool = False
+    thin: bool = False
+    dash: bool = False
+    bold: bool = False
+    hollow: bool = False
+
+    def document(self) -> dict[str, Any]:
+        """The item as the page's script reads it: what is not set is left out."""
+        points = np.round(self.points, DIGITS).tolist()
+        place = {"p": points} if self.by is None else {"from": points[0], "by": np.round(self.by, DIGITS).tolist()}
+        look = {name: value for name in LOOK if (value := getattr(self, name)) not in {None, False}}
+        half = {} if self.axes is None else {"axes": np.round(self.axes, DIGITS + 2).tolist()}
+        return {"kind": self.kind, **place, **half, "tone": self.tone, "layer": self.layer, **look}
+
+
+@dataclass(frozen=True)
+class LineScene:
+    """What is drawn, the middle (3,) and radius of it all, which way is up, and from where it is seen at first, radians."""
+
+    items: tuple[LineItem, ...]
+    centre: Array
+    radius: float
+    up: Array
+    yaw: float
+    pitch: float
+    field: dict[str, Any] | None = None
+    """The lights' field over a plane, as the page's script reads it."""
+
+    def document(self) -> dict[str, Any]:
+        """The scene as the page's script reads it."""
+        return {
+            "items": [item.document() for item in self.items],
+            "centre": np.round(self.centre, DIGITS).tolist(),
+            "radius": round(self.radius, DIGITS),
+            "up": np.round(self.up, DIGITS).tolist(),
+            "yaw": self.yaw,
+            "pitch": self.pitch,
+            "field": self.field,
+        }
+
+
+LOOK = ("text", "r", "fill", "closed", "thin", "dash", "bold", "hollow")
+"""Fields of an item that the page's script knows under the same name."""
+DIGITS = 5
+"""Decimals of a metre that the page is given: hundredths of a millimetre."""
