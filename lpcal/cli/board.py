@@ -82,6 +82,10 @@ def _panel(named: Path | None) -> Path | None:
 
 
 def _drawable(section: BoardSection, origin: str) -> BoardSection:
+    if section.kind == "aprilgrid":
+        raise InputError(
+            "an AprilGrid is not drawn here", where=origin, needed="a chessboard, charuco or circles", todo="print it by Kalibr's own tool"
+        )
     if section.kind == "charuco" and not (section.marker and section.dictionary):
         raise InputError(
             "a charuco board without marker and dictionary", where=origin, needed="both", todo="add marker: 18 mm, dictionary: DICT_5X5_100"

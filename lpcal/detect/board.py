@@ -35,6 +35,7 @@ import numpy as np
 
 from lpcal.detect.board_grid import contrast, extended, in_board_order, spacing_px
 from lpcal.detect.board_links import grown, seen_grid, without_holes
+from lpcal.detect.board_patterns import find_aprilgrid, find_circles
 from lpcal.detect.saddle import BLUR_PX, fit_saddles
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
@@ -64,6 +65,15 @@ SMALL_SPACING_PX = 5.0
 """Corners closer than this cannot be refined."""
 
 
+OTHERS = {"circles": find_circles, "aprilgrid": find_aprilgrid}
+"""Detectors of patterns without squares, by the board's kind."""
+WHY_NONE = {
+    "circles": "no grid of dark circles of this count, all of them in sight",
+    "aprilgrid": "fewer than four of its tags are in sight; see corners (two a tag), marker and dictionary",
+}
+"""What is said where they find nothing."""
+
+
 def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView:
     """Look for the board in a grey image (H, W) of any scale and type.
 
@@ -79,6 +89,9 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
         rough = find_charuco(grey, board)
         why = "fewer than eight of its corners have their markers in sight; see marker and dictionary"
         return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, f"no board found: {why}")
+    if board.kind in OTHERS:
+        rough, why = OTHERS[board.kind](grey, board), WHY_NONE[board.kind]
+        return BoardView(name, None, f"no board found: {why}") if rough is None else _verdict(grey, image, rough, board, name)
     began = time.thread_time()
     seen = seen_grid(grey, board.corners)
     rough, ended = _as_asked(seen, board.corners), False
@@ -167,7 +180,9 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
         return BoardView(
             name, None, f"the board is too small in the image: its corners are {spacing:.1f} px apart, {SMALL_SPACING_PX:.0f} are needed"
         )
-    share = WINDOW_SHARE if board.kind == "chessboard" else marker_free(board)
+    if board.kind == "circles":
+        return BoardView(name, rough.reshape(-1, 2), glare=_glare(image, rough))
+    share = marker_free(board) if board.kind == "charuco" else WINDOW_SHARE
     light = image.astype(np.float32)
     wide = round(share * spacing)
     start = refine(light, rough, spacing, share)
@@ -179,7 +194,7 @@ def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, na
     if board.corner_fit == "edges":
         refined = fit_saddles(light, refine(light, rough, spacing, narrow / spacing) if narrow < wide else start, narrow).corners_px
     glare = _glare(image, refined)
-    if board.kind == "charuco":
+    if board.kind != "chessboard":
         return BoardView(name, refined.reshape(-1, 2), blur_px=blur_px, glare=glare)
     return BoardView(name, in_board_order(grey, refined).reshape(-1, 2), blur_px=blur_px, glare=glare)
 

@@ -32,6 +32,12 @@ def in_board_order(grey: Labels, grid: Array) -> Array:
     return max(candidates, key=lambda turned: float(_direction(turned, 1) @ [1.0, 0.01]))
 
 
+def in_clockwise_order(grid: Array) -> Array:
+    """The grid (ny, nx, 2) of a pattern without ends, turned so that x to y is clockwise and x points most to the right."""
+    candidates = [turned for turned in _turns(grid) if _turns_clockwise(turned)]
+    return max(candidates, key=lambda turned: float(_direction(turned, 1) @ [1.0, 0.01]))
+
+
 def first_square_is_black(grey: Labels, grid: Array) -> bool:
     """Whether the outer square of the first corner is black: it is as dark as the cell inside that corner."""
     light = _lightness(grey, cell_centres(grid))

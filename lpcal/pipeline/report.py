@@ -20,16 +20,19 @@ from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.images import read_image
 from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.outputs import marked, refuse_place, write_text
-from lpcal.formats.surface_files import read_summary
+from lpcal.formats.surface_files import MAPS_FILE, read_summary
 from lpcal.formats.wings_yaml import read_wings
+from lpcal.geometry.arrays import Mask
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.report.page import render
-from lpcal.report.pictures import png, shaded, shrink
+from lpcal.report.pictures import doubtful, png, shaded, shrink
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.verdict import headline, verdicts
 
 THUMBNAIL = 220
+HIGHEST = 98.0
+"""Percentile of a standard deviation at which its colours end: the last few pixels are the rim's."""
 STAMP_WITHIN = 2000
 FILE = "report.html"
 KIND = marked("a report", '<meta name="lpcal-inputs"')
@@ -118,6 +121,22 @@ def _pictures(folder: Path) -> dict[str, bytes]:
         albedo = read_image(folder / "albedo.png").pixels
         colour = albedo if albedo.ndim == 3 else np.repeat(albedo[..., None], 3, axis=2)
         found["albedo"] = png(shrink(np.asarray((0.85 * colour) ** (1 / 2.2), dtype=np.float32), inside, THUMBNAIL))
+    return found | _sigmas(folder, inside)
+
+
+def _sigmas(folder: Path, inside: Mask) -> dict[str, bytes]:
+    """Pictures of how sure the normals and the depth's shape are; none where the maps are not there or nothing is known."""
+    if not (folder / MAPS_FILE).is_file():
+        return {}
+    found: dict[str, bytes] = {}
+    with np.load(folder / MAPS_FILE) as maps:
+        metric = bool(np.any(maps["rays"][..., :2])) if "rays" in maps else True
+        unit, scale = ("mm", 1e3) if metric else ("px", 1.0)
+        for what, name, factor, sign in (("normals", "normal_std_deg", 1.0, "°"), ("depth", "depth_std", scale, f" {unit}")):
+            sigma = factor * maps[name]
+            known = sigma[inside & np.isfinite(sigma)] if sigma.shape == inside.shape else sigma[:0]
+            if known.size and (high := float(np.percentile(known, HIGHEST))) > 0:
+                found[f"sigma of {what}, 0 to {high:.2g}{sign}"] = png(shrink(doubtful(sigma, high), inside, THUMBNAIL))
     return found
 
 

@@ -15,7 +15,7 @@ from lpcal.records.placement import StatedPlace
 from lpcal.records.sensor import StatedSensor, ToneClaim
 from lpcal.records.shown import Shown
 
-type BoardKind = Literal["chessboard", "charuco"]
+type BoardKind = Literal["chessboard", "charuco", "circles", "aprilgrid"]
 """What a board shows."""
 type SphereKind = Literal["chrome", "matte"]
 """What a sphere's surface is: a mirror tells directions, a Lambertian one intensities."""
@@ -57,15 +57,21 @@ class Board:
     """Whether its departure from a plane may be estimated."""
     kind: BoardKind = "chessboard"
     marker_m: float = float("nan")
-    """Charuco: side of a marker."""
+    """Charuco, aprilgrid: side of a marker."""
     dictionary: str = ""
-    """Charuco: OpenCV's name of the markers' dictionary."""
+    """Charuco, aprilgrid: OpenCV's name of the markers' dictionary."""
     corner_fit: str = "edges"
     """edges: where two blurred edges cross; opencv: cornerSubPix, as other tools refine, for figures that compare with theirs."""
 
     def points_B(self) -> Array:
-        """Corners (ny*nx, 3) in B, of a flat board."""
-        x, y = np.meshgrid(np.arange(self.corners[0]) * self.square_m[0], np.arange(self.corners[1]) * self.square_m[1])
+        """Corners (ny*nx, 3) in B, of a flat board; of an AprilGrid two a tag, the tags a square apart."""
+        along = [np.arange(count) * side for count, side in zip(self.corners, self.square_m, strict=True)]
+        if self.kind == "aprilgrid":
+            along = [
+                np.arange(count) // 2 * side + np.arange(count) % 2 * self.marker_m
+                for count, side in zip(self.corners, self.square_m, strict=True)
+            ]
+        x, y = np.meshgrid(*along)
         return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
 
 

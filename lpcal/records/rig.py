@@ -123,9 +123,13 @@ class CameraSection(Section):
 
 
 class BoardSection(Section):
-    """``board:`` the calibration target. ``corners`` are inner corners along x, along y."""
+    """``board:`` the calibration target.
 
-    kind: Literal["chessboard", "charuco"] = "chessboard"
+    ``corners`` are inner corners along x, along y: of circles their centres, of an aprilgrid two a tag. ``square`` is how far apart they
+    are, of an aprilgrid how far apart its tags are, and ``marker`` a tag's side.
+    """
+
+    kind: Literal["chessboard", "charuco", "circles", "aprilgrid"] = "chessboard"
     corners: tuple[Count, Count]
     square: tuple[Size, Size]
     warp: Literal["auto", "none"] = "auto"

@@ -83,7 +83,10 @@ def draw(board: BoardSection, page: Page) -> bytes:
     canvas.transform(POINTS_PER_MM, 0, 0, -POINTS_PER_MM, 0, size[1])
     width, height = size_mm(board)
     left, top = (page.width_mm - width) / 2, (page.height_mm - height) / 2
-    _squares(canvas, board, left, top)
+    if board.kind == "circles":
+        _circles(canvas, board, left, top)
+    else:
+        _squares(canvas, board, left, top)
     if board.kind == "charuco":
         _markers(canvas, board, left, top)
     _ruler(canvas, left, top + height + QUIET_MM, width, across=False)
@@ -107,6 +110,18 @@ def yaml_line(board: BoardSection) -> str:
     square = x if x == y else f"[{x}, {y}]"
     charuco = f", marker: {1e3 * (board.marker or 0):g} mm, dictionary: {board.dictionary}" if board.kind == "charuco" else ""
     return f"board: {{kind: {board.kind}, corners: [{board.corners[0]}, {board.corners[1]}], square: {square}{charuco}}}"
+
+
+CIRCLE_SHARE = 0.25
+"""Radius of a printed circle, in units of how far apart they are: half of the way is white, as OpenCV's own pattern."""
+
+
+def _circles(canvas: Any, board: BoardSection, left: float, top: float) -> None:
+    """Black circles, their centres where a chessboard's corners would be."""
+    x, y = (1e3 * side for side in board.square)
+    for row in range(board.corners[1]):
+        for column in range(board.corners[0]):
+            canvas.circle(left + (column + 1) * x, top + (row + 1) * y, CIRCLE_SHARE * min(x, y), stroke=0, fill=1)
 
 
 def _squares(canvas: Any, board: BoardSection, left: float, top: float) -> None:

@@ -10,10 +10,9 @@ from P to the light, v from P to the camera. So a sphere's own direction l is co
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,17 +23,15 @@ from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import Camera, Light, SphereFinding
 from lpcal.records.evidence import LightsEvidence
 from lpcal.records.provenance import Provenance
-from lpcal.records.surface import Component
 from lpcal.report import charts
 from lpcal.report.chain_sections import Drawing, camera_section, handeye_section
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport, designed
 from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.scene_items import LineScene
+from lpcal.report.surface_sections import surface_section
 from lpcal.report.templates import environment, packed_three
 from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of, with_sigma
-
-FIGURES_SHOWN = 16
+from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of
 
 __all__ = ["RigReport", "SurfaceReport", "render"]
 
@@ -66,16 +63,11 @@ def render(report: RigReport, stamp: str = "") -> str:
             rig_layers=layers_of(rig),
             rig_caption=rig_caption(report),
             room=_script(room_scene(report)),
-            surfaces=[_surface(surface) for surface in report.surfaces],
+            surfaces=[surface_section(surface) for surface in report.surfaces],
             provenance=[_provenance(kind, report.provenance[kind]) for kind in KINDS if kind in report.provenance],
             missing=[kind for kind in KINDS if kind not in report.provenance],
         )
     )
-
-
-def data_uri(content: bytes, media: str = "image/png") -> str:
-    """Content as a data: URI."""
-    return f"data:{media};base64,{base64.b64encode(content).decode('ascii')}"
 
 
 def script_json(value: Any) -> str:
@@ -96,18 +88,6 @@ def _shown_time(iso: str) -> str:
 
 
 @dataclass(frozen=True)
-class SurfaceSection:
-    """A surface: its pictures as data: URIs, its pieces' distances, its figures and what is to be said of it."""
-
-    name: str
-    relight: str | None
-    pictures: list[tuple[str, str]]
-    pieces: list[tuple[str, str]]
-    notes: tuple[str, ...]
-    figures: list[tuple[str, str]]
-
-
-@dataclass(frozen=True)
 class ProvenanceSection:
     """What a document was made from."""
 
@@ -116,38 +96,6 @@ class ProvenanceSection:
     time: str
     inputs: list[tuple[str, str]]
     options: str
-
-
-def _surface(surface: SurfaceReport) -> SurfaceSection:
-    summary = surface.summary
-    figures = [
-        *((field.name, getattr(summary.figures, field.name)) for field in fields(summary.figures)),
-        *((f"{part}, s", seconds) for part, seconds in summary.times_s.items()),
-        ("peak memory, MB", summary.peak_memory_mb),
-    ]
-    return SurfaceSection(
-        name=surface.name,
-        relight=surface.relight,
-        pictures=[(what, data_uri(content)) for what, content in surface.pictures.items()],
-        pieces=[_piece(piece, metric=summary.metric) for piece in summary.components],
-        notes=summary.notes,
-        figures=[(label.replace("_", " "), _figure(value)) for label, value in figures if _is_figure(value)][:FIGURES_SHOWN],
-    )
-
-
-def _piece(piece: Component, *, metric: bool) -> tuple[str, str]:
-    label = f"piece {piece.label}, {piece.pixels} pixels"
-    if not metric:
-        return label, "relative depth"
-    return label, with_sigma(1000 * piece.mean_depth_m, 1000 * piece.mean_depth_m * piece.scale_std, "mm")
-
-
-def _is_figure(value: object) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def _figure(value: float) -> str:
-    return str(int(value)) if float(value).is_integer() else f"{value:.4g}"
 
 
 def _provenance(kind: str, stated: Provenance) -> ProvenanceSection:

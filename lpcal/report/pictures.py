@@ -6,6 +6,7 @@ Source: W3C, Portable Network Graphics specification.
 
 from __future__ import annotations
 
+import base64
 import struct
 import zlib
 
@@ -15,6 +16,9 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Image, Mask
 
 STILL_LIGHT = np.array([-0.45, -0.55, -0.7]) / np.linalg.norm([0.45, 0.55, 0.7])
+
+RAMP = np.array([[0x17, 0x32, 0x4D], [0x2E, 0x7D, 0x86], [0x9B, 0xC2, 0x6C], [0xF0, 0xBF, 0x4A], [0xCF, 0x4F, 0x2E]]) / 255
+"""Colours (5, 3) of doubt, from none to much, told apart by the colour-blind too, as lightness rises before it falls to red."""
 
 type Bytes = npt.NDArray[np.uint8]
 
@@ -66,3 +70,15 @@ def shaded(normals: Image) -> Image:
     """Grey values (H, W, 3) in 0..1 of normals (H, W, 3) in C under one distant light from above, on the left."""
     shade = 0.06 + 0.9 * np.maximum(np.nan_to_num(normals) @ STILL_LIGHT, 0)
     return np.asarray(np.repeat((shade ** (1 / 2.2))[..., None], 3, axis=2), dtype=np.float32)
+
+
+def doubtful(sigma: Image, high: float) -> Image:
+    """Colours (H, W, 3) in 0..1 of standard deviations (H, W), from 0 to `high`."""
+    at = np.clip(np.nan_to_num(sigma) / max(high, 1e-30), 0, 1)
+    knots = np.linspace(0, 1, len(RAMP))
+    return np.stack([np.interp(at, knots, RAMP[:, c]) for c in range(3)], axis=-1).astype(np.float32)
+
+
+def data_uri(content: bytes, media: str = "image/png") -> str:
+    """Content as a data: URI."""
+    return f"data:{media};base64,{base64.b64encode(content).decode('ascii')}"

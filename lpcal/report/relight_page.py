@@ -19,8 +19,8 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.surface import Surface
 from lpcal.report import packing
 from lpcal.report.distant_shape import bend_of
-from lpcal.report.page import data_uri, script_json
-from lpcal.report.pictures import bounds, png, shaded, shrink
+from lpcal.report.page import script_json
+from lpcal.report.pictures import bounds, data_uri, png, shaded, shrink
 from lpcal.report.templates import environment, packed_three
 
 POSTER_PX = 420

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.errors import InputError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.rig import BoardSection
@@ -96,7 +97,15 @@ def surface_height(bow_m: float, twist: float, corners: tuple[int, int], square_
 
 
 def make_scene(built: Built, section: BoardSection, psf_sigma_px: float) -> BoardScene:
-    """The scene of a rig's board; its rays are traced once."""
+    """The scene of a rig's board; its rays are traced once.
+
+    Raises
+    ------
+    InputError
+        The board is of a pattern that is not drawn.
+    """
+    if section.kind in {"circles", "aprilgrid"}:
+        raise InputError(f"a board of {section.kind} is not simulated", where="board", needed="kind: chessboard or charuco")
     albedo = _charuco(section) if section.kind == "charuco" else _chessboard(section)
     return BoardScene(built, section, albedo, built.lens.grid(OVERSAMPLING), psf_sigma_px)
 
