@@ -196,7 +196,7 @@ class Answer:
     content: bytes = b""
     media: str = "application/json"
     step: int | None = None
-    """Of a picture: by how much it is smaller than the image."""
+    """By how much a picture is smaller than its image."""
 
 
 def got(at: Marking, token: str, path: str) -> Answer:

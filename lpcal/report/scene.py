@@ -61,7 +61,7 @@ def rig_scene(report: RigReport) -> LineScene | None:
         reach.append(focus)
     drawn += [*_boards(report), *sources(report), *ellipsoids(report), *working_volume(report)]
     scene, field = _scene(drawn, np.array(reach), up=np.array([0, -1.0, 0]), yaw=-0.75, pitch=0.35), field_plane(report)
-    return scene if field is None else replace(scene, field=field.document())
+    return replace(scene, field=field)
 
 
 LAYERS = {

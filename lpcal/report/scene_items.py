@@ -44,6 +44,24 @@ class LineItem:
         return {"kind": self.kind, **place, **half, "tone": self.tone, "layer": self.layer, **look}
 
 
+FIELD_CELLS = 24
+"""Cells along a side of a light's field: it is smooth."""
+
+
+@dataclass(frozen=True)
+class FieldPlane:
+    """The lights' irradiance over the camera's view at the focus' depth: corners (4, 3) of the plane, and values (n, n) a light."""
+
+    corners: Array
+    values: dict[str, Array]
+    """By light, of a surface that faces it, as a share of its own largest."""
+
+    def document(self) -> dict[str, Any]:
+        """The plane as the page's script reads it; values are per cent."""
+        lights = [{"name": name, "values": np.round(100 * value).astype(int).ravel().tolist()} for name, value in self.values.items()]
+        return {"size": FIELD_CELLS, "corners": np.round(self.corners, DIGITS).tolist(), "lights": lights}
+
+
 @dataclass(frozen=True)
 class LineScene:
     """What is drawn, the middle (3,) and radius of it all, which way is up, and from where it is seen at first, radians."""
@@ -54,8 +72,8 @@ class LineScene:
     up: Array
     yaw: float
     pitch: float
-    field: dict[str, Any] | None = None
-    """The lights' field over a plane, as the page's script reads it."""
+    field: FieldPlane | None = None
+    """The lights' field over a plane."""
 
     def document(self) -> dict[str, Any]:
         """The scene as the page's script reads it."""
@@ -66,7 +84,7 @@ class LineScene:
             "up": np.round(self.up, DIGITS).tolist(),
             "yaw": self.yaw,
             "pitch": self.pitch,
-            "field": self.field,
+            "field": None if self.field is None else self.field.document(),
         }
 
 

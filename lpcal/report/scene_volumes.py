@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
 
 from lpcal.geometry import se3
@@ -12,30 +9,14 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
 from lpcal.records.camera import Camera
 from lpcal.report.rig_report import RigReport
-from lpcal.report.scene_items import DIGITS, LineItem
+from lpcal.report.scene_items import FIELD_CELLS, FieldPlane, LineItem
 
 APART_M = 1e-4
 """A source nearer than this to its light's mechanical centre is not drawn: a tenth of a millimetre is less than a pixel."""
 DEPTHS = (0.8, 1.2)
-"""Of the focus' depth, between which the camera's view is drawn as the working volume: the lights' axes meet within it."""
-FIELD_CELLS = 24
-"""Cells along a side of a light's field: it is smooth."""
+"""Shares of the focus' depth between which the camera's view is drawn as the working volume: the lights' axes meet within it."""
 MOST_FIELDS = 24
 """Lights whose fields can be chosen: more are a list that nobody reads."""
-
-
-@dataclass(frozen=True)
-class FieldPlane:
-    """The lights' irradiance over the camera's view at the focus' depth: corners (4, 3) of the plane, and values (n, n) a light."""
-
-    corners: Array
-    values: dict[str, Array]
-    """By light, of a surface that faces it, as a share of its own largest."""
-
-    def document(self) -> dict[str, Any]:
-        """The plane as the page's script reads it; values are per cent."""
-        lights = [{"name": name, "values": np.round(100 * value).astype(int).ravel().tolist()} for name, value in self.values.items()]
-        return {"size": FIELD_CELLS, "corners": np.round(self.corners, DIGITS).tolist(), "lights": lights}
 
 
 def sources(report: RigReport) -> list[LineItem]:

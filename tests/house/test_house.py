@@ -89,8 +89,10 @@ def annotations(tree: ast.Module) -> Iterator[ast.expr]:
 UNTYPED = re.compile(r"(dict|Mapping)\[str, (object|Any)\]")
 TYPED_ROOMS = ("chain", "surface", "report", "records")
 PAGE_DATA = {
-    "report/scene.py": 2,
-    "report/relight_page.py": 1,
+    "report/scene_items.py": 3,
+    "report/distant_shape.py": 1,
+    "report/mark_page.py": 1,
+    "report/relight_page.py": 2,
     "report/side_pages.py": 1,
     "records/outcome.py": 1,
     "records/provenance.py": 1,
