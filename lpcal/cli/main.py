@@ -47,6 +47,7 @@ COMMANDS = {
     "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
     "mark": "a sphere, a mask or the lights of images set by mouse, where they are not found by themselves",
+    "frames": "the frames of a video as images, with the table of their times",
     "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",
     "completion": "completion of commands, options and file names for bash, zsh or fish",

@@ -162,11 +162,9 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     solved = time.perf_counter()
     document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
     both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
-    distant = None
-    if document["flatness"] and both_ways and raw.full is None:
-        with cores(wishes.jobs):
-            distant = made(mask=surface.mask, method="distant")
-        document["flatness_distant"] = flatness(distant)
+    with cores(wishes.jobs):
+        distant = made(mask=surface.mask, method="distant") if document["flatness"] and both_ways and raw.full is None else None
+    document |= {} if distant is None else {"flatness_distant": flatness(distant)}
     document["made_from"] = digest
     progress(f"{task.name}: writing", 0, 1)
     solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None

@@ -180,7 +180,7 @@ function overlay() {
 }
 const bentPoint = (p) => p;
 
-function press(group, key, value) { for (const button of all(group)) button.setAttribute("aria-pressed", String(button.dataset[key] === String(value))); }
+function press(group, key, value) { for (const button of all(`button${group}`)) button.setAttribute("aria-pressed", String(button.dataset[key] === String(value))); }
 
 function show() {
   press("[data-does]", "does", state.does); press("[data-mode]", "mode", state.mode); press("[data-light]", "light", state.chosen === null ? "pointer" : state.chosen);
