@@ -116,9 +116,7 @@ def main() -> int:
         shown = browser.new_page(viewport={"width": 1280, "height": 720})
         shown.goto(file.as_uri(), wait_until="commit")
         shown.wait_for_function("document.documentElement.dataset.ready", timeout=WAIT_MS)
-        print(
-            f"first picture after {shown.evaluate('viewer.first') / 1000:.2f} s, {used_s():.1f} s of processor time with the start"
-        )
+        print(f"first picture after {shown.evaluate('viewer.first') / 1000:.2f} s, {used_s():.1f} s of processor time with the start")
         shown.wait_for_function("document.documentElement.dataset.level === 'whole'", timeout=4 * WAIT_MS)
         print(f"whole after {shown.evaluate('performance.now()') / 1000:.1f} s")
         for what in ("turn", "light", "turn", "light"):

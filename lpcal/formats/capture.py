@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from itertools import pairwise
@@ -20,6 +20,7 @@ from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import Numbers, read_image, read_numbers
 from lpcal.formats.import_lights import RESERVED, natural_stem
+from lpcal.formats.marks import named_by_capture
 from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import stated_place
@@ -265,34 +266,12 @@ def _by_name(folder: Path) -> dict[str, Path]:
 
 def _in_order(folder: Path, section: CaptureSection, lights: Sequence[str]) -> tuple[dict[str, Path], Sequence[str] | None, list[str]]:
     """The images by name, the lights that capture.yaml takes, and what is to be said where the images' order names them."""
-    files, pattern = _named(folder, section.images, lights, _by_name(folder)), _pattern_of(section.lights)
+    files, pattern = named_by_capture(folder, section.images, lights, _by_name(folder)), _pattern_of(section.lights)
     if pattern is None:
         return files, section.lights, []
     files = _by_order(folder, pattern, lights, files)
     first, last = lights[0], lights[-1]
     return files, None, [f"lights by the order of {pattern}: {first} is {files[first].name}, ... {last} is {files[last].name}"]
-
-
-def _named(folder: Path, images: Mapping[str, str], lights: Sequence[str], files: dict[str, Path]) -> dict[str, Path]:
-    """The folder's images by name, those that capture.yaml gives to a light under the light's.
-
-    Raises
-    ------
-    DisagreementError
-        A name that is no light's, a file that is not there, or one that two lights have.
-    """
-    if not images:
-        return files
-    where, there = f"{folder / 'capture.yaml'}, images", {path.name: stem for stem, path in files.items()}
-    strange = [light for light in images if light not in lights]
-    if strange:
-        raise DisagreementError(f"no light is called {strange[0]}", where=where, needed=f"some of {', '.join(lights)}", todo="correct it")
-    for light, name in images.items():
-        if name not in there or list(images.values()).count(name) > 1:
-            found = f"no image {name}" if name not in there else f"{name} for two lights"
-            raise DisagreementError(found, where=where, needed=f"an image of the folder for {light}, each once", todo="correct it")
-    others = {stem: path for stem, path in files.items() if path.name not in images.values() and stem not in images}
-    return {light: files[there[name]] for light, name in images.items()} | others
 
 
 def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, files: dict[str, Path]) -> list[str]:

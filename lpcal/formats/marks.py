@@ -1,4 +1,4 @@
-"""What `lpcal mark` writes: a sphere's hint in panel.yaml, mask.png beside the images, and the lights' images in capture.yaml."""
+"""What `lpcal mark` writes: a sphere's hint in panel.yaml, mask.png beside the images, the lights' images in capture.yaml."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lpcal.errors import DisagreementError
 from lpcal.formats.outputs import Kind, whole, write_text
 from lpcal.formats.panel_yaml import read_capture_section, read_rig
 from lpcal.formats.yaml_edit import with_value
@@ -82,3 +83,25 @@ def write_mask(folder: Path, mask: Mask) -> None:
     words.add_text("Software", SOFTWARE)
     with whole(folder / MASK_FILE, MASK) as draft:
         Image.fromarray(np.asarray(mask, np.uint8) * np.uint8(255)).save(draft, format="PNG", pnginfo=words)
+
+
+def named_by_capture(folder: Path, images: Mapping[str, str], lights: Sequence[str], files: dict[str, Path]) -> dict[str, Path]:
+    """The folder's images by name, those that capture.yaml gives to a light under the light's.
+
+    Raises
+    ------
+    DisagreementError
+        A name that is no light's, a file that is not there, or one that two lights have.
+    """
+    if not images:
+        return files
+    where, there = f"{folder / 'capture.yaml'}, images", {path.name: stem for stem, path in files.items()}
+    strange = [light for light in images if light not in lights]
+    if strange:
+        raise DisagreementError(f"no light is called {strange[0]}", where=where, needed=f"some of {', '.join(lights)}", todo="correct it")
+    for light, name in images.items():
+        if name not in there or list(images.values()).count(name) > 1:
+            found = f"no image {name}" if name not in there else f"{name} for two lights"
+            raise DisagreementError(found, where=where, needed=f"an image of the folder for {light}, each once", todo="correct it")
+    others = {stem: path for stem, path in files.items() if path.name not in images.values() and stem not in images}
+    return {light: files[there[name]] for light, name in images.items()} | others
