@@ -299,7 +299,7 @@ KERNEL void lpcal_coupled(int64_t pixels, int64_t stretches, const int32_t *stre
     memcpy(direction, x, (size_t)n * sizeof *x);
     left_over(shape, block, next, above, down, right, direction, residual);
     memset(direction, 0, (size_t)n * sizeof *x);
-    for (int64_t step = 0; step < most && !(sqrt(dot(n, residual, residual)) < enough); step++) {
+    for (int64_t step = 0; step < most && !(sqrt(dot(n, residual, residual)) <= enough); step++) {
         for (int64_t p = 0; p < pixels; p++) {
             const double *f = factor + 6 * p, *r = residual + 3 * p;
             double y1 = r[1] - f[0] * r[0], y2 = r[2] - f[1] * r[0] - f[2] * y1;
