@@ -80,6 +80,8 @@ def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
         return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns, factor)
 
     def means(values: npt.NDArray[np.floating]) -> Array:
+        if factor == 1:
+            return values.astype(float)
         return np.asarray(blocks(values).mean(axis=(-3, -1), dtype=float))
 
     signal = means(maps.signal)
