@@ -105,13 +105,13 @@ function lights() {
 function draw(time) {
   waiting = false;
   const now = performance.now(), moving = now - moved < RESTING_MS, screen = Math.min(window.devicePixelRatio || 1, 2);
-  if (moving && time && now - pace.last < 3000) {
+  if (moving && time && now - pace.last < 10000) {
     pace.mean += 0.2 * (now - pace.last - pace.mean); pace.frames++;
-    if (pace.mean > LONGEST_MS && pace.frames > 4 && pace.level < MOVING.length - 1) { pace.level++; pace.frames = 0; pace.mean = 25; }
+    if (pace.mean > LONGEST_MS && (pace.frames > 4 || pace.mean > 4 * LONGEST_MS) && pace.level < MOVING.length - 1) { pace.level = pace.mean > 4 * LONGEST_MS ? MOVING.length - 1 : pace.level + 1; pace.frames = 0; pace.mean = 25; }
     else if (pace.mean < SHORTEST_MS && pace.frames > 60 && pace.level > 0) { pace.level--; pace.frames = 0; pace.mean = 25; }
   }
   pace.last = now;
-  const [share, steps, cellPx] = moving ? MOVING[pace.level] : [1, 44, renderer.soft ? 3 : 2];
+  const [share, steps, cellPx] = moving ? MOVING[pace.level] : [1, renderer.soft ? 12 : 44, renderer.soft ? 4 : 2];
   const width = Math.max(1, canvas.clientWidth), height = Math.max(1, canvas.clientHeight), step = niceStep((data.depth[1] - data.depth[0]) / 24);
   if (renderer.turns) fit();
   const done = renderer.draw({ ...state, camera, lights: lights(), width, height, ratio: share * screen, shadows: state.shadows ? steps : 0, cellPx, exposure: 2 ** state.exposure, contour: step });
