@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lpcal.api.boards import find_boards as find_boards
     from lpcal.api.boards import locate_boards as locate_boards
     from lpcal.api.comparison import compare_calibrations as compare_calibrations
+    from lpcal.api.distance import calibrate_distance_sensor as calibrate_distance_sensor
     from lpcal.api.evaluation import evaluate as evaluate
     from lpcal.api.exchange import export_calibration as export_calibration
     from lpcal.api.exchange import register_format as register_format
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
     from lpcal.records.calibration import Light as Light
     from lpcal.records.calibration import Wing as Wing
     from lpcal.records.model import ObjectModel as ObjectModel
+    from lpcal.records.distance import DistanceSensor as DistanceSensor
     from lpcal.records.observations import Board as Board
     from lpcal.records.observations import PoseStream as PoseStream
     from lpcal.records.placement import Placement as Placement
@@ -66,6 +68,7 @@ if TYPE_CHECKING:
 _HOME = {
     "api.boards": ("calibrate_camera", "find_boards", "locate_boards"),
     "api.comparison": ("compare_calibrations",),
+    "api.distance": ("calibrate_distance_sensor",),
     "api.evaluation": ("evaluate",),
     "api.exchange": ("export_calibration", "register_format"),
     "api.files": (
@@ -94,6 +97,7 @@ _HOME = {
     "formats.exchange": ("ExchangeFormat",),
     "records.calibration": ("Calibration", "Camera", "HandEye", "Light", "Wing"),
     "records.model": ("ObjectModel",),
+    "records.distance": ("DistanceSensor",),
     "records.observations": ("Board", "PoseStream"),
     "records.placement": ("Placement",),
     "records.sensor": ("StatedSensor",),

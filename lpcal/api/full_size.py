@@ -51,6 +51,7 @@ class Asked:
     method: str
     integrator: str
     distance_m: float | None
+    reading_m: float | None = None
 
 
 type Solve = Callable[[RawCapture, Calibration, Asked, list[Solved]], Surface]

@@ -14,6 +14,7 @@ from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
 from lpcal.records import given
 from lpcal.records.calibration import Calibration, Camera, HandEye, Light, LightsSolution, Wing, Wings
+from lpcal.records.distance import DistanceSensor, SensorSolution
 from lpcal.records.light_field import LightField
 from lpcal.records.rig import LightSection, PanelSection, Rig, RigFile, Tolerance
 from lpcal.records.sensor import StatedSensor
@@ -116,6 +117,7 @@ def assemble_calibration(
     H_PC: npt.ArrayLike | HandEye | None = None,
     intensity_std: float = INTENSITY_STD,
     sensor: StatedSensor | None = None,
+    distance_sensor: DistanceSensor | SensorSolution | None = None,
     name: str = "rig",
 ) -> Calibration:
     """Assemble the calibration that `reconstruct` needs from what the stages found.
@@ -132,6 +134,8 @@ def assemble_calibration(
         Relative standard deviation of an intensity that nobody measured.
     sensor : StatedSensor, optional
         What is known of the sensor, where there is no camera to hold it.
+    distance_sensor : SensorSolution or DistanceSensor, optional
+        The panel's distance sensor, of `calibrate_distance_sensor`.
     name : str
         The calibration's name.
 
@@ -169,6 +173,7 @@ def assemble_calibration(
         warnings=lights.warnings,
         carries="camera" if handeye is None else handeye.carries,
         tracking=None if handeye is None else tracking_of(handeye, lights),
+        distance_sensor=distance_sensor.sensor if isinstance(distance_sensor, SensorSolution) else distance_sensor,
     )
 
 

@@ -27,7 +27,24 @@ def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
         *_misfit_said(surface),
         *_exchange_said(surface),
         *_mask_said(surface),
+        *_reading_said(surface),
     )
+
+
+def _reading_said(surface: Surface) -> tuple[str, ...]:
+    """What became of the distance sensor's reading."""
+    found = surface.figures.distance_reading
+    if found is None:
+        return ()
+    read_mm = 1e3 * found.reading_m
+    if not np.isfinite(found.expected_m):
+        return (f"the distance sensor's beam goes beside the object: its reading, {read_mm:.0f} mm, says nothing of it",)
+    if found.hit < IN_DOUBT:
+        return (
+            f"the distance sensor reads {read_mm:.0f} mm where the object would be at {1e3 * found.expected_m:.0f} mm by its light: it may "
+            "have met something else, and was left out",
+        )
+    return ()
 
 
 def distance_said(piece: dict[str, Any]) -> str:

@@ -46,6 +46,7 @@ from lpcal.surface.crop import Crop
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
 from lpcal.surface.mesh import Mesh
 from lpcal.surface.of_normals import check
+from lpcal.surface.reading import reading_of
 
 OUTSIDE = (0.5, 2.0)
 """Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
@@ -104,7 +105,7 @@ def reconstruct(
     integrator : str
         How a depth is made of such a method's normals: "lpcal", or one of `lpcal.methods.INTEGRATORS` ("poisson", "cosines").
     distance_m : float, optional
-        The median distance of the object along z of C, metres, where it is known.
+        The median distance of the object along z of C, metres, where it is known; it counts before what a distance sensor reads.
     exposure_s : ndarray (L,), optional
         Exposure times times gains of the images, seconds, where they differ.
     ambient_exposure_s : ndarray (K,), optional
@@ -161,7 +162,8 @@ def reconstruct(
         keep=keep,
         method=method,
         integrator=integrator,
-        distance_m=distance_m or raw.distance_m,
+        distance_m=distance_m or (None if calibration.distance_sensor is not None else raw.distance_m),
+        reading_m=raw.distance_m if calibration.distance_sensor is not None else None,
     )
     calibration = calibration.of_images(raw.size)
     saying = _saying(sensor, raw, calibration)
@@ -200,6 +202,7 @@ def _reconstructed(
     options = solver.Options(
         near=method == "near",
         distance_m=asked.distance_m,
+        reading=reading_of(calibration, asked.reading_m),
         mask=given if given is None or part is None else part.of(given),
         automatic_mask=automatic,
         hints=hints,

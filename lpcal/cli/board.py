@@ -47,7 +47,20 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
         "print it at 100 %, without fitting to the page, and measure the squares: what counts is what they measure",
     ]
     document = {"file": str(options.output), "board": yaml_line(board), "page": page.name, "page_mm": [page.width_mm, page.height_mm]}
-    return Outcome(summary, document | {"squares_mm": [width, height]})
+    return Outcome([*summary, *_sensor_poses(options)], document | {"squares_mm": [width, height]})
+
+
+def _sensor_poses(options: argparse.Namespace) -> list[str]:
+    """How to hold the board for the distance sensor, where the rig has one."""
+    from lpcal.formats.panel_yaml import read_rig
+    from lpcal.records.distance import CALIBRATING_POSES
+
+    try:
+        path = _panel(options.rig)
+        panel = None if path is None else read_rig(path).rig.panel
+    except InputError:  # the board was asked for by words, and needs no rig
+        return []
+    return [] if panel is None or panel.distance_sensor is None else [f"distance sensor: {CALIBRATING_POSES}"]
 
 
 def _board(options: argparse.Namespace) -> tuple[BoardSection, str]:

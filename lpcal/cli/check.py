@@ -33,6 +33,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """
     from lpcal.api.handeye_check import check_handeye
     from lpcal.formats.record_documents import document_of
+    from lpcal.pipeline.distance import look_at
     from lpcal.pipeline.handeye_inputs import gather, section_of, with_recording
 
     workspace = with_recording(open_workspace(options), options.recording)
@@ -47,9 +48,10 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         carries=section.carries,
         inverted=section.direction == "H_PO",
     )
-    wrong = [_in_the_rig(error, workspace) for error in found.wrong]
+    said, strange = look_at(workspace, given.boards)
+    wrong = [*(_in_the_rig(error, workspace) for error in found.wrong), *strange]
     notes = found.notes if given.stream is not None else (*found.notes[:1], *(("", note) for note in given.notes), *found.notes[1:])
-    lines = [f"{topic:<12}{text}" for topic, text in (*_boards(given), *notes)]
+    lines = [f"{topic:<12}{text}" for topic, text in (*_boards(given), *notes, *said)]
     for error in wrong:
         lines += [f"WRONG       {line}" if k == 0 else f"          {line}" for k, line in enumerate(error.message().splitlines())]
     return Outcome(

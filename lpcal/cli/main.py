@@ -34,6 +34,7 @@ COMMANDS = {
     "check": "before any solve: what is wrong with these data, in words",
     "handeye": "handeye.yaml: the camera in the tracked body (H_PC), the board in the room (H_OB), the clock offset",
     "wings": "wings.yaml: every light as designed, with the covariance of the tolerances",
+    "distance": "distance.yaml: the beam of the panel's distance sensor, of its readings on the board",
     "refine": "lights.yaml: the lights refined from images of spheres, with the wings as prior",
     "export": "calibration.yaml, the product, from whatever stages are up to date",
     "reconstruct": "normals, albedo, depth and mesh of a capture",

@@ -4,7 +4,8 @@ Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field
 see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
 or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. ``tracking`` says
-how well it, the clocks and the tracked poses are known (`records.placement.Tracking`), which places captures in the room. A lobe is one of
+how well it, the clocks and the tracked poses are known (`records.placement.Tracking`), which places captures in the room.
+``distance_sensor`` is a beam in C (`formats.distance_document`). A lobe is one of
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `records.lobes`
@@ -30,6 +31,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
+from lpcal.formats.distance_document import beam_document, beam_from_document
 from lpcal.formats.document_numbers import covariance, rigid, sigma
 from lpcal.formats.documents import read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights
@@ -56,6 +58,8 @@ def write_calibration(path: Path, calibration: Calibration, provenance: Provenan
     if calibration.H_PC is not None:
         body[NAMES[calibration.carries][0]] = calibration.H_PC
         body |= {} if calibration.tracking is None else {"tracking": document_of(calibration.tracking)}
+    if calibration.distance_sensor is not None:
+        body["distance_sensor"] = beam_document(calibration.distance_sensor)
     body |= {
         "d_object_m": calibration.d_object_m,
         "focus_m": calibration.focus_C,
@@ -91,6 +95,7 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
         H_PC = rigid(document, NAMES[carries][0]) if document.get(NAMES[carries][0]) else None
         focus_C = _numbers(document, "focus_m", 3) if document.get("focus_m") else None
         tracking = _tracking(document)
+        beam = beam_from_document(document["distance_sensor"]) if document.get("distance_sensor") else None
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
             f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it anew with lpcal export"
@@ -99,7 +104,7 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
     if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
         raise InputError(f"d_object_m: {distance_m}", where=str(path), needed="metres above zero", todo="correct it, or write null")
     found = Calibration(str(document.get("name", path.stem)), lights, camera, H_PC, distance_m, focus_C, sensor, carries=carries)
-    found = replace(found, tracking=tracking)
+    found = replace(found, tracking=tracking, distance_sensor=beam)
     alone = document["lights"] == [] and focus_C is None and distance_m is None
     if alone and (camera is not None or H_PC is not None):
         return found

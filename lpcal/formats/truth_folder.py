@@ -30,6 +30,7 @@ Frames and transform names as in lpcal's README; metres, radians unless the key 
     leds.npz         NAME_position (n,3), NAME_axis (n,3), NAME_power (n,) in C, exponent: power max(cos,0)^exponent / r^2 summed
     points.csv       points of the working volume, in C
     field.csv        light,x_m,y_m,z_m,dx,dy,dz,irradiance at them
+    distance_sensor.yaml  position_C, direction_C (of the beam, m), bias_m, scale, noise_m: reading = bias + scale t + noise
     spheres.yaml     kind, centre_m (C), radius_m
     objects/NAME.npz normals, depth, albedo (the reflectance, 0 to 1), mask, component a pixel
     objects.yaml     material, note

@@ -12,9 +12,11 @@ from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import KIND, write_calibration
 from lpcal.formats.camera_yaml import read_camera
+from lpcal.formats.distance_document import read_distance
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.wings_yaml import read_wings
+from lpcal.pipeline import distance as distance_stage
 from lpcal.pipeline import refine as refine_stage
 from lpcal.pipeline import wings as wings_stage
 from lpcal.pipeline.refine import summary_of
@@ -43,6 +45,7 @@ def inputs(workspace: Workspace) -> list[Path]:
     found += [workspace.calib("handeye.yaml")] if wings_stage.tracks_panel(workspace) else []
     flat = None if has_lens(workspace) else flat_field_path(workspace)
     found += [flat] if flat is not None else []
+    found += [workspace.calib(distance_stage.FILE)] if distance_stage.wanted(workspace) else []
     if lights_known(workspace):
         found.append(workspace.calib(refine_stage.FILE if refine_stage.wanted(workspace) else wings_stage.FILE))
     return found
@@ -69,8 +72,10 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     camera = read_camera(workspace.calib("camera.yaml")) if has_lens(workspace) else None
     handeye = read_handeye(workspace.calib("handeye.yaml")) if wings_stage.tracks_panel(workspace) else None
     H_PC = None if handeye is None else handeye.H_PC
+    beam = read_distance(workspace.calib(distance_stage.FILE)) if distance_stage.wanted(workspace) else None
     if not lights_known(workspace):
         alone = Calibration(rig.name, (), camera, H_PC, carries="camera" if handeye is None else handeye.carries)
+        alone = replace(alone, distance_sensor=None if beam is None else beam.sensor)
         alone = alone if handeye is None else replace(alone, tracking=tracking_of(handeye))
         write_calibration(workspace.calib(FILE), alone, STAGE.provenance(workspace))
         progress("export", 1, 1)
@@ -78,7 +83,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
         return Outcome([said], {"file": str(workspace.calib(FILE))}, next_command="lpcal export --format all")
     solution = _lights(workspace)
     sensor = StatedSensor() if camera is not None else stated_in_panel(workspace)
-    calibration = assemble_calibration(solution, camera, H_PC=handeye, sensor=sensor, name=rig.name)
+    calibration = assemble_calibration(solution, camera, H_PC=handeye, sensor=sensor, distance_sensor=beam, name=rig.name)
     write_calibration(workspace.calib(FILE), calibration, STAGE.provenance(workspace))
     progress("export", 1, 1)
     return Outcome(

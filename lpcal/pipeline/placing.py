@@ -87,7 +87,7 @@ def placed(stated: StatedPlace, calibration: Calibration, recorded: Recorded, ca
             clock_offset_s=stated.clock_offset_s,
         )
     except DegenerateError as error:
-        return None, (UNPLACED.format(str(error).replace("\n", " ")),)
+        return None, (UNPLACED.format(f"{error.found}, {error.where}"),)
     return found, found.notes
 
 

@@ -140,7 +140,6 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     mask = read_mask(Path(wishes.mask), raw.size[::-1]) if wishes.mask not in MASK_WORDS else wishes.mask
     placement, said = placed(raw.place, calibration, wishes.recorded, task.capture)
     digest = made_from_of(task, calibration_path, wishes)
-    wishes = replace(wishes, distance_m=wishes.distance_m or raw.distance_m)
     calibration = calibration.of_images(raw.size)
     hints = wishes.hints
     made = partial(

@@ -5,6 +5,7 @@
 board images             -> K, H_CB        intrinsics
 mocap, H_CB              -> H_OP, H_PC     handeye
 wings, H_PC, H_PD        -> H_CL drawn     wings       H_CL = (H_OP H_PC)^-1 H_OL
+readings, H_CB, H_PC     -> its beam in C  distance
 spheres, H_CL drawn      -> H_CL           refine
 all of it                -> calibration    export
 captures, calibration    -> surfaces       reconstruct
@@ -33,11 +34,11 @@ from lpcal.formats.panel_yaml import FILE_NAME, read_rig
 from lpcal.formats.surface_files import read_surface
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.pipeline import export, handeye, intrinsics, reconstruct, refine, report, wings
+from lpcal.pipeline import distance, export, handeye, intrinsics, reconstruct, refine, report, wings
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
 
-CHAIN: tuple[Stage, ...] = (intrinsics.STAGE, handeye.STAGE, wings.STAGE, refine.STAGE, export.STAGE)
+CHAIN: tuple[Stage, ...] = (intrinsics.STAGE, handeye.STAGE, wings.STAGE, distance.STAGE, refine.STAGE, export.STAGE)
 
 
 def before(stage: Stage) -> tuple[Stage, ...]:

@@ -6,7 +6,7 @@ The simulator makes arrays, the formats write them; here they meet. The folder a
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from fnmatch import fnmatch
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -24,6 +24,7 @@ from lpcal.pipeline.simulate_session import write_session
 from lpcal.pipeline.simulated_captures import write_capture, write_image
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import Rig, RigFile
+from lpcal.simulate.beam import board_distances
 from lpcal.simulate.built import Built
 from lpcal.simulate.captures import object_captures, sphere_captures
 from lpcal.simulate.recipe import Recipe
@@ -59,6 +60,8 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
         write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
         write_text(draft / "truth" / "README.md", README)
         _write_camera(draft, rig, session.built, recipe)
+        if session.built.beam is not None:
+            write_yaml(draft / "truth" / "distance_sensor.yaml", asdict(session.built.beam))
         counts = _write_boards(draft, session, progress) if rig.board else {}
         counts |= _write_captures(draft, session, progress) if rig.lights else {}
         counts |= write_session(draft, session, item, stops, progress) if stops else {}
@@ -196,10 +199,21 @@ def _write_mocap(folder: Path, rig: Rig, built: Built, groups: Sequence[_BoardIm
     if mocap.file:
         tracked = (recording.t_s, recording.H_OP, recording.error_m, recording.markers_O)
         write_motive(folder / mocap.file, mocap.body or "LightPanel", *tracked, recipe.tracking.rate_hz)
-    for csv_name, group in zip(mocap.images, groups, strict=False):
+    for number, (csv_name, group) in enumerate(zip(mocap.images, groups, strict=False)):
         base = PurePosixPath(csv_name).parent
         rows = [f"{_relative(name, base)},{t:.6f}" for name, t in zip(group.names, group.t_camera_s, strict=True)]
-        write_text(folder / csv_name, "\n".join(["file,time_s", *rows]) + "\n")
+        read = _readings(rig, built, group, [recipe.seed, 13, number])
+        rows = [f"{row},{value:.4f}" for row, value in zip(rows, read, strict=True)] if len(read) else rows
+        write_text(folder / csv_name, "\n".join(["file,time_s" + ",distance_m" * bool(len(read)), *rows]) + "\n")
+
+
+def _readings(rig: Rig, built: Built, group: _BoardImages, seed: list[int]) -> Array:
+    """What the distance sensor reads at board images; (0,) without one."""
+    if built.beam is None or rig.board is None:
+        return np.zeros(0)
+    H_CB = se3.inv(built.H_PC) @ se3.inv(group.H_OP) @ built.H_OB
+    distances = board_distances(built.beam, rig.board, built.bow_m, built.twist, H_CB)
+    return built.beam.reads(distances, np.random.default_rng(seed))
 
 
 def _relative(name: str, base: PurePosixPath) -> str:

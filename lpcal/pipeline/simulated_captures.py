@@ -16,6 +16,8 @@ def write_capture(folder: Path, capture: Capture, more: Sequence[str] = ()) -> N
     for name, image in capture.images.items():
         write_image(folder / f"{name}.png", image)
     lines = [*more, f"exposure: {1e3 * capture.exposure_s:g} ms", "gain: 1.0"]
+    if capture.distance_m is not None:
+        lines.append(f"distance: {1e3 * capture.distance_m:.1f} mm")
     if capture.exposures_s:
         lines.append("exposures: {" + ", ".join(f"{name}: {1e3 * seconds:g} ms" for name, seconds in capture.exposures_s.items()) + "}")
     write_text(folder / "capture.yaml", "\n".join(lines) + "\n")

@@ -14,6 +14,7 @@ from lpcal.errors import InputError
 from lpcal.geometry import led_cluster, light_field, lobe_map, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
+from lpcal.records.distance import DistanceSensor
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
 from lpcal.records.lobes import LedCluster, Lobe
 from lpcal.records.observations import SphereKind
@@ -359,6 +360,7 @@ class Calibration(Shown):
     """What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room."""
     tracking: Tracking | None = None
     """How well H_PC, the clocks and the tracked poses are known: what it takes to place a capture in the room."""
+    distance_sensor: DistanceSensor | None = None
 
     def with_lights(self) -> Calibration:
         """The calibration, which holds lights.

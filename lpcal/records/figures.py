@@ -77,6 +77,19 @@ class Flatness:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DistanceRead:
+    """What the panel's distance sensor read at a capture, and what it did to the distance of the piece that its beam meets."""
+
+    reading_m: float
+    expected_m: float
+    """What it would read of the piece as the light alone has it; NaN where the beam meets none."""
+    hit: float
+    """Odds that the reading is of that piece: it may be of the wall behind."""
+    moved: float
+    """By how much the piece was moved, relative."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class SurfaceFigures:
     """Counts and residuals; None where a figure does not apply."""
 
@@ -102,5 +115,6 @@ class SurfaceFigures:
     normals_away_from_the_camera: float | None = None
     """Share of a normal map's pixels that look away from the camera."""
     ambient: AmbientFound | None = None
+    distance_reading: DistanceRead | None = None
     convention: ConventionFound | None = None
     """How a normal map from elsewhere was read."""

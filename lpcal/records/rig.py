@@ -186,6 +186,27 @@ class Tolerance(Section):
     intensity: Share = 0.10
 
 
+class DistanceSensorSection(Section):
+    """``panel.distance_sensor:`` the beam of the panel's distance sensor in D as designed, and what its readings scatter by, 1 sigma."""
+
+    position: tuple[Length, Length, Length]
+    direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    noise: Size = 0.003
+    tolerance: tuple[Size, Turn] = (0.005, 0.03490658503988659)
+    readings: Names = []
+    """Csv files of readings beside those of ``mocap.images``, which may have a column distance_m themselves."""
+
+    _readings = field_validator("readings", mode="before")(_as_list)
+
+    @field_validator("direction")
+    @classmethod
+    def _of_some_length(cls, value: tuple[float, float, float]) -> tuple[float, float, float]:
+        if not 0 < math.hypot(*value) < math.inf:
+            msg = "a direction without length; x, y, z in D, such as [0, 0, 1]"
+            raise ValueError(msg)
+        return value
+
+
 class PanelSection(Section):
     """``panel:`` the mechanics that all wings share."""
 
@@ -194,6 +215,7 @@ class PanelSection(Section):
     blob: Length
     markers: dict[str, tuple[Length, Length, Length]] | None = None
     camera: CameraMount = CameraMount()
+    distance_sensor: DistanceSensorSection | None = None
     tolerance: Tolerance = Tolerance()
 
 

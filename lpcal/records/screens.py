@@ -17,6 +17,7 @@ from lpcal.geometry.arrays import Array, Image
 from lpcal.records import pictures
 from lpcal.records.calibration import NAMES, Calibration, Camera, CameraSolution, HandEye, Light, LightsSolution, ViewVerdict, Wings
 from lpcal.records.digits import fine, fine_each
+from lpcal.records.distance import DistanceSensor, SensorSolution
 from lpcal.records.evaluation import Evaluation
 from lpcal.records.light_field import LightField
 from lpcal.records.observations import BoardPoses, BoardViews, PoseStream, RawCapture, SphereView
@@ -104,6 +105,28 @@ def _camera_solution(found: CameraSolution) -> RecordScreen:
     size = found.camera.image_size
     rows = [*_lens(found.camera), ("corners", f"{fine(found.corner_sigma_px, 3)} px, one sigma"), *_views(found.views)]
     return RecordScreen(f"CameraSolution {found.camera.model}, {size[0]} x {size[1]} px, by {found.solver}", rows, found.warnings)
+
+
+@screen_of.register
+def _beam(found: DistanceSensor) -> RecordScreen:
+    std = np.sqrt(np.abs(np.diag(found.covariance)))
+    rows = [
+        ("position", f"{_numbers(1e3 * found.position_C, 2)} +- {fine_each(1e3 * std[:3])} mm"),
+        ("direction", f"{_numbers(found.direction_C, 5)} +- {fine_each(np.degrees(std[3:6]), 3)} deg"),
+        (
+            "reading",
+            f"{1e3 * found.bias_m:+.2f}{_sigma(std[6], 1e3)} mm + {found.scale:.4f}{_sigma(std[7])} t, noise {1e3 * found.noise_m:.2f} mm",
+        ),
+    ]
+    return RecordScreen("DistanceSensor: a beam in C", rows)
+
+
+@screen_of.register
+def _sensor_solution(found: SensorSolution) -> RecordScreen:
+    left = [f"{one.name}: {one.why}" for one in found.readings if not one.used]
+    rows = [*screen_of(found.sensor).rows, ("readings", f"{found.evidence.readings_used} of {len(found.readings)} used")]
+    rows += [("residual", f"{1e3 * found.evidence.residual_rms_m:.2f} mm rms"), *(("left out", one) for one in left[:LISTED])]
+    return RecordScreen("SensorSolution: the distance sensor", rows, found.warnings)
 
 
 @screen_of.register

@@ -12,6 +12,7 @@ import numpy as np
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.rig import LightSection, PanelSection, Rig, Tolerance
+from lpcal.simulate.beam import TrueBeam, draw_beam
 from lpcal.simulate.leds import Blob, LedLight, apparent_source, build_blob
 from lpcal.simulate.lens import Lens
 from lpcal.simulate.recipe import Recipe
@@ -39,6 +40,8 @@ class Built:
     """Points (N, 3) of the working volume."""
     bow_m: float
     twist: float
+    beam: TrueBeam | None = None
+    """The panel's distance sensor."""
 
 
 def build(rig: Rig, recipe: Recipe) -> Built:
@@ -72,6 +75,7 @@ def build(rig: Rig, recipe: Recipe) -> Built:
         points_C=points_C,
         bow_m=0.0 if rig.board and rig.board.warp == "none" else recipe.bow_m,
         twist=recipe.twist,
+        beam=draw_beam(rig, H_CD, recipe.seed),
     )
 
 

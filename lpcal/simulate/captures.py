@@ -38,7 +38,7 @@ from lpcal.simulate.leds import LedLight
 from lpcal.simulate.lens import Lens
 from lpcal.simulate.picture import MIRROR, Rendered, render
 from lpcal.simulate.recipe import Recipe
-from lpcal.simulate.scene import DrawnScene
+from lpcal.simulate.scene import DrawnScene, meet
 from lpcal.simulate.sensor import Response, Stored, blur, splat
 
 EXPOSURE_S = 0.020
@@ -73,6 +73,8 @@ class Capture:
     exposures_s: dict[str, float]
     truth: Rendered
     note: str = ""
+    distance_m: float | None = None
+    """What the panel's distance sensor reads."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,16 @@ class Studio:
         H_CS = se3.transform(se3.rotation(rng.normal(0, [0.08, 0.25, 0.05])), x_C)
         wall_m = float(x_C[2] + 1.25 * shape.bound_m + rng.uniform(0.02, 0.05))
         scene = self._scene(shape, H_CS, wall_m, rng)
-        return self._develop(render(lens, scene), rng, shape.note)
+        found = self._develop(render(lens, scene), rng, shape.note)
+        return replace(found, distance_m=self._read(scene, [self.recipe.seed, 12, index]))
+
+    def _read(self, scene: DrawnScene, seed: list[int]) -> float | None:
+        """What the distance sensor reads of a scene."""
+        beam = self.built.beam
+        if beam is None:
+            return None
+        met = meet(scene, beam.position_C, beam.direction_C[None])
+        return float(beam.reads(np.linalg.norm(met.x_C - beam.position_C, axis=1), np.random.default_rng(seed))[0])
 
     def stop(self, shape: shapes.Shape, H_CS: Array, rng: np.random.Generator) -> Capture:
         """The capture of an object of a session, at H_CS (4, 4), a screen standing behind it."""

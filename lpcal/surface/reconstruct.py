@@ -33,6 +33,7 @@ from lpcal.surface import (
     normals,
     pieces,
     planes,
+    reading,
     rounds,
     shadow_anchor,
     sight,
@@ -46,6 +47,7 @@ from lpcal.surface.basins import Basins
 from lpcal.surface.exchanged import exchanged
 from lpcal.surface.integrate import Grid
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
+from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 from lpcal.surface.sight import Sight
 
@@ -67,6 +69,8 @@ class Options:
     """Whether lights act from where they are, where that is known; else all as distant ones."""
     distance_m: float | None = None
     """Median depth of the largest piece, where the user knows it."""
+    reading: Reading | None = None
+    """What the panel's distance sensor reads, where the user does not know better."""
     mask: Mask | None = None
     automatic_mask: bool = True
     """Whether the object is to be found where no mask is given; else every pixel counts."""
@@ -141,12 +145,14 @@ def reconstruct(
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
         basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
+        basins_found = reading.weighed(basins_found, options.reading, calibration.camera)
         u = basins_found.start(object_mask) if basins_found is not None else u
     del maps  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = _surface(radiance, scene, state, rays_C, basins_found)
+    state, surface = _read(radiance, scene, state, surface, basins_found, options, calibration.camera)
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
     figures = _with_mask(surface.figures, background if wanted else None, radiance, options)
     intensities = None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))
@@ -195,6 +201,23 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
         inside = label == one
         again.u[inside] += np.mean(u[inside]) - np.mean(again.u[inside])
     return replace(again, weight=state.weight, anchors=anchors)  # the same weights: the same labels
+
+
+def _read(
+    radiance: Radiance, scene: Scene, state: State, surface: Surface, found: Basins | None, options: Options, camera: Camera | None
+) -> tuple[State, Surface]:
+    """The state and its surface with the piece that the distance sensor's beam meets put where light and reading together say."""
+    if options.reading is None or options.distance_m is not None or camera is None:
+        return state, surface
+    said = reading.of_surface(surface, camera, options.reading)
+    if said.word is not None and abs(said.word.log_scale) > reading.WORTH_A_ROUND:
+        inside = surface.component[scene.seen.mask] == said.label
+        u = state.u + said.word.log_scale * inside
+        again = rounds.once(scene, u, state)
+        again.u[:] = u  # the reading is in it already
+        state = replace(again, weight=state.weight, anchors=state.anchors)
+        surface = _surface(radiance, scene, state, surface.rays_C, found)
+    return state, reading.said_of(surface, said)
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:

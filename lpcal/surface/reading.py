@@ -1,0 +1,209 @@
+r"""What a reading of the distance sensor says of the object's distance: where the beam meets the surface, or that it met something else.
+
+Symbols: beam o + t u, a piece with depths z(pixel) that may be scaled about the camera by s; at t the beam is over a pixel p(t) and meets
+the scaled piece once its own depth passes the piece's::
+
+    s(t) = (o_z + t u_z) / z(p(t))          t_hit(s) = the first t at which s(t) >= s
+
+With r the reading as a distance along the beam, of variance v, and near light's word N(log s; 0, w^2), the two together on a grid of s::
+
+    p(s) ~ N(log s; 0, w^2) [ h N(r; t_hit(s), v) + (1 - h) / REACH ]
+
+with h = HITS where the beam meets the piece at all, else 0: it may have met the wall, a thread, nothing. So a reading that no distance of
+the object explains moves nothing, and says so; where light allows several distances, each is weighed by the sum of its p(s).
+Source: the mixture of a rangefinder's hit and its random readings, Thrun, Burgard & Fox, Probabilistic Robotics (2005), chapter 6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.distance import DistanceSensor
+from lpcal.records.figures import DistanceRead
+from lpcal.records.surface import Surface
+from lpcal.surface.basins import INDEPENDENT, Basins
+
+HITS = 0.9
+"""Odds that a beam that would meet the object is read there: specks of gloss and edges take the rest."""
+REACH_M = 2.0
+"""Metres over which a reading of something else may lie: as far as such sensors reach."""
+NEAREST_M, STEP_M = 0.05, 5e-4
+"""Where along the beam the search begins, and its steps: less than a pixel's width on the object."""
+WIDEST = 0.9
+"""Largest log of the scale that is asked."""
+SIGMAS, NODES = 6.0, 1201
+"""How far the grid of scales reaches in standard deviations, and its nodes."""
+SETTLED = 0.5
+"""Odds of a hit from which the reading is an anchor; below, it is of something else."""
+COARSE_STD = 0.02
+"""Relative standard deviation of a distance that rounds in coarse pixels come to, within its basin."""
+LEAST_LIGHT_STD = 5e-4
+"""Relative, of near light's word on a distance: what is stated as surer is not believed to be."""
+SLOPE = 0.5
+"""Tangent of the usual angle between the object's surface and the beam's cross-section: by it an error across the beam acts along it."""
+WORTH_A_ROUND = 2e-4
+"""Relative move of a piece from which its normals are found anew."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What the distance sensor read at a capture."""
+
+    sensor: DistanceSensor
+    reading_m: float
+
+
+def reading_of(calibration: Calibration, reading_m: float | None) -> Reading | None:
+    """A reading of the calibration's sensor, where there are both."""
+    sensor = calibration.distance_sensor
+    return None if sensor is None or reading_m is None else Reading(sensor, reading_m)
+
+
+@dataclass(frozen=True)
+class DepthMap:
+    """Depths (H, W) in pixels of `factor` camera pixels, NaN outside the piece."""
+
+    depth: Array
+    camera: Camera
+    factor: int = 1
+
+    def depth_at(self, x_C: Array) -> Array:
+        """Depth (T,) at the pixels over which points (T, 3) lie; NaN where there is no object."""
+        pixel = np.rint((self.camera.project(x_C) - (self.factor - 1) / 2) / self.factor)
+        height, width = self.depth.shape
+        inside = np.isfinite(pixel).all(axis=1) & (pixel >= 0).all(axis=1) & (pixel[:, 0] < width) & (pixel[:, 1] < height)
+        column, row = np.where(inside[:, None], pixel, 0).astype(int).T
+        return np.where(inside, self.depth[row, column], np.nan)
+
+
+@dataclass(frozen=True)
+class Word:
+    """What a reading and near light say together of a piece's scale."""
+
+    log_scale: float
+    """By which the piece moves."""
+    std: float
+    """Relative, of its distance then."""
+    hit: float
+    """Odds that the reading is of this piece."""
+    log_evidence: float
+    """Of the reading, under this piece's distances; to be compared with that under others."""
+    expected_m: float
+    """Distance along the beam at which the piece stands as near light has it; NaN where the beam misses it."""
+
+
+def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
+    """Weigh a reading against near light's word, of relative standard deviation `light_std`, on a piece's distance."""
+    sensor, reading_m = read.sensor, read.reading_m
+    r, std_m = sensor.along_m(reading_m), float(np.hypot(sensor.std_m(reading_m), SLOPE * sensor.across_std_m(reading_m)))
+    half = min(max(SIGMAS * light_std, 1e-3), WIDEST)
+    grid = np.linspace(-half, half, NODES)
+    t_hit = _hits(sensor, piece, np.exp(grid))
+    light = np.exp(-0.5 * (grid / light_std) ** 2)
+    light = light / light.sum()
+    meets = np.isfinite(t_hit)
+    near = np.where(meets, np.nan_to_num(np.exp(-0.5 * ((r - np.where(meets, t_hit, 0.0)) / std_m) ** 2)), 0.0)
+    met = HITS * near / (std_m * np.sqrt(2 * np.pi))
+    elsewhere = np.where(meets, 1 - HITS, 1.0) / REACH_M
+    evidence, hit = float(np.sum(light * (met + elsewhere))), float(np.sum(light * met))
+    odds = hit / evidence
+    weight = light * met / max(hit, 1e-300)
+    mean = float(np.sum(weight * grid)) if odds > SETTLED else 0.0
+    std = float(np.sqrt(np.sum(weight * (grid - mean) ** 2))) if odds > SETTLED else light_std
+    middle = float(t_hit[NODES // 2])
+    return Word(mean, std if std > 0 else light_std, odds, float(np.log(evidence)), middle)
+
+
+def weighed(found: Basins | None, read: Reading | None, camera: Camera | None) -> Basins | None:
+    """The ends of a search for the distance, what the reading says of each counted in its cost, the cheapest first."""
+    if found is None or read is None or camera is None:
+        return found
+    costs = np.array([end.cost for end in found.ends])
+    unit = max(float(costs.min()) / found.lights, 1.0) / INDEPENDENT
+    said = []
+    for end in found.ends:
+        depth = np.full(found.mask.shape, np.nan)
+        depth[found.mask] = np.exp(end.u)
+        said.append(word(read, DepthMap(depth, camera, found.factor), COARSE_STD).log_evidence)
+    less = 2 * unit * (max(said) - np.array(said))
+    ends = [replace(end, cost=float(end.cost + more)) for end, more in zip(found.ends, less, strict=True)]
+    return replace(found, ends=tuple(sorted(ends, key=lambda end: end.cost)))
+
+
+@dataclass(frozen=True)
+class Said:
+    """What a reading says of a surface: of which piece (0: of none), and what."""
+
+    label: int
+    word: Word | None
+    figures: DistanceRead
+
+
+def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
+    """Weigh a reading against the surface that the light tells, at the piece that the beam meets."""
+    whole = DepthMap(np.asarray(surface.depth, float), camera)
+    label = _label_met(read, whole, surface.component)
+    if label == 0:
+        return Said(0, None, DistanceRead(reading_m=read.reading_m, expected_m=float("nan"), hit=0.0, moved=0.0))
+    light_std = next(one.scale_std for one in surface.components if one.label == label)
+    depth = np.where(surface.component == label, surface.depth, np.nan)
+    found = word(read, DepthMap(depth, camera), max(light_std, LEAST_LIGHT_STD))
+    expected_m = read.sensor.bias_m + read.sensor.scale * found.expected_m
+    moved = float(np.expm1(found.log_scale))
+    return Said(label, found, DistanceRead(reading_m=read.reading_m, expected_m=expected_m, hit=found.hit, moved=moved))
+
+
+def said_of(surface: Surface, said: Said) -> Surface:
+    """The surface with the distance of its piece as sure as the reading makes it, and what was read among its figures."""
+    figures = replace(surface.figures, distance_reading=said.figures)
+    if said.word is None or said.word.hit <= SETTLED:
+        return replace(surface, figures=figures)
+    std = said.word.std
+    pieces = tuple(
+        replace(one, scale_std=std, alternatives=tuple(replace(other, scale_std=std) for other in one.alternatives))
+        if one.label == said.label
+        else one
+        for one in surface.components
+    )
+    return replace(surface, components=pieces, figures=figures)
+
+
+def _label_met(read: Reading, piece: DepthMap, label: Labels) -> int:
+    """The piece (of labels (H, W)) that the beam meets first, or that it passes nearest to where it is read; 0 where it meets none."""
+    sensor = read.sensor
+    t = np.arange(NEAREST_M, REACH_M, STEP_M)
+    x_C = sensor.position_C + t[:, None] * sensor.direction_C
+    depth = piece.depth_at(x_C)
+    behind: Mask = np.isfinite(depth) & (x_C[:, 2] >= depth)
+    if not behind.any():
+        over = np.isfinite(depth)
+        if not over.any():
+            return 0
+        first = int(np.flatnonzero(over)[np.argmin(np.abs(t[over] - sensor.along_m(read.reading_m)))])
+    else:
+        first = int(np.argmax(behind))
+    pixel = np.rint(piece.camera.project(x_C[first][None])[0]).astype(int)
+    return int(label[pixel[1], pixel[0]])
+
+
+def _hits(sensor: DistanceSensor, piece: DepthMap, scales: Array) -> Array:
+    """Distance along the beam (S,) at which it first meets the piece scaled by each of some increasing scales; NaN where it does not."""
+    t = np.arange(NEAREST_M, REACH_M, STEP_M)
+    x_C = sensor.position_C + t[:, None] * sensor.direction_C
+    ahead = x_C[:, 2] > 0.01
+    t, x_C = t[ahead], x_C[ahead]
+    if not len(t):
+        return np.full(len(scales), np.nan)
+    share = x_C[:, 2] / piece.depth_at(x_C)
+    passed = np.maximum.accumulate(np.where(np.isfinite(share), share, -np.inf))
+    first = np.searchsorted(passed, scales, side="left")
+    found = np.where(first < len(t), t[np.minimum(first, len(t) - 1)], np.nan)
+    begins = first == np.argmax(
+        np.isfinite(share)
+    )  # the beam comes over the object already behind it: it met its rim, or the side not seen
+    behind = begins & (share[np.minimum(first, len(t) - 1)] > 1.02 * scales)
+    return np.asarray(np.where(behind, np.nan, found))
