@@ -17,9 +17,9 @@ from lpcal.geometry.pose_track import TrackPoses, poses_at
 from lpcal.records import given
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import MarkerStream, PoseStream
-from lpcal.records.placement import POSE_STD, Placement, Tracking
+from lpcal.records.placement import POSE_STD, Placement, RoomTracking
 
-NOT_MEASURED = Tracking(np.zeros((6, 6)))
+NOT_MEASURED = RoomTracking(np.zeros((6, 6)))
 """What is taken where nothing is known of the tracking: the transform that a calibration holds as exact, clocks that agree."""
 NOISE_UNKNOWN = "the calibration does not say how well H_PC and the tracked poses are known: taken as {} mm and {} deg, H_PC as exact"
 
@@ -104,7 +104,7 @@ def _tracked(
     poses: PoseStream | MarkerStream | None,
     t_camera_s: float | None,
     object_poses: PoseStream | MarkerStream | None,
-    tracking: Tracking,
+    tracking: RoomTracking,
 ) -> Placement:
     """The camera by what recordings say."""
     known = calibration.H_PC
@@ -127,7 +127,7 @@ def _tracked(
     return replace(carried_camera(panel, known, tracking, carrier, body), t_camera_s=t_camera_s, source=source)
 
 
-def _at(poses: PoseStream | MarkerStream, t_s: Array, tracking: Tracking) -> tuple[BodyAt, str]:
+def _at(poses: PoseStream | MarkerStream, t_s: Array, tracking: RoomTracking) -> tuple[BodyAt, str]:
     """A body at a time (1,) of its recording, and whether it moved then, in words."""
     stream = body_of(poses) if isinstance(poses, MarkerStream) else given.stream(poses, "poses")
     found: TrackPoses = poses_at(track_of(stream), t_s)

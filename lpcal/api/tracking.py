@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lpcal.records.calibration import HandEye, LightsSolution
-from lpcal.records.placement import Tracking
+from lpcal.records.placement import RoomTracking
 
 
-def tracking_of(handeye: HandEye, lights: LightsSolution | None = None) -> Tracking:
+def tracking_of(handeye: HandEye, lights: LightsSolution | None = None) -> RoomTracking:
     """What the solve knows of the tracking; the covariance is the lights' where they were refined jointly with H_PC."""
     joint = None if lights is None else lights.H_PC_covariance
-    found = Tracking(
+    found = RoomTracking(
         H_PC_covariance=handeye.H_PC_covariance if joint is None else joint,
         clock_offset_s=handeye.clock_offset_s,
         clock_offset_std_s=handeye.clock_offset_std_s,

@@ -19,7 +19,7 @@ import numpy as np
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import TrackPoses
-from lpcal.records.placement import Placement, Tracking
+from lpcal.records.placement import Placement, RoomTracking
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class BodyAt:
         return BodyAt(pose, pose_covariance(pose, position_std_m, turn_std_rad), np.zeros(6))
 
     @staticmethod
-    def measured(found: TrackPoses, row: int, tracking: Tracking) -> BodyAt:
+    def measured(found: TrackPoses, row: int, tracking: RoomTracking) -> BodyAt:
         """A body at one of a track's times."""
         pose, velocity = found.H[row], found.velocity[row]
         over_usual = np.ones(6) if found.variance is None else found.variance[row]
@@ -58,12 +58,12 @@ def pose_covariance(pose: Array, position_std_m: float, turn_std_rad: float, ove
     return np.asarray(T @ np.diag(variance) @ T.T)
 
 
-def carried_camera(panel: BodyAt, H_PC: Array, tracking: Tracking, carrier: BodyAt | None = None, body: str | None = None) -> Placement:
+def carried_camera(panel: BodyAt, H_PC: Array, tracking: RoomTracking, carrier: BodyAt | None = None, body: str | None = None) -> Placement:
     """The camera that a tracked body carries: in the room, or in the body `carrier` (called `body`) that the object rides on."""
     return _placed(panel.pose @ H_PC, panel.covariance, se3.adjoint(panel.pose), -panel.twist, tracking, carrier, body)
 
 
-def fixed_camera(pose: Array, tracking: Tracking, carrier: BodyAt | None = None, body: str | None = None) -> Placement:
+def fixed_camera(pose: Array, tracking: RoomTracking, carrier: BodyAt | None = None, body: str | None = None) -> Placement:
     """The camera that stands still in the room, at a pose (4, 4): there, or in the body `carrier` that the object rides on."""
     return _placed(pose, np.zeros((6, 6)), np.eye(6), np.zeros(6), tracking, carrier, body)
 
@@ -75,7 +75,7 @@ def stated_camera(pose: Array, position_std_m: float, turn_std_rad: float) -> Pl
 
 
 def _placed(
-    pose: Array, noise: Array, by_handeye: Array, by_clock: Array, tracking: Tracking, carrier: BodyAt | None, body: str | None
+    pose: Array, noise: Array, by_handeye: Array, by_clock: Array, tracking: RoomTracking, carrier: BodyAt | None, body: str | None
 ) -> Placement:
     """The camera at a pose (4, 4) in the room, seen from the body that the object rides on where there is one."""
     if carrier is not None:

@@ -4,7 +4,7 @@ Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field
 see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
 or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. ``tracking`` says
-how well it, the clocks and the tracked poses are known (`records.placement.Tracking`), which places captures in the room.
+how well it, the clocks and the tracked poses are known (`records.placement.RoomTracking`), which places captures in the room.
 ``distance_sensor`` is a beam in C (`formats.distance_document`). A lobe is one of
 
 - ``{kind: isotropic}``
@@ -41,7 +41,7 @@ from lpcal.formats.sensor_document import KEYS, sensor_document, sensor_from_doc
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import TABLED
 from lpcal.records.calibration import NAMES, Calibration, Camera, Carries, LedCluster, Light, Lobe
-from lpcal.records.placement import Tracking
+from lpcal.records.placement import RoomTracking
 from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 
@@ -111,12 +111,12 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
     return sane_lights(found, str(path))
 
 
-def _tracking(document: dict[str, Any]) -> Tracking | None:
+def _tracking(document: dict[str, Any]) -> RoomTracking | None:
     """What is known of the tracking, where the file says it."""
     entry = document.get("tracking")
     if not entry:
         return None
-    return replace(record_of(Tracking, entry), H_PC_covariance=covariance(entry, "H_PC_covariance", 6))
+    return replace(record_of(RoomTracking, entry), H_PC_covariance=covariance(entry, "H_PC_covariance", 6))
 
 
 def _camera(entry: Any, path: Path) -> tuple[Camera | None, StatedSensor]:

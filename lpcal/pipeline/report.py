@@ -13,6 +13,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_yaml import read_camera_solution
+from lpcal.formats.distance_document import read_distance
 from lpcal.formats.documents import read_provenance, sha256
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.h_op_yaml import read_h_op
@@ -63,6 +64,7 @@ def _report(workspace: Workspace, surfaces: Sequence[SurfaceReport]) -> RigRepor
         body_poses=None if found is None else found.by_image(),
         handeye=read("handeye", read_handeye),
         wings=read("wings", read_wings),
+        distance=read("distance", read_distance),
         lights=read("lights", read_lights),
         calibration=read("calibration", read_calibration),
         provenance={kind: read_provenance(path, kind) for kind, path in paths.items()},

@@ -18,7 +18,7 @@ from lpcal.records.distance import DistanceSensor
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
 from lpcal.records.lobes import LedCluster, Lobe
 from lpcal.records.observations import SphereKind
-from lpcal.records.placement import Tracking
+from lpcal.records.placement import RoomTracking
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
@@ -358,7 +358,7 @@ class Calibration(Shown):
     """The format of another system that it was read from."""
     carries: Carries = "camera"
     """What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room."""
-    tracking: Tracking | None = None
+    tracking: RoomTracking | None = None
     """How well H_PC, the clocks and the tracked poses are known: what it takes to place a capture in the room."""
     distance_sensor: DistanceSensor | None = None
 

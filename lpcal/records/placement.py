@@ -45,7 +45,7 @@ class StatedPlace:
 
 
 @dataclass(frozen=True)
-class Tracking:
+class RoomTracking:
     """What is known of the tracking beside H_PC, as the hand-eye solve found it; NaN and None where it did not.
 
     The offset holds as in `HandEye`: ``t_camera = t_mocap + offset + drift (t_camera - middle)``.

@@ -25,7 +25,7 @@ from lpcal.records.evidence import LightsEvidence
 from lpcal.records.provenance import Provenance
 from lpcal.report import charts
 from lpcal.report.chain_sections import Drawing, camera_section, handeye_section
-from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport, designed
+from lpcal.report.rig_report import KINDS, OPTIONAL, RigReport, SurfaceReport, designed
 from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.scene_items import LineScene
 from lpcal.report.surface_sections import surface_section
@@ -65,7 +65,7 @@ def render(report: RigReport, stamp: str = "") -> str:
             room=_script(room_scene(report)),
             surfaces=[surface_section(surface) for surface in report.surfaces],
             provenance=[_provenance(kind, report.provenance[kind]) for kind in KINDS if kind in report.provenance],
-            missing=[kind for kind in KINDS if kind not in report.provenance],
+            missing=[kind for kind in KINDS if kind not in report.provenance and kind != OPTIONAL],
         )
     )
 

@@ -11,12 +11,15 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, HandEye, Light, LightsSolution, Wings
 from lpcal.records.camera import Camera, CameraSolution
+from lpcal.records.distance import SensorSolution
 from lpcal.records.observations import BoardPoses
 from lpcal.records.provenance import Provenance
 from lpcal.records.surface import SurfaceSummary
 
-KINDS = ("camera", "H_CB", "H_OP", "handeye", "wings", "lights", "calibration")
+KINDS = ("camera", "H_CB", "H_OP", "handeye", "wings", "distance", "lights", "calibration")
 """The documents in the chain's order, by kind; each stands in calib/ under its kind's name."""
+OPTIONAL = "distance"
+"""The document that most rigs do not have: it is not missed."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,8 @@ class RigReport:
     """H_OP.yaml: the tracked body (4, 4) at each image that has a pose to trust."""
     handeye: HandEye | None = None
     wings: Wings | None = None
+    distance: SensorSolution | None = None
+    """The panel's distance sensor."""
     lights: LightsSolution | None = None
     calibration: Calibration | None = None
     provenance: Mapping[str, Provenance] = field(default_factory=dict)

@@ -14,7 +14,8 @@ import numpy as np
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye, Wings
 from lpcal.records.camera import ViewVerdict
-from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas
+from lpcal.records.distance import SensorSolution
+from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas, sigmas
 from lpcal.report.wording import fixed, number, plural, sigma_of, with_sigma
 
 GATES = {
@@ -23,6 +24,7 @@ GATES = {
     "handeye_deg": (0.08, 0.25),
     "handeye_mm": (0.8, 2.5),
     "clock_ms": (0.5, 2.0),
+    "distance_mm": (5.0, 15.0),
     "light_deg": (0.2, 0.6),
     "light_percent": (2.0, 5.0),
     "surface_percent": (1.0, 3.0),
@@ -33,6 +35,7 @@ GATE_WORDS = {
     "handeye_deg": "hand-eye ≤ {:g}°",
     "handeye_mm": "hand-eye ≤ {:g} mm",
     "clock_ms": "clock ≤ {:g} ms",
+    "distance_mm": "point ≤ {:g} mm",
     "light_deg": "direction ≤ {:g}°",
     "light_percent": "intensity ≤ {:g} %",
     "surface_percent": "distance ≤ {:g} %",
@@ -64,7 +67,7 @@ class Verdict:
 
 def verdicts(report: RigReport) -> list[Verdict]:
     """A line a stage, in the chain's order."""
-    lines = [_camera(report), _handeye(report.handeye), _wings(report.wings), _lights(report)]
+    lines = [_camera(report), _handeye(report.handeye), _wings(report.wings), *_distance(report.distance), _lights(report)]
     return [*lines, *(_surface(surface) for surface in report.surfaces)]
 
 
@@ -133,6 +136,20 @@ def _handeye(handeye: HandEye | None) -> Verdict:
     measured = ((turn, "handeye_deg"), (shift, "handeye_mm"), (clock if offset is not None else float("nan"), "clock_ms"))
     notes = handeye.warnings
     return Verdict("handeye", "Hand-eye", _lower(_level(*measured), notes), found, _gate(*measured), notes)
+
+
+def _distance(found: SensorSolution | None) -> list[Verdict]:
+    """The distance sensor's line, for a rig that has one."""
+    if found is None:
+        return []
+    sensor, evidence = found.sensor, found.evidence
+    at_m = sensor.bias_m + sensor.scale * float(np.mean(evidence.span_m))
+    known_mm = 1000 * float(np.hypot(np.sqrt(max(sensor.std_m(at_m) ** 2 - sensor.noise_m**2, 0.0)), sensor.across_std_m(at_m)))
+    said = f"{evidence.readings_used} of {plural(len(found.readings), 'reading')}, {fixed(1000 * evidence.residual_rms_m, 2, 'mm')} rms"
+    said += f"; bias {with_sigma(1000 * sensor.bias_m, 1000 * sigmas(sensor.covariance, 8)[6], 'mm')}"
+    said += f", the point that is meant within {fixed(known_mm, 1, 'mm')}"
+    measured = (known_mm, "distance_mm")
+    return [Verdict("distance", "Distance sensor", _lower(_level(measured), found.warnings), said, _gate(measured), found.warnings)]
 
 
 def _wings(wings: Wings | None) -> Verdict:

@@ -91,7 +91,7 @@ class Word:
     hit: float
     """Odds that the reading is of this piece."""
     log_evidence: float
-    """Of the reading, under this piece's distances; to be compared with that under others."""
+    """Log of how probable the reading is under this piece's distances; to be compared with that under others."""
     expected_m: float
     """Distance along the beam at which the piece stands as near light has it; NaN where the beam misses it."""
 

@@ -23,13 +23,13 @@ from lpcal.formats.calibration_yaml import read_calibration, write_calibration
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import placement_document, placement_from_document, stated_place_of
 from lpcal.formats.surface_files import read_surface
-from lpcal.records.placement import Tracking
+from lpcal.records.placement import RoomTracking
 from lpcal.records.provenance import Provenance
 
 H_PC = np.eye(4)
 H_PC[:3, :3] = Rotation.from_rotvec([0.3, -0.2, 0.9]).as_matrix()
 H_PC[:3, 3] = [0.012, -0.034, 0.056]
-TRACKING = Tracking(
+TRACKING = RoomTracking(
     H_PC_covariance=np.diag([2e-3, 1e-3, 3e-3, 4e-4, 3e-4, 5e-4]) ** 2,
     clock_offset_s=0.25,
     clock_offset_std_s=0.002,
