@@ -57,8 +57,8 @@ if TYPE_CHECKING:
     from lpcal.records.calibration import HandEye as HandEye
     from lpcal.records.calibration import Light as Light
     from lpcal.records.calibration import Wing as Wing
-    from lpcal.records.model import ObjectModel as ObjectModel
     from lpcal.records.distance import DistanceSensor as DistanceSensor
+    from lpcal.records.model import ObjectModel as ObjectModel
     from lpcal.records.observations import Board as Board
     from lpcal.records.observations import PoseStream as PoseStream
     from lpcal.records.placement import Placement as Placement

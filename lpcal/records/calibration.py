@@ -333,8 +333,10 @@ class Calibration(Shown):
         The format of another system that it was read from.
     carries : {"camera", "board"}
         What the tracked body carries; where it is the board, ``H_PC`` holds H_OC, the camera in the room.
-    tracking : Tracking, optional
+    tracking : RoomTracking, optional
         How well H_PC, the clocks and the tracked poses are known: what it takes to place a capture in the room.
+    distance_sensor : DistanceSensor, optional
+        The beam of the panel's distance sensor, in C.
 
     Examples
     --------
