@@ -335,7 +335,6 @@ class WrittenTransform(Section):
 
     position: tuple[Length, Length, Length]
     quaternion: tuple[float, float, float, float] | None = None
-    """x, y, z, w, as elsewhere in lpcal."""
     rotation_vector: tuple[Angle, Angle, Angle] | None = None
 
     @model_validator(mode="after")
@@ -372,20 +371,16 @@ class PoseSection(Section):
 
 
 class CaptureSection(Section):
-    """capture.yaml of a capture folder: exposures and gains, the lights to use, where it was taken, and the sensor."""
+    """capture.yaml: exposures, lights, the sensor; when (camera's clock) and whence it was taken, the body that the object rides on."""
 
     distance: Size | None = None
     """The panel's distance from the object, where a sensor says it."""
     time: Annotated[float, BeforeValidator(lambda value: parse(value, "time"))] | None = None
-    """When it was taken, on the camera's clock."""
     pose: PoseSection | None = None
-    """Where it was taken from, where no recording tells it."""
     body: str | None = None
-    """The tracked body that the object rides on."""
     mocap: str | None = None
     """The recording of this capture, relative to its folder, where it is another than the rig's."""
     clock_offset: Annotated[float, BeforeValidator(lambda value: parse(value, "time"))] | None = None
-    """``t_camera = t_mocap + clock_offset`` of that recording."""
     gamma: Curve | None = None
     black_level: Share | None = None
     white_level: Share | None = None
