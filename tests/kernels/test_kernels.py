@@ -252,3 +252,9 @@ def test_a_library_of_other_sources_is_not_loaded(tmp_path, monkeypatch):
     assert library._loaded.__wrapped__()
     (tmp_path / "relief.c").write_text("/* another */", encoding="utf-8")
     assert not library._loaded.__wrapped__()
+
+
+def test_a_system_of_nothing_is_solved_by_nothing():
+    grid = Grid.of(np.ones((6, 7), bool))
+    b, nothing = np.ones((42, 3)), np.zeros((42, 3))
+    assert not field._System.at(grid, b, np.tile(np.eye(3), (42, 1, 1))).solved(nothing, nothing).any()
