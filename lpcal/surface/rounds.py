@@ -39,6 +39,8 @@ SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
 SLANTED = 0.1
 """Least cosine in the prediction of an unhindered light's signal: a shadow may have turned the normals away from the light."""
+SPAN = float(np.log(4))
+"""Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
 FEWEST_PIXELS = 50
 
 
@@ -143,6 +145,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     if scene.near and shaped is None:
         own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
+    if scene.near:
+        middle = float(np.median(u))
+        u = np.clip(u, middle - SPAN, middle + SPAN)
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
