@@ -109,17 +109,6 @@ class Regions:
         edge = np.concatenate([self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1]])
         return np.asarray(np.bincount(edge, minlength=len(self.label)) / len(edge))
 
-    def across(self) -> Mask:
-        """(N,) whether a region reaches from the left side of the image to the right."""
-        every = np.arange(len(self.label))
-        return np.asarray(np.isin(every, self.number[:, 0]) & np.isin(every, self.number[:, -1]))
-
-    def thin(self) -> Array:
-        """(N,) share of a region's pixels that lie at its outline."""
-        edge = np.zeros(self.number.size)
-        edge[self.pixels.ravel()] = 1.0
-        return self.mean(edge.reshape(self.number.shape))
-
     def sides(self) -> Array:
         """(N,) sides of the image that a region touches, 0..4."""
         edges = (self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1])
@@ -188,8 +177,6 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
         "dark frame": np.full(len(plane), frame[regions.label == count + 1].sum()),
         "nothing beside": regions.outline(along, regions.label == count + 1),
         "two sides": (regions.sides() >= 2).astype(float),
-        "across, a plane": plane * regions.across(),
-        "thin": regions.thin(),
         "before": _before(pictures, regions, frame, plane > 0),
         "free beside, a plane": plane * regions.outline(along, regions.label == 0),
         "edge, a plane": plane * regions.outline(_step(pictures.room, regions), np.ones(len(plane))),
