@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import lpcal
+from lpcal.geometry import se3
 from lpcal.records import screens
 from lpcal.records.calibration import LightsSolution
 from lpcal.records.observations import SphereView
@@ -40,7 +41,14 @@ def records() -> dict[str, Shown]:
     stream = lpcal.PoseStream("wand", np.arange(9) / 90, np.tile(np.eye(4), (9, 1, 1)), np.full(9, np.nan), rate_hz=90)
     demo = lpcal.read_rig("demo")
     capture = lpcal.read_capture(demo.folder / "spheres/matte_0", list(demo.rig.lights))
+    steps = np.random.default_rng(2).normal(size=(9, 2, 3)) * [[0.03], [0.05]]
+    H_CB = np.concatenate([truth.H_CB, *(truth.H_CB @ se3.exp(np.r_[turn, move]) for move, turn in steps)])
+    n, p = H_CB[:, :3, 2], H_CB[:, :3, 3]
+    beam = lpcal.calibrate_distance_sensor(0.004 + np.sum(n * p, axis=1) / n[:, 2], H_CB, session.board, noise_m=0.0005)
     return {
+        "Placement": lpcal.Placement(np.eye(4), 1e-6 * np.eye(6)),
+        "DistanceSensor": beam.sensor,
+        "SensorSolution": beam,
         "Camera": CAMERA,
         "CameraSolution": lpcal.calibrate_camera(views, session.board, model="opencv4"),
         "HandEye": handeye,
@@ -68,6 +76,7 @@ def records() -> dict[str, Shown]:
 assert lpcal.simulate_rig
 assert lpcal.check_handeye
 assert lpcal.study
+assert lpcal.calibrate_distance_sensor
 assert lpcal.mesh  # loaded, so that their records are registered
 KINDS = [kind.__name__ for kind in screens.screen_of.registry if kind is not object]
 
