@@ -298,6 +298,7 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
         elif scene.near:
             model = state.anchors[int(one)].std if int(one) in state.anchors else _model_std(state, inside)
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
+            std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
         else:
             std = UNKNOWN_DISTANCE
         others = basins_found.others() if basins_found is not None and one == 1 else []

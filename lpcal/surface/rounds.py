@@ -30,6 +30,8 @@ ROUNDS = 9
 """Rounds at most: two settle the depth, the others what depends on it."""
 SETTLED = 2e-4
 """Median change of log depth under which a round is the last: a thirtieth of the least relative standard deviation of a distance."""
+SETTLED_PIECE = 2e-3
+"""The same of pieces that have broken off: a third of the least standard deviation."""
 GLOSS_ROUND = 1
 """From which on a gloss is looked for: at a false depth a lobe can fit by chance."""
 SHAPE_ROUND = 2
@@ -63,6 +65,8 @@ class State:
     """The reflectance that interreflection shows, and the shares of what is guessed of it; None before it is looked for."""
     anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
     """What a piece's shadow did to its distance, by label."""
+    moved: Array | None = None
+    """(P,) by how much the last round changed u; None before there are two."""
 
 
 @dataclass(frozen=True)
@@ -106,10 +110,20 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     for k in range(1, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
         before, state = state, once(scene, state.u, state, k)
-        if k > SHAPE_ROUND and np.median(np.abs(state.u - before.u)) < SETTLED:
+        state = replace(state, moved=np.abs(state.u - before.u))
+        if k > SHAPE_ROUND and _settled(scene, state):
             break
     progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
+
+
+def _settled(scene: Scene, state: State) -> bool:
+    """Whether the last round changed next to nothing, in the largest piece and in all others."""
+    if state.moved is None:
+        return False
+    label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
+    most = {int(one): SETTLED if one == 1 else SETTLED_PIECE for one in np.unique(label)}
+    return all(float(np.median(state.moved[label == one])) < limit for one, limit in most.items())
 
 
 def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State:
