@@ -40,8 +40,10 @@ def calibrate_distance_sensor(
         The board in the camera at each reading, of `locate_boards`; or H_CB, metres.
     board : Board, optional
         The board, where `boards` is an array: it tells where the board ends.
-    position, direction : ndarray (3,)
-        The beam as drawn, in D; in C without `H_CD`.
+    position : ndarray (3,)
+        Where the beam begins as drawn, metres in D; in C without `H_CD`.
+    direction : ndarray (3,)
+        Where it goes, likewise.
     noise_m : float
         One sigma of a reading.
     tolerance : (float, float)

@@ -47,8 +47,10 @@ class DistanceSensor(Shown):
         Where the beam begins, metres.
     direction_C : ndarray (3,)
         Where it goes, of length 1.
-    bias_m, scale : float
-        What the sensor reads at no distance, metres; readings a metre.
+    bias_m : float
+        What the sensor reads at no distance, metres.
+    scale : float
+        Metres that it reads for a metre.
     noise_m : float
         One sigma of a reading, metres.
     covariance : ndarray (8, 8)
