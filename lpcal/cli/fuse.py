@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lpcal.cli.rig_option import add_rig_option, length, open_workspace
 from lpcal.errors import InputError
 from lpcal.records.outcome import Outcome, Progress
 
+if TYPE_CHECKING:
+    from lpcal.pipeline.workspace import Workspace
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument(
-        "captures", nargs="*", type=Path, metavar="CAPTURE", help="surfaces, or captures that were reconstructed (default: all of the rig)"
+        "captures", nargs="*", type=Path, metavar="CAPTURE", help="surfaces, or captures that were reconstructed (default: all of the rig that are placed)"
     )
     parser.add_argument("-o", "--output", type=Path, default=Path("model"), metavar="DIR", help="where to (default: model)")
     parser.add_argument("--step", metavar="LENGTH", help="length of the model's edges, such as 0.5mm (default: 1.4 pixels on the object)")
@@ -29,5 +33,13 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     except InputError:
         if not options.captures or options.rig != Path():
             raise
-        rig = None
+        rig = _rig_above(options)
     return fuse_folders(options.captures, options.output, rig, length(options.step), progress)
+
+
+def _rig_above(options: argparse.Namespace) -> Workspace | None:
+    """The rig that the first capture lies in, where the command was started outside of it."""
+    try:
+        return open_workspace(options, options.captures[0])
+    except InputError:
+        return None

@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 60, in session/"
     )
     parser.add_argument(
-        "--object", default="bust", metavar="NAME", help="the object of the session: bust, pair, vase, knot, stone or beast"
+        "--object", metavar="NAME", help="the object of the session: bust (default), pair, vase, knot, stone or beast"
     )
 
 
@@ -40,7 +40,10 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         raise UsageError(f"--stations {options.stations} --seed {options.seed}", needed="at least 4 stations, a seed of 0 or more")
     if options.session and not 4 <= options.session <= 60:
         raise UsageError(f"--session {options.session}", needed="4 to 60 stops", todo="write for example 16")
-    if options.object not in SHAPES:
+    if options.object is not None and options.object not in SHAPES:
         raise UsageError(f"--object {options.object}", needed=f"one of {', '.join(SHAPES)}", todo="correct it")
+    if options.object is not None and not options.session:
+        raise UsageError("--object without --session", needed="the number of stops round the object", todo="write for example --session 16")
     recipe = Recipe(seed=options.seed, image_size=(int(size[1]), int(size[2])), stations=options.stations)
-    return simulate(read_rig(rig_file(options.rig)), options.folder, recipe, progress, stops=options.session, item=options.object)
+    rig = read_rig(rig_file(options.rig))
+    return simulate(rig, options.folder, recipe, progress, stops=options.session, item=options.object or "bust")

@@ -69,6 +69,7 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     """
     todo = "write it anew with lpcal export" if kind == "calibration" else "write it anew with the command that makes it"
     if not path.is_file():
+        todo = "run lpcal run: it makes it" if kind == "calibration" else todo
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
     try:
         document = load_yaml(path.read_text(encoding="utf-8"), path)

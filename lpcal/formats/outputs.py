@@ -78,7 +78,7 @@ def refuse_place(path: Path, kind: Kind, inputs: Iterable[Path] = ()) -> None:
     InputError
         Something stands there that lpcal did not write, or that is no file or folder, or it cannot be looked at.
     """
-    elsewhere = "name another place with -o"
+    elsewhere = "name another place" + " with -o" * (kind is not NEW)
     try:
         for given in inputs:
             if path.exists() and given.exists() and path.samefile(given):

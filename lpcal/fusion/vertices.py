@@ -53,6 +53,11 @@ class Evidence:
     row: Index
     column: Index
 
+    def of(self, some: Index) -> Evidence:
+        """What they say of some of the vertices."""
+        at = (slice(None), some)
+        return Evidence(self.weight[at], self.residual_m[at], self.normals_A[at], self.row[at], self.column[at])
+
 
 @dataclass(frozen=True)
 class Vertices:
@@ -84,12 +89,27 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
         n = normals_of(v, faces)
     v, n_photometric, normal_sigma = _with_detail(found, share, v, n, faces, footprint_m)
     found = evidence(state, v, n, GATE_PX * footprint_m)
+    seen, faces = rested(found, faces)
+    v, n, n_photometric, normal_sigma = v[seen], n[seen], n_photometric[seen], normal_sigma[seen]
+    found = found.of(seen)
     share = _robust(found, SCALE_PX * footprint_m)
     off = np.where(found.weight > 0, found.residual_m - np.einsum("nv,nv->v", share, found.residual_m), 0.0)
     count = (found.weight > 0).sum(axis=0)
     disagreement = np.sqrt(np.einsum("nv,nv->v", found.weight > 0, off**2) / np.maximum(count - 1, 1))
     sigma = _sigma(aligned, found, share, v, n, disagreement, footprint_m)
     return Vertices(Triangles(v, n, faces), n_photometric, _albedo(state, found), sigma, disagreement, count, normal_sigma)
+
+
+def rested(found: Evidence, faces: Index) -> tuple[Index, Index]:
+    """The vertices that stay, and the faces between them by their new numbers: a patch that no view puts there goes.
+
+    Between two views that contradict each other, both seen by no third, the volume's zero lies where neither sees a surface. A face with
+    one corner at least that a view sees stays, so that no pinholes open where a surface turns sharply.
+    """
+    rests = (found.weight > 0).any(axis=0)
+    stays = faces[rests[faces].any(axis=1)]
+    kept, numbers = np.unique(stays, return_inverse=True)
+    return kept, numbers.reshape(stays.shape)
 
 
 def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> Evidence:
@@ -179,7 +199,8 @@ def _sigma(aligned: Aligned, found: Evidence, share: Array, v: Array, n: Array, 
         places[k] = row @ aligned.covariance[np.ix_(used, used)] @ row
     _, nearest = cKDTree(v[some]).query(v)
     count = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
-    lone = np.where((found.weight > 0).sum(axis=0) < 2, aligned.sigma_m**2, 0.0)
+    by = (found.weight > 0).sum(axis=0)
+    lone = np.where(by < 2, aligned.sigma_m**2, 0.0) + np.where(by < 1, (GATE_PX * footprint_m) ** 2, 0.0)
     left = (disagreement**2 + (0.1 * footprint_m) ** 2) / np.maximum(count, 1)
     return np.asarray(np.sqrt(places[nearest] + left + lone))
 

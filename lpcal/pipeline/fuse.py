@@ -34,15 +34,23 @@ def fuse_folders(captures: Sequence[Path], target: Path, rig: Workspace | None, 
     for done, folder in enumerate(folders):
         surfaces.append(read_surface(folder))
         progress("surfaces read", done + 1, len(folders))
+    left = [] if captures else [surface.name for surface in surfaces if surface.placement is None]
+    if len(left) < len(surfaces):  # where none is placed, fuse says what is lacking
+        folders = [folder for folder, surface in zip(folders, surfaces, strict=True) if captures or surface.placement is not None]
+        surfaces = [surface for surface in surfaces if captures or surface.placement is not None]
     model = fuse(surfaces, name=target.resolve().name, step_m=step_m, progress=progress)
     seconds = time.process_time() - begun
     document = {"times_s": {"fuse": seconds}, "inputs": [str(folder) for folder in folders]}
     write_model(target, model, document)
-    return Outcome(_said(target, model), {**summary_of(model), **document, "folder": str(target)}, list(model.warnings))
+    said = _said(target, model) + [f"without {', '.join(left)}: not placed"] * bool(left)
+    said.append(f"written to {target}: {', '.join(sorted(path.name for path in target.iterdir()))}")
+    return Outcome(said, {**summary_of(model), **document, "folder": str(target)}, list(model.warnings))
 
 
 def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Path]:
     """The folders of surfaces that are named, or of the captures that are named; without a name all surfaces of the rig.
+
+    A capture that is an object of the rig has its surface under its key, any other under its folder's name.
 
     Raises
     ------
@@ -58,10 +66,14 @@ def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Pat
             raise InputError("no surface", where=str(held), needed="what lpcal reconstruct writes", todo="run lpcal reconstruct first")
         return found
     found = []
+    keys = {(rig.folder / entry).resolve(): key for key, entry in rig.rig_file.rig.objects.items()} if rig is not None else {}
     for capture in captures:
-        place = next((path for path in (capture, held / capture.resolve().name) if (path / MAPS_FILE).is_file()), None)
+        name = keys.get(capture.resolve(), capture.resolve().name)
+        place = next((path for path in (capture, held / name) if (path / MAPS_FILE).is_file()), None)
         if place is None:
-            todo = "run lpcal reconstruct on it first"
+            holds = capture.is_dir() and any(capture.glob("*/capture.yaml"))
+            todo = f"name what is in it: {capture}/*" if holds else "run lpcal reconstruct on it first"
+            todo = todo if capture.exists() else "correct the path"
             raise InputError(
                 "no surface there", where=str(capture), needed="a surface's folder, or a capture that was reconstructed", todo=todo
             )

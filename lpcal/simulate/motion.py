@@ -105,16 +105,19 @@ def plan(built: Built, corners: tuple[int, int], square_m: tuple[float, float], 
 
 
 def round_trip(stops: Array, recipe: Recipe, rng: np.random.Generator) -> Session:
-    """The panel carried from stop to stop, H_OP (N, 4, 4), resting at each; the camera looks in the middle of every rest."""
+    """A robot carries the panel from stop to stop, H_OP (N, 4, 4), resting at each; the camera looks in the middle of every rest."""
     travel = [_travel_s(stops[k], stops[k + 1]) for k in range(len(stops) - 1)]
     starts = LEAD_IN_S + np.concatenate([[0.0], np.cumsum(np.array(travel) + recipe.dwell_s)])
     dwells = np.stack([starts, starts + recipe.dwell_s], axis=1)
     t_s = np.arange(0, float(dwells[-1, 1]) + LEAD_IN_S, 1 / recipe.tracking.rate_hz)
     stop_s = dwells.mean(axis=1)
-    motion = _Motion(stops, dwells, stops[-1:], 0.0, _tremor(rng))
+    rate, phase, amplitude = _tremor(rng)
+    motion = _Motion(stops, dwells, stops[-1:], 0.0, (rate, phase, ROBOT_STEADINESS * amplitude))
     return Session(t_s, motion(t_s), stop_s, motion(stop_s), np.zeros(0), np.zeros((0, 4, 4)), dwells)
 
 
+ROBOT_STEADINESS = 0.1
+"""Share of a hand's tremor that a robot's arm has at rest: some 0.015 mm, below what a motion-capture system sees."""
 SWEEP_OVERSAMPLING = 10
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -30,3 +31,27 @@ def test_fuse(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: p
     assert main(["fuse", "nothing", "-o", "model"]) == 3
     assert "no surface there" in capsys.readouterr().err
     assert main(["fuse", names[0], names[0], "-o", "model"]) == 6
+
+
+def test_where_a_user_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Started above the rig; without names, beside surfaces that are not placed; an object by its key; a folder of captures is explained."""
+    rig = tmp_path / "rig"
+    rig.mkdir()
+    (rig / "panel.yaml").write_text("lpcal: 1\nname: rig\nobjects: {cup: objects/2024-05-01}\n", encoding="utf-8")
+    views = scene().surfaces[:3]
+    for name, surface in zip(["stop_00", "stop_01", "cup"], views, strict=True):
+        library.write_surface(rig / "surfaces" / name, surface)
+    for capture in ("session/stop_00", "session/stop_01", "objects/2024-05-01"):
+        (rig / capture).mkdir(parents=True)
+        (rig / capture / "capture.yaml").touch()
+    monkeypatch.chdir(tmp_path)
+    assert main(["fuse", "rig/session/stop_00", "rig/session/stop_01", "rig/objects/2024-05-01", "-o", "model", "--step", "6mm"]) == 0
+    assert "written to model: mesh.glb" in capsys.readouterr().out
+    assert main(["fuse", "rig/session", "-o", "model"]) == 3
+    assert "name what is in it: rig/session/*" in capsys.readouterr().err
+    assert main(["fuse", "rig/sesion/stop_00", "-o", "model"]) == 3
+    assert "correct the path" in capsys.readouterr().err
+    library.write_surface(rig / "surfaces" / "relief", replace(views[0], name="relief", placement=None))
+    monkeypatch.chdir(rig)
+    assert main(["fuse", "--step", "6mm"]) == 0
+    assert "without relief: not placed" in capsys.readouterr().out

@@ -109,6 +109,8 @@ def test_a_file_that_is_not_what_was_asked_for(tmp_path: Path, content: bytes, t
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"camera\.yaml: no such file\n  needed: a camera file that lpcal wrote"):
         read_document(tmp_path / "camera.yaml", "camera")
+    with pytest.raises(InputError, match=r"do: run lpcal run"):
+        read_document(tmp_path / "calibration.yaml", "calibration")
 
 
 def test_sha256_is_the_files(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from lpcal.formats.model_files import read_model, write_model
 from lpcal.fusion import align
 from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.model import shared_covariance
+from lpcal.fusion.vertices import Evidence, rested
 from lpcal.fusion.views import fitted, view_of
 from lpcal.geometry import se3
 from lpcal.records.model import ObjectModel
@@ -63,6 +64,19 @@ def test_what_is_not_seen_stays_open() -> None:
     model = lpcal.fuse(found.surfaces[:3])
     assert model.figures.area_m2 < 0.8 * whole.figures.area_m2
     assert model.figures.open_edges_m > 0.1
+
+
+def test_a_patch_that_no_view_puts_there_goes() -> None:
+    """Of a strip of triangles whose far end no view sees, those with a corner that one does see stay."""
+    faces = np.array([[k, k + 1, k + 2] for k in range(6)])
+    weight = np.zeros((2, 8))
+    weight[1, :3] = 1.0
+    nothing = np.zeros((2, 8), np.intp)
+    found = Evidence(weight, weight, np.zeros((2, 8, 3)), nothing, nothing)
+    kept, left = rested(found, faces)
+    assert kept.tolist() == [0, 1, 2, 3, 4]
+    assert left.tolist() == [[0, 1, 2], [1, 2, 3], [2, 3, 4]]
+    assert found.of(kept).weight.sum(axis=0).tolist() == [1, 1, 1, 0, 0]
 
 
 @pytest.mark.parametrize("kind", ["shifted", "flipped", "other object"])
