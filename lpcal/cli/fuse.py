@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument(
-        "captures", nargs="*", type=Path, metavar="CAPTURE", help="surfaces, or captures that were reconstructed (default: all of the rig that are placed)"
+        "captures",
+        nargs="*",
+        type=Path,
+        metavar="CAPTURE",
+        help="surfaces, or captures that were reconstructed (default: all of the rig that are placed)",
     )
     parser.add_argument("-o", "--output", type=Path, default=Path("model"), metavar="DIR", help="where to (default: model)")
     parser.add_argument("--step", metavar="LENGTH", help="length of the model's edges, such as 0.5mm (default: 1.4 pixels on the object)")
@@ -29,7 +33,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     from lpcal.pipeline.fuse import fuse_folders
 
     try:
-        rig = open_workspace(options)
+        rig: Workspace | None = open_workspace(options)
     except InputError:
         if not options.captures or options.rig != Path():
             raise

@@ -20,9 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 60, in session/"
     )
-    parser.add_argument(
-        "--object", metavar="NAME", help="the object of the session: bust (default), pair, vase, knot, stone or beast"
-    )
+    parser.add_argument("--object", metavar="NAME", help="the object of the session: bust (default), pair, vase, knot, stone or beast")
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:

@@ -34,7 +34,7 @@ def test_fuse(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: p
 
 
 def test_where_a_user_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Started above the rig; without names, beside surfaces that are not placed; an object by its key; a folder of captures is explained."""
+    """Started above the rig; without names, beside surfaces that are not placed; an object by its key; a folder of captures."""
     rig = tmp_path / "rig"
     rig.mkdir()
     (rig / "panel.yaml").write_text("lpcal: 1\nname: rig\nobjects: {cup: objects/2024-05-01}\n", encoding="utf-8")

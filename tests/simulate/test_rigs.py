@@ -154,11 +154,13 @@ def test_a_folder_that_is_there_is_left_alone(lpcal, tmp_path):
     code, _, err = lpcal("simulate", tmp_path)
     assert code == 3
     assert "is there already" in err
-    assert "-o" not in err
+    assert "with -o" not in err
     assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
 
 
-@pytest.mark.parametrize("words", [["--size", "640"], ["--size", "20x20"], ["--stations", "2"], ["--seed", "-1"], ["--object", "knot"], ["--session", "3"]])
+@pytest.mark.parametrize(
+    "words", [["--size", "640"], ["--size", "20x20"], ["--stations", "2"], ["--seed", "-1"], ["--object", "knot"], ["--session", "3"]]
+)
 def test_words_out_of_range_are_usage(lpcal, tmp_path, words):
     code, _, err = lpcal("simulate", *words, tmp_path / "out")
     assert code == 2
