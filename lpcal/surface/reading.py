@@ -24,7 +24,7 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
-from lpcal.records.surface import Surface
+from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface.basins import INDEPENDENT, Basins
 
 HITS = 0.9
@@ -37,6 +37,8 @@ WIDEST = 0.9
 """Largest log of the scale that is asked."""
 SIGMAS, NODES = 6.0, 1201
 """How far the grid of scales reaches in standard deviations, and its nodes."""
+LIKELY = 0.02
+"""Odds under which another distance is not stated any more."""
 SETTLED = 0.5
 """Odds of a hit from which the reading is an anchor; below, it is of something else."""
 COARSE_STD = 0.02
@@ -141,6 +143,8 @@ class Said:
     label: int
     word: Word | None
     figures: DistanceRead
+    alternatives: tuple[Alternative, ...] = ()
+    """The other distances of that piece that the reading leaves likely."""
 
 
 def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
@@ -149,12 +153,29 @@ def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
     label = _label_met(read, whole, surface.component)
     if label == 0:
         return Said(0, None, DistanceRead(reading_m=read.reading_m, expected_m=float("nan"), hit=0.0, moved=0.0))
-    light_std = next(one.scale_std for one in surface.components if one.label == label)
+    own = next(one for one in surface.components if one.label == label)
+    light_std = own.scale_std
     depth = np.where(surface.component == label, surface.depth, np.nan)
     found = word(read, DepthMap(depth, camera), max(light_std, LEAST_LIGHT_STD))
     expected_m = read.sensor.bias_m + read.sensor.scale * found.expected_m
     moved = float(np.expm1(found.log_scale))
-    return Said(label, found, DistanceRead(reading_m=read.reading_m, expected_m=expected_m, hit=found.hit, moved=moved))
+    figures = DistanceRead(reading_m=read.reading_m, expected_m=expected_m, hit=found.hit, moved=moved)
+    return Said(label, found, figures, _left(own, read, DepthMap(depth, camera), found))
+
+
+def _left(own: Component, read: Reading, piece: DepthMap, found: Word) -> tuple[Alternative, ...]:
+    """A piece's other distances with their odds by light and reading, those without LIKELY odds left out."""
+    ratios = [1.0, *(other.mean_depth_m / own.mean_depth_m for other in own.alternatives)]
+    odds = np.array([max(1 - sum(other.odds for other in own.alternatives), 1e-3), *(other.odds for other in own.alternatives)])
+    here = np.exp(found.log_scale)
+    said = [
+        word(read, replace(piece, depth=piece.depth * ratio * (here if k == 0 else 1.0)), LEAST_LIGHT_STD) for k, ratio in enumerate(ratios)
+    ]
+    evidence = np.array([one.log_evidence for one in said])
+    odds = odds * np.exp(evidence - evidence.max())
+    odds = odds / odds.sum()
+    both = zip(own.alternatives, odds[1:], strict=True)
+    return tuple(replace(other, odds=float(one)) for other, one in both if one > LIKELY)
 
 
 def said_of(surface: Surface, said: Said) -> Surface:
@@ -164,7 +185,7 @@ def said_of(surface: Surface, said: Said) -> Surface:
         return replace(surface, figures=figures)
     std = said.word.std
     pieces = tuple(
-        replace(one, scale_std=std, alternatives=tuple(replace(other, scale_std=std) for other in one.alternatives))
+        replace(one, scale_std=std, alternatives=tuple(replace(other, scale_std=std) for other in said.alternatives))
         if one.label == said.label
         else one
         for one in surface.components

@@ -87,20 +87,23 @@ def test_a_capture_with_a_reading_is_put_where_it_says_and_says_so(capture):
 
 
 @pytest.mark.slow
-def test_a_capture_whose_light_allows_several_distances_is_settled_by_a_reading():
+@pytest.mark.parametrize("noise", [0.002, 0.004])
+def test_a_capture_whose_light_allows_several_distances_is_settled_by_a_reading(noise):
     """Three lights: rounds from seven distances end at seven, four of them within the odds; a reading of 5 mm noise picks the right one."""
     lights = calibration(lights=3)
-    raw = draw(Scene(), lights, noise=0.004)
+    raw = draw(Scene(), lights, noise=noise)
     mask, depth, _ = truth(Scene())
-    alone = lpcal.reconstruct(raw, lights, mask=mask)
-    assert alone.components[0].alternatives
+    try:
+        assert lpcal.reconstruct(raw, lights, mask=mask).components[0].alternatives
+    except lpcal.errors.DegenerateError as error:
+        if "outside the working volume" not in str(error):
+            raise
     t = np.arange(0.2, 0.5, 1e-4)
     x = SENSOR.position_C + t[:, None] * U
     pixel = np.rint(CAMERA.project(x)).astype(int)
     t_hit = t[np.argmax(mask[pixel[:, 1], pixel[:, 0]] & (x[:, 2] >= depth[pixel[:, 1], pixel[:, 0]]))]
     read = float(0.004 + 1.01 * t_hit + 0.005 * np.random.default_rng(1).standard_normal())
     settled = lpcal.reconstruct(replace(raw, distance_m=read), replace(lights, distance_sensor=SENSOR), mask=mask)
-    both = [float(np.median(np.abs(one.depth - depth)[one.mask & mask])) for one in (alone, settled)]
-    assert both[1] < 0.012, both
-    assert both[1] < both[0] / 3, both
-    assert settled.components[0].alternatives == ()
+    piece = settled.components[0]
+    assert float(np.median(np.abs(settled.depth - depth)[settled.mask & mask])) < 2.5 * piece.scale_std * piece.mean_depth_m < 0.015
+    assert piece.alternatives == ()
