@@ -236,7 +236,7 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_ambient, 6, "the ambient image is brighter than the lit ones"),
         (spoil_calibration_nan, 3, "light L0"),
         (spoil_calibration_cut, 3, "calibration.yaml"),
-        (spoil_calibration_gone, 3, "lpcal export"),
+        (spoil_calibration_gone, 3, "lpcal run"),
         (spoil_lights_in_a_row, 4, "one plane"),
     ],
 )
