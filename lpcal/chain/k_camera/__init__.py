@@ -124,7 +124,7 @@ def _chosen_and_solved(
 def pick_solver(solver: str, board: Board) -> tuple[str, Solver, str | None]:
     """The solver's name and function, and what is missing where it is not mrcal, in words."""
     unequal = board.square_m[0] != board.square_m[1]
-    absent = find_spec("mrcal") is None
+    absent = any(find_spec(name) is None for name in ("mrcal", "numpysane"))  # mrcal installed without what it imports is none
     if solver == "mrcal" or (solver == "auto" and not unequal and not absent):
         from lpcal.chain.k_camera import mrcal_solver
 
