@@ -17,7 +17,7 @@ import numpy as np
 from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.documents import plain
-from lpcal.formats.outputs import Kind, whole
+from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.record_documents import document_of, record_of
 from lpcal.records.model import ModelFigures, ObjectModel, ViewInModel
 from lpcal.surface.mesh import DISPLAY_GAMMA
@@ -29,17 +29,7 @@ SINGLE = {"normals_A", "albedo", "sigma_m", "normal_sigma_rad", "disagreement_m"
 """Arrays that are stored in single precision: the vertices need more, a room being large."""
 
 
-def _is_ours(folder: Path) -> bool:
-    """Whether a folder is a model that lpcal wrote, with nothing of anybody else's in it."""
-    try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):
-        return False
-    strangers = {path.name for path in folder.iterdir()} - FILES
-    return isinstance(summary, dict) and summary.get("kind") == "model" and not strangers
-
-
-MODEL = Kind("the folder of a model", _is_ours)
+MODEL = summarised("the folder of a model", "model", SUMMARY, FILES)
 """A model's folder, as an output: one may replace another."""
 
 

@@ -15,13 +15,14 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import json
 import os
 import shutil
 import signal
 import stat
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -53,6 +54,20 @@ class Kind:
 
 NEW = Kind("a new file")
 """An output that never replaces anything."""
+
+
+def summarised(name: str, kind: str, summary: str, files: Collection[str]) -> Kind:
+    """A kind of folder whose summary (JSON) says `kind`, with no file in it but those that lpcal writes there."""
+
+    def is_ours(folder: Path) -> bool:
+        try:
+            said = json.loads((folder / summary).read_text(encoding="utf-8"))
+        except (FileNotFoundError, ValueError):
+            return False
+        strangers = {path.name for path in folder.iterdir()} - set(files)
+        return isinstance(said, dict) and said.get("kind") == kind and not strangers
+
+    return Kind(name, is_ours)
 
 
 def marked(name: str, *marks: str) -> Kind:

@@ -20,7 +20,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
-from lpcal.formats.outputs import Kind, whole
+from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.placement_document import placement_document, placement_from_document
 from lpcal.formats.reading import reading
 from lpcal.formats.record_documents import document_of, record_of
@@ -52,17 +52,7 @@ OUTPUTS = {
 FILES = {*OUTPUTS.values(), SUMMARY}
 
 
-def _is_ours(folder: Path) -> bool:
-    """Whether a folder is a surface that lpcal wrote, with nothing of anybody else's in it."""
-    try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):
-        return False
-    strangers = {path.name for path in folder.iterdir()} - FILES
-    return isinstance(summary, dict) and summary.get("kind") == "surface" and not strangers
-
-
-SURFACE = Kind("the folder of a surface", _is_ours)
+SURFACE = summarised("the folder of a surface", "surface", SUMMARY, FILES)
 """A surface's folder, as an output: one may replace another."""
 LINEAR = "_COLOR_0"
 """What trimesh calls an attribute of glTF that it does not know: so colours travel as floats, not in 8 bit, too few for linear ones."""

@@ -54,14 +54,14 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
 
     def cost(level: float) -> float:
-        each = _explained(replace(few, room=RoomPrior(share, level * unit)), table, distance_m, drawn=False)[0]
+        each = _explained(few, RoomPrior(share, level * unit), table, distance_m, drawn=False)[0]
         return each * len(few.rays_C) / SHARED + (np.log(level / USUAL) / USUAL_STD) ** 2
 
     level, level_std = _cheapest(cost)
     room = RoomPrior(share, unit * level)
-    image = replace(coarse_of(maps, rays_C, factor_of(maps, PIXELS)), room=room)
-    _, A = _explained(image, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
-    return RoomLight(room, level_std, _spread(A, image, maps))
+    image = coarse_of(maps, rays_C, factor_of(maps, PIXELS))
+    _, A = _explained(image, room, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
+    return RoomLight(room, level_std, _spread(A, image, share, maps))
 
 
 def taken_away(maps: Grey, light: RoomLight) -> Grey:
@@ -70,31 +70,30 @@ def taken_away(maps: Grey, light: RoomLight) -> Grey:
     return Grey(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
 
 
-def _explained(image: Coarse, table: LightTable, distance_m: float, *, drawn: bool) -> tuple[float, Array]:
+def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: float, *, drawn: bool) -> tuple[float, Array]:
     """Mean cost of the coarse pixels at the room's level, and A (P,) by each pixel's best explanation.
 
     `drawn`: by that which a map of labels drawn with few boundaries gives it, of all depths; else by half the depths.
     """
-    if image.room is None:
-        raise ValueError("an image with a room's light in it")
+    image = replace(seen, room=room)
     everywhere = np.arange(len(image.rays_C))
     swept = flats.sweep(image, table, distance_m, 1 if drawn else 2)
-    least = room_samples.lowest(image.signal, image.usable, image.room)
-    over = image.signal - image.room.share[:, None] * least > LIT_SIGMAS * image.sigma
+    least = room_samples.lowest(image.signal, image.usable, room)
+    over = image.signal - room.share[:, None] * least > LIT_SIGMAS * image.sigma
     lit = np.sum(over & image.usable, axis=0) >= 2
     best = np.argmin(swept.cost, axis=0)
     B, doubt = table.at(swept.u[best], everywhere)
-    free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, room)
     costs, ambient = [free.cost + layers.FREE_PRICE], [free.A]
     for q in flats.find(image, table, swept, lit, distance_m):
         m, doubt = flats.white(q, image.rays_C, everywhere, table)
-        cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, image.room)
+        cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, room)
         costs.append(cost)
         ambient.append(A)
     E = np.linalg.norm(table.at(np.full(len(everywhere), np.log(distance_m)), everywhere)[0], axis=2)
     bright = np.max(np.where(image.usable, image.signal / np.maximum(E, 1e-12), 0.0), axis=0)
     around = np.median(bright[lit]) * E if lit.any() else np.median(bright) * E
-    cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, image.room)
+    cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, room)
     every, each = np.stack([*costs, cost]), np.stack([*ambient, A])
     for _ in range(RARE_ROUNDS):
         part = np.bincount(np.argmin(every, axis=0), minlength=len(every)) / every.shape[1]
@@ -123,9 +122,8 @@ def _cheapest(cost: Callable[[float], float]) -> tuple[float, float]:
     return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))), float(1 / np.sqrt(curve))
 
 
-def _spread(A: Array, image: Coarse, maps: Grey) -> Image:
+def _spread(A: Array, image: Coarse, share: Array, maps: Grey) -> Image:
     """A (P,) of coarse pixels carried to full size by the brightness of their pixels, and no more than their least sample."""
-    share = np.asarray(image.room.share if image.room else np.ones(len(maps.signal)))
     part = np.clip(A / np.maximum(_bright(image.signal, share), 1e-12), 0, 1)
     row, column = (
         np.minimum(np.arange(side) // image.factor, most - 1) for side, most in zip(maps.signal.shape[1:], image.shape, strict=True)

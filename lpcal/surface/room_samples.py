@@ -49,7 +49,7 @@ class Free:
     """(P,)."""
     cost: Array
     """(P,)."""
-    told: Array
+    information: Array
     """(P,) how much of the prior's variance of A the samples take away, 0..1."""
 
 
@@ -166,7 +166,7 @@ def _second(values: Array, usable: Mask) -> Array:
 
 
 def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array, Array]:
-    """b (P, 3), A (P,) and `Free.told` (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3) and |b| (P,) are of the step before."""
+    """b (P, 3), A (P,), `Free.information` (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3), |b| (P,) are the last step's."""
     share = np.broadcast_to(room.share[:, None, None], (*signal.shape, 1))
     M = np.concatenate([B + room.level * share * n, share], axis=2)
     weighted = M * weight[..., None]

@@ -122,8 +122,7 @@ def _settled(scene: Scene, state: State) -> bool:
     if state.moved is None:
         return False
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    most = {int(one): SETTLED if one == 1 else SETTLED_PIECE for one in np.unique(label)}
-    return all(float(np.median(state.moved[label == one])) < limit for one, limit in most.items())
+    return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
 def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State:

@@ -143,7 +143,7 @@ def test_samples_tell_their_room_light(shadowed):
     sigma, usable = np.full((8, 200), 1e-3), np.ones((8, 200), bool)
     found = room_samples.free(signal, sigma, usable, B, none, known)
     assert np.median(np.abs(found.A / A - 1)) < 0.04
-    assert np.median(found.told) > 0.6
+    assert np.median(found.information) > 0.6
     assert np.median(np.linalg.norm(found.b - b, axis=1) / np.linalg.norm(b, axis=1)) < 0.02
     assert np.median(found.cost) < 8 + 5 * shadowed
     white = m / np.linalg.norm(b, axis=1)
