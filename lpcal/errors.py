@@ -19,6 +19,8 @@ from __future__ import annotations
 
 from functools import partial
 
+__all__ = ["ConvergenceError", "DegenerateError", "DisagreementError", "InputError", "LpcalError", "UsageError"]
+
 MOST_CHARACTERS = 590
 """Characters of a message: with the program's name before it, 600, which is what a reader takes in at once."""
 ELLIPSIS = " ... "
@@ -37,6 +39,15 @@ class LpcalError(Exception):
         What would have been right.
     todo : str
         What to do about it.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> try:
+    ...     lpcal.integrate(np.zeros((4, 4)))
+    ... except lpcal.errors.LpcalError as error:
+    ...     print(type(error).__name__, error.exit_code, error.found, sep="; ")
+    InputError; 3; an array of (4, 4)
     """
 
     exit_code = 1

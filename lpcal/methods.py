@@ -16,8 +16,10 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
 
+__all__ = ["INTEGRATORS", "NORMALS", "Integrator", "NormalsMethod", "Shading", "cosines", "l1", "least_squares", "poisson", "ranks"]
+
 FEWEST = 3
-"""Samples of a pixel below which its normal is not told: it has three unknowns."""
+"""Fewest samples that determine a pixel's normal: it has three unknowns."""
 IRLS_ROUNDS, IRLS_FLOOR = 12, 1e-3
 """Rounds of the reweighting, and the residual, as a share of the pixel's brightest sample, under which weights grow no more."""
 DARKEST, BRIGHTEST = 0.3, 0.1
@@ -38,6 +40,14 @@ class Shading:
         Not saturated.
     B : ndarray (L, P, 3)
         Unit direction in C to the light times its irradiance there.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> B = np.array([[0, 0, -1.0], [0.6, 0, -0.8], [0, 0.6, -0.8]])[:, None]  # three lights, one pixel
+    >>> shading = lpcal.methods.Shading(B @ [0, 0, -0.5], np.full((3, 1), 0.01), np.ones((3, 1), bool), B)
+    >>> shading.signal.ravel()
+    array([0.5, 0.4, 0.4])
     """
 
     signal: Array
@@ -47,7 +57,7 @@ class Shading:
 
 
 type NormalsMethod = Callable[[Shading], Array]
-"""b (P, 3) of the shading: its direction is the normal in C, towards the camera, its length the albedo; NaN where it is not told."""
+"""b (P, 3) of the shading: its direction is the normal in C, towards the camera, its length the albedo; NaN where it is not determined."""
 type Integrator = Callable[[Array, Mask], Array]
 """u (H, W) from slopes (H, W, 2), ``du/dx`` and ``du/dy`` a pixel, within a mask (H, W): depth in pixels, or log depth with a camera."""
 
@@ -63,7 +73,15 @@ def least_squares(shading: Shading) -> Array:
     Returns
     -------
     ndarray (P, 3)
-        b, the normal in C times the albedo; NaN where three samples do not tell it.
+        b, the normal in C times the albedo; NaN where three samples do not determine it.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> B = np.array([[0, 0, -1.0], [0.6, 0, -0.8], [0, 0.6, -0.8], [-0.6, 0, -0.8]])[:, None]  # one pixel
+    >>> shading = lpcal.methods.Shading(B @ [0, 0, -0.5], np.full((4, 1), 0.01), np.ones((4, 1), bool), B)
+    >>> lpcal.methods.least_squares(shading).round(3) + 0.0
+    array([[ 0. ,  0. , -0.5]])
     """
     return _weighted(shading, shading.usable.astype(float))
 
@@ -79,7 +97,15 @@ def l1(shading: Shading) -> Array:
     Returns
     -------
     ndarray (P, 3)
-        b, the normal in C times the albedo; NaN where three samples do not tell it.
+        b, the normal in C times the albedo; NaN where three samples do not determine it.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> B = np.array([[0, 0, -1.0], [0.6, 0, -0.8], [0, 0.6, -0.8], [-0.6, 0, -0.8]])[:, None]  # one pixel
+    >>> shading = lpcal.methods.Shading(B @ [0, 0, -0.5], np.full((4, 1), 0.01), np.ones((4, 1), bool), B)
+    >>> lpcal.methods.l1(shading).round(3) + 0.0
+    array([[ 0. ,  0. , -0.5]])
     """
     b = least_squares(shading)
     floor = IRLS_FLOOR * np.max(np.where(shading.usable, shading.signal, 0.0), axis=0)
@@ -100,7 +126,15 @@ def ranks(shading: Shading) -> Array:
     Returns
     -------
     ndarray (P, 3)
-        b, the normal in C times the albedo; NaN where three samples do not tell it.
+        b, the normal in C times the albedo; NaN where three samples do not determine it.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> B = np.array([[0, 0, -1.0], [0.6, 0, -0.8], [0, 0.6, -0.8], [-0.6, 0, -0.8]])[:, None]  # one pixel
+    >>> shading = lpcal.methods.Shading(B @ [0, 0, -0.5], np.full((4, 1), 0.01), np.ones((4, 1), bool), B)
+    >>> lpcal.methods.ranks(shading).round(3) + 0.0
+    array([[ 0. ,  0. , -0.5]])
     """
     brightness = np.where(shading.usable, shading.signal, -np.inf)
     rank = np.argsort(np.argsort(brightness, axis=0), axis=0)
@@ -138,6 +172,13 @@ def poisson(slopes: Array, mask: Mask) -> Array:
     -------
     ndarray (H, W)
         u: depth in pixels, or log depth with a camera; NaN outside the mask.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> slopes = np.full((3, 3, 2), [0.5, 0.0])  # half a pixel deeper with each pixel to the right
+    >>> lpcal.methods.poisson(slopes, np.ones((3, 3), bool)).round(3)[0] + 0.0
+    array([-0.5,  0. ,  0.5])
     """
     from scipy import sparse
     from scipy.sparse.linalg import spsolve
@@ -172,6 +213,13 @@ def cosines(slopes: Array, mask: Mask) -> Array:
     -------
     ndarray (H, W)
         u: depth in pixels, or log depth with a camera; NaN outside the mask.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> slopes = np.full((3, 3, 2), [0.5, 0.0])  # half a pixel deeper with each pixel to the right
+    >>> lpcal.methods.cosines(slopes, np.ones((3, 3), bool)).round(3)[0] + 0.0
+    array([-0.5,  0. ,  0.5])
     """
     from scipy.fft import dctn, idctn
 

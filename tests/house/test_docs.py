@@ -58,6 +58,17 @@ def test_tests_on_the_page_are_there() -> None:
     assert [one for one in named if f"def {one}(" not in source] == []
 
 
+FILES = re.compile(r"(?<![\w/.-])((?:tools|examples|tests|packaging|docs|rigs)/[\w./-]+\.(?:py|md|yaml|csv|ipynb|sbatch|txt))\b")
+"""A file of the repository as a page names it."""
+
+
+def test_files_that_a_page_names_are_there() -> None:
+    texts = {path: path.read_text(encoding="utf-8") for path in [*PAGES, REPOSITORY / "README.md", REPOSITORY / "CONTRIBUTING.md"]}
+    named = {(path.name, name) for path, text in texts.items() for name in FILES.findall(text)}
+    assert len(named) > 20
+    assert [one for one in sorted(named) if not (REPOSITORY / one[1]).is_file()] == []
+
+
 @pytest.mark.slow
 def test_the_site_builds_strictly(tmp_path: Path) -> None:
     if find_spec("mkdocs") is None:
