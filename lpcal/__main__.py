@@ -6,7 +6,7 @@ from lpcal.cli.stops import listen, say_stopped
 
 
 def run() -> int:
-    """Run the command line; the exit code is the contract's."""
+    """Run the command line; the exit code is that of the error (docs/errors.md)."""
     try:
         listen()
         from lpcal.cli.main import main

@@ -6,7 +6,7 @@ Symbols: azimuth a, joint angle g, d1 = disc_radius + disc_spacer + joint, d2 = 
     the blob sits at Rz(a) [d1 + d2 cos g, 0, d2 sin g], emits along Rz(a) [-sin g, 0, cos g]
     and its axis meets the disc axis at d_object = d1 / tan g + d2 / sin g
 
-Source: the LightPanel's kinematics (design contract, section 1); covariances to first order (Barfoot 2017, chapter 7).
+Source: the LightPanel's kinematics (docs/frames.md); covariances to first order (Barfoot 2017, chapter 7).
 """
 
 from __future__ import annotations

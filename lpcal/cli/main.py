@@ -73,7 +73,7 @@ class Command(Protocol):
 
 
 def main(words: list[str] | None = None) -> int:
-    """Run one command; the exit code is the contract's."""
+    """Run one command; the exit code is that of the error (docs/errors.md)."""
     words = sys.argv[1:] if words is None else words
     open_streams()
     try:

@@ -1,6 +1,12 @@
 """calibration.yaml, the product: camera and lights in C, all that a reconstructor needs.
 
-Keys as in the contract; beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
+- ``name``; ``camera``: ``image_size, model, K, distortion, black_level`` (a share of full scale), ``gamma``
+- ``H_PC`` (4x4) where it is known; ``d_object_m``, the working distance; ``focus_m`` in C, where the lights' axes nearly meet
+- ``lights``: ``name, H_CL`` (the mechanical frame), ``source_m`` and ``axis`` in C (null for a distant light), ``direction`` in C (the
+  unit vector from the focus to the light), ``intensity`` (relative, the mean of all lights is 1; three numbers for RGB), ``lobe,
+  position_std_m, direction_std_deg`` (an axis), ``intensity_std``
+
+Beside them ``camera.white_level``, ``camera.flat_field`` (Chebyshev coefficients of the logarithm of the response,
 see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` and ``camera.spline``. Without a lens ``camera`` may hold
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
 or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. ``tracking`` says
@@ -243,7 +249,7 @@ def _light(path: Path, entry: dict[str, Any]) -> Light:
         raise InputError(
             f"{error} is lacking or holds no numbers",
             where=f"{path}, light {name}",
-            needed="the contract's keys",
+            needed="the keys of a calibration.yaml",
             todo="write it anew with lpcal export",
         ) from error
 

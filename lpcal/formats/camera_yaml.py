@@ -1,8 +1,10 @@
 """camera.yaml: the intrinsics, how sure they are, how they were chosen, and what became of each view.
 
-Keys as in the contract (``rms_px`` a coordinate; ``covariance`` of ``parameters``); beside them ``white_level``, ``flat_field`` (Chebyshev
-coefficients of the logarithm of the response), ``solver``, ``corner_sigma_px``, ``evidence``, ``warnings``, and for a splined camera
-``lensmodel`` and ``spline``, whose K is that of its stereographic core. ``camera:`` in calibration.yaml has the keys that make images.
+``image_size: [w, h], model, K, distortion, black_level, gamma, rms_px`` (a coordinate), ``parameters: [fx, fy, ...]`` and their
+``covariance`` in that order, ``views: [{image, used, why, corners, rms_px}]`` (``why`` is null where used, ``corners`` a count); beside
+them ``white_level``, ``flat_field`` (Chebyshev coefficients of the logarithm of the response), ``solver``, ``corner_sigma_px``,
+``evidence``, ``warnings``, and for a splined camera ``lensmodel`` and ``spline``, whose K is that of its stereographic core. ``camera:``
+in calibration.yaml has the keys that make images.
 """
 
 from __future__ import annotations

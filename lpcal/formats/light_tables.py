@@ -157,7 +157,7 @@ def positive(powers: Array, where: str) -> Array:
 
 
 def scaled(powers: Array) -> Array:
-    """Powers at the contract's mean of 1."""
+    """Powers scaled to a mean of 1."""
     return np.asarray(powers / powers.mean())
 
 
@@ -214,6 +214,6 @@ def _wrong_lobe(lobe: Lobe) -> tuple[str, str]:
 
 
 def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Array | None = None) -> Calibration:
-    """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to the contract's mean of 1."""
+    """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to a mean of 1."""
     intensity = np.ones((len(names), 1)) if intensity is None else scaled(intensity)
     return Calibration(name, tuple(Light(one, d, value) for one, d, value in zip(names, directions_C, intensity, strict=True)))

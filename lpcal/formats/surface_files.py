@@ -1,4 +1,10 @@
-"""The folder of a reconstructed surface, as in the contract: surface.npz, images, meshes, summary.json; whole or not there.
+"""The folder of a reconstructed surface: surface.npz, images, meshes, summary.json; whole or not there.
+
+``surface.npz`` holds ``normals`` (H, W, 3) in C, turned towards the camera; ``depth`` (H, W) metres along z of C; ``albedo``
+(H, W[, 3]); ``mask`` (H, W) bool; ``normal_std_deg`` (H, W) an axis; ``depth_std`` (H, W) metres, of the shape, the distance apart;
+``lights_used`` (H, W); ``component`` (H, W), 0 outside, 1 and up a connected piece each; NaN outside the mask. ``summary.json``
+holds a piece's ``label, pixels, mean_depth_m, scale_std`` and its ``alternatives`` under ``components``, and times, counts, residuals
+and versions.
 
 ``normals_gl.png`` has x right, y up, z to the camera, each from -1..1 to 0..65535, black outside the mask. ``mesh.ply`` is in C;
 ``mesh.glb`` has glTF's axes (y up, z to the viewer). Of a capture that is placed both may be in the room's frame, or in that of the body

@@ -6,7 +6,7 @@ Symbols: setting (azimuth a, joint angle g, d1, d2), radians and metres::
     the blob sits at Rz(a) [d1 + d2 cos g, 0, d2 sin g], emits along Rz(a) [-sin g, 0, cos g]
     and its axis meets the disc axis at d_object = d1 / tan g + d2 / sin g
 
-Source: the LightPanel's mechanics (design contract, section 1).
+Source: the LightPanel's mechanics (docs/frames.md).
 """
 
 from __future__ import annotations

@@ -59,17 +59,23 @@ class ProjectionUncertainty:
     of: str
     """What it is the standard deviation of, in words."""
     columns_px: Array
+    """(C,) where the grid's columns are."""
     rows_px: Array
+    """(R,) where its rows are."""
     worst_direction_std_px: Array
-    """(R, C)."""
+    """(R, C) of each point."""
     rms_px: float
+    """Root mean square over the grid."""
     most_px: float
+    """The largest of the grid."""
     covered_share: float
+    """Share of the grid that is covered."""
     covered: Mask
-    """(R, C) whether corners are near."""
+    """(R, C) covered: corners are near."""
     trusted: Mask
-    """(R, C) whether the lens is known there."""
+    """(R, C) trusted: the lens is known there."""
     trusted_share: float
+    """Share of the grid that is trusted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,21 +122,31 @@ class CameraEvidence:
     """What a camera solve rests on."""
 
     chosen: ChosenModel | None = None
+    """The lens model and the board's shape that were taken, and why."""
     cross_validation: tuple[TriedModel, ...] = ()
+    """The models that were tried: how far two halves of the views are apart, and the expected error."""
     corner_sigma_px: float | None = None
+    """Standard deviation of a corner's coordinate, as the residuals show it."""
     board_warp_m: tuple[float, ...] | None = None
     """How far the board bows along x and y; None: it was taken as flat."""
     board_shape: dict[str, ShapeTerm] | None = None
     """Terms of the board's shape, by name."""
     board_warp_allowed: bool | None = None
+    """Whether the board's departure from a plane was solved for."""
     coverage: Coverage | None = None
+    """Where in the image corners were seen, and how the boards were turned."""
     residual_pattern: dict[str, ResidualPattern] | None = None
-    """Left on the ``board`` and in the ``image``."""
+    """The pattern left in the residuals over the ``board`` and over the ``image``, each with its size and its z score."""
     projection_uncertainty: ProjectionUncertainty | None = None
+    """How well the camera projects, over the image."""
     independent_check: OtherSolver | None = None
+    """The same corners by another program (OpenCV)."""
     free_board_check: OtherSolver | None = None
+    """The same corners by COLMAP's bundle adjustment, every corner of the board free."""
     views_that_matter: tuple[ViewThatMatters, ...] | None = None
+    """The views without which the camera would be known less well, the most important first."""
     next_view: NextView | None = None
+    """Where to hold the board next."""
     solver_note: str | None = None
     """Why another solver than mrcal was taken."""
 
@@ -140,11 +156,13 @@ class HandEyeEvidence:
     """What a hand-eye solve rests on."""
 
     views_used: int
+    """Count of views that the solve used."""
     rotation_spread_deg: Array
     """(3,) by how much the body turned, rms about three axes, the largest first."""
     mocap_sigma_deg: float
+    """One standard deviation of a measured body pose's rotation, an axis."""
     mocap_sigma_m: float
-    """One standard deviation of a measured body pose."""
+    """One standard deviation of a measured body pose's position, an axis."""
     closed_form_H_PC: Array | None = None
     """(4, 4) where the solve started, by Park's closed form."""
     closed_form_H_OC: Array | None = None
@@ -154,19 +172,27 @@ class HandEyeEvidence:
     board_size_by_mocap: float
     """The board's size over its stated size, by the mocap's metres."""
     board_size_by_mocap_std: float
+    """Its standard deviation."""
     views_that_share_an_error: float
+    """Count of neighbouring views whose errors are alike."""
     mocap_sigma_dwell_deg: float | None = None
+    """One standard deviation of the rotation of a body pose that is the mean over a dwell."""
     mocap_sigma_dwell_m: float | None = None
-    """The same of a mean over a dwell."""
+    """One standard deviation of the position of such a mean."""
     corner_sigma_px: float | None = None
+    """Standard deviation of a corner's coordinate, as the residuals show it."""
     camera_as_refined_here: Array | None = None
+    """The camera's parameters after this solve."""
     camera_moved: Array | None = None
-    """The camera's parameters after this solve, and less those of camera.yaml."""
+    """Those parameters less the ones of camera.yaml."""
     board_sigma_deg: float | None = None
+    """Standard deviation of the rotation of board poses found elsewhere."""
     board_sigma_m: tuple[float, ...] | None = None
     """Standard deviations of board poses found elsewhere: two directions across, then depth."""
     moved_from_closed_form_deg: float
+    """How far the solve turned H_PC from its start."""
     moved_from_closed_form_m: float
+    """How far the solve moved H_PC from its start."""
     weakest: str | None = None
     """The direction in which H_PC is known worst, and what would mend it, in words."""
 
@@ -187,7 +213,7 @@ class RefinedSetting:
 
 @dataclass(frozen=True, kw_only=True)
 class NextSphere:
-    """Where one more chrome sphere tells most, and the mean standard deviation of the directions without and with it."""
+    """Where one more chrome sphere helps most, and the mean standard deviation of the directions without and with it."""
 
     where: str
     centre_m: Array
@@ -211,22 +237,28 @@ class LightsEvidence:
     """What the refined lights rest on."""
 
     model: LightsModel | None = None
+    """What a light is taken for: its LEDs summed, a round lobe, a place without a lobe, a direction alone."""
     source_offset_m: dict[str, float] | None = None
     """How far a blob's source lies before its mechanical centre, by its count of LEDs."""
     outline_bias_px: dict[str, float] | None = None
     """By how much outlines are found too large, by the spheres' kind."""
     settings: dict[str, RefinedSetting] | None = None
+    """The wings' settings as refined, by the light's name."""
     lobe_seen_deg: dict[str, float] | None = None
     """The largest angle from the axis at which spheres showed each light."""
     highlight_rms_px: float | None = None
+    """Rms misfit of the chrome spheres' highlights."""
     shading_rms: float | None = None
     """Rms misfit of the matte spheres, relative."""
     next_sphere: NextSphere | None = None
+    """Where one more chrome sphere would help most."""
     foretold_shading_rms: float | None = None
+    """Rms error, relative, of the shading of a matte sphere that was held out and predicted by the others."""
     foretold_shading_rms_albedo_free: float | None = None
-    """How well the other spheres predict a matte sphere held out, relative; the second with its albedo free."""
+    """The same with that sphere's albedo free."""
     foretold_highlight_px: float | None = None
-    """The same of a chrome sphere's highlights."""
+    """Rms error of the highlights of a chrome sphere that was held out and predicted by the others."""
     exposure_sweep: ExposureSweep | None = None
+    """Black level, gamma and noise of the sensor by a sweep of exposures."""
     spheres_disagree_deg: float | None = None
     """Rms of what the spheres' own directions differ by, of distant lights."""

@@ -98,16 +98,21 @@ class SurfaceFigures:
     mask_doubt: float | None = None
     """Odds that the automatic mask is wrong by more than a tenth of its area."""
     mask_doubt_why: str | None = None
+    """What the doubtful area may be, and where it is, in words."""
     intensities_found: dict[str, float] | None = None
     """The lights' intensities over those of the calibration, where nobody measured them."""
     images_exchanged: dict[str, str] | None = None
     """Images that fit another light than their own, and which."""
     pixels: int = 0
+    """Count of pixels of the surface."""
     pixels_with_three_lights: int | None = None
+    """Count of pixels that three lights or more reach."""
     median_lights_used: float | None = None
+    """Median over the pixels of how many lights were used."""
     shadow_anchors: dict[int, Anchor] | None = None
-    """By the piece's label."""
+    """What a piece's shadow says of the scale of its distance, by the piece's label."""
     gloss: GlossFound | None = field(default=None, metadata=ALWAYS)
+    """Strength and roughness of the object's gloss; null where none was found."""
     reflectance: float | None = field(default=None, metadata=ALWAYS)
     """Reflectance of the object's median pixel, as light that it throws on itself shows it."""
     residual_sigmas_rms: float | None = None
@@ -115,6 +120,8 @@ class SurfaceFigures:
     normals_away_from_the_camera: float | None = None
     """Share of a normal map's pixels that look away from the camera."""
     ambient: AmbientFound | None = None
+    """What became of the room's light where there is no image of it."""
     distance_reading: DistanceRead | None = None
+    """What the panel's distance sensor read, and what it did."""
     convention: ConventionFound | None = None
     """How a normal map from elsewhere was read."""

@@ -1,6 +1,6 @@
 """What a person writes: panel.yaml and capture.yaml, as they are after reading. Metres, radians, seconds, fractions of 1.
 
-Every section of panel.yaml is optional; a stage that needs an absent one says which. The keys are the contract's.
+Every section is optional; a stage that needs an absent one says which. The page docs/reference/written-files.md has every key.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The calibration target as a PDF at true scale, drawn with vectors: squares, rulers on two edges, the board's YAML.
 
-The page is the smallest of A4 and A3, lying or standing, that holds the board with its margin, or one made to measure. The contract's
+The page is the smallest of A4 and A3, lying or standing, that holds the board with its margin, or one made to measure. The board's
 first corner (its outer square is black where the counts tell) is at the upper left. Units in here: millimetres from the page's upper left.
 """
 

@@ -1,6 +1,6 @@
 """The rig as really built: everything that a calibration looks for, drawn within the tolerances that panel.yaml states.
 
-Frames as in the contract: O room, P tracked body, D disc, C camera, B board, L light.
+Frames: O room, P tracked body, D disc, C camera, B board, L light.
 """
 
 from __future__ import annotations

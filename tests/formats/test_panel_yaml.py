@@ -1,8 +1,10 @@
-"""panel.yaml: the contract's example is read whole, and every mistake that a person makes is one message with its line."""
+"""panel.yaml: an example of every section is read whole, and every mistake that a person makes is one message with its line."""
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,7 @@ from hypothesis import strategies as st
 from lpcal.errors import InputError
 from lpcal.formats import panel_yaml
 from lpcal.records import quantities
+from lpcal.records.rig import Section
 
 EXAMPLE = """\
 lpcal: 1
@@ -188,7 +191,7 @@ def panel(tmp_path: Path) -> Path:
     return tmp_path / "panel.yaml"
 
 
-def test_the_contracts_example_is_read_whole(panel: Path) -> None:
+def test_an_example_of_every_section_is_read_whole(panel: Path) -> None:
     panel.write_text(EXAMPLE)
     rig_file = panel_yaml.read_rig(panel)
     rig = rig_file.rig
@@ -347,3 +350,36 @@ def test_any_text_is_a_quantity_or_says_what_was_needed(kind: str, text: str) ->
 )
 def test_quantities(text: str, kind: str, value: float) -> None:
     assert quantities.parse(text, kind) == value
+
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "reference" / "written-files.md").read_text(encoding="utf-8")
+
+
+def blocks(heading: str) -> str:
+    """The yaml of the page below a heading, its blocks joined."""
+    (section,) = re.findall(rf"^## {re.escape(heading)}$(.*?)(?=^## |\Z)", PAGE, re.MULTILINE | re.DOTALL)
+    return "".join(re.findall(r"^```yaml\n(.*?)^```$", section, re.MULTILINE | re.DOTALL))
+
+
+def lacking(value: object) -> Iterator[str]:
+    """Keys of the sections within a section that were not written."""
+    for inner in value.values() if isinstance(value, dict) else [value]:
+        if isinstance(inner, Section):
+            yield from sorted(
+                {f"{type(inner).__name__}.{key}" for key in type(inner).model_fields}
+                - {f"{type(inner).__name__}.{key}" for key in inner.model_fields_set}
+            )
+            for key in inner.model_fields_set:
+                yield from lacking(getattr(inner, key))
+
+
+def test_the_page_of_written_files_holds_every_key(panel: Path) -> None:
+    panel.write_text(blocks("panel.yaml"), encoding="utf-8")
+    rig = panel_yaml.read_rig(panel).rig
+    elsewhere = {key.partition(".")[0]: 0 for key in lacking(rig)}
+    assert set(elsewhere) <= {"LightSection", "SphereSection"}, "each of several lights and spheres has some of the keys"
+    for several in (rig.lights, rig.spheres):
+        assert set().union(*(one.model_fields_set for one in several.values())) == set(type(next(iter(several.values()))).model_fields)
+    capture = panel.with_name("capture.yaml")
+    capture.write_text(blocks("capture.yaml"), encoding="utf-8")
+    assert set(lacking(panel_yaml.read_capture_section(capture))) == {"PoseSection.H_OC", "WrittenTransform.rotation_vector"}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import itertools
 import re
 import subprocess
 import sys
@@ -56,6 +58,21 @@ def test_tests_on_the_page_are_there() -> None:
     source = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "tests").rglob("test_*.py"))
     assert len(named) > 10
     assert [one for one in named if f"def {one}(" not in source] == []
+
+
+SHOWN = ["CameraEvidence", "ProjectionUncertainty", "HandEyeEvidence", "LightsEvidence", "SurfaceFigures"]
+"""Records whose fields the page of files shows as keys."""
+
+
+def test_every_key_that_the_page_shows_is_described() -> None:
+    bare = []
+    for module in ("evidence", "figures"):
+        tree = ast.parse((REPOSITORY / "lpcal" / "records" / f"{module}.py").read_text(encoding="utf-8"))
+        for record in (one for one in tree.body if isinstance(one, ast.ClassDef) and one.name in SHOWN):
+            for field, after in itertools.pairwise([*record.body, ast.Pass()]):
+                if isinstance(field, ast.AnnAssign) and not (isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)):
+                    bare.append(f"{record.name}.{ast.unparse(field.target)}")
+    assert bare == []
 
 
 FILES = re.compile(r"(?<![\w/.-])((?:tools|examples|tests|packaging|docs|rigs)/[\w./-]+\.(?:py|md|yaml|csv|ipynb|sbatch|txt))\b")
