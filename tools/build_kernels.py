@@ -1,8 +1,8 @@
 """Compiles lpcal/kernels/*.c when the package is built: hatchling calls it for wheels and for `uv sync` in a clone (docs/kernels.md).
 
-The compiler is zig's, which comes by pip for the build alone; where it is not to be had, the system's `cc`. With neither, the package is
-built without the library, which is said, and the kernels' twins in numpy do the work. No relaxed arithmetic: no -ffast-math, no
-contraction, so that the same source gives the same numbers wherever it is compiled.
+The compiler is zig's, which comes by pip for the build alone; where it is not to be had, the compiler that ``CC`` names, or `cc`. With
+neither, the package is built without the library, which is said, and the kernels' twins in numpy do the work. No relaxed arithmetic: no
+-ffast-math, no contraction, so that the same source gives the same numbers wherever it is compiled.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import platform
 import runpy
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -45,7 +46,7 @@ class KernelsHook(BuildHookInterface[Any]):
         plain = f"{sys.platform}_{platform.machine()}".lower()
         zig = [sys.executable, "-m", "ziglang", "cc", *(("-target", target) if target else ())]
         failures: list[str] = []
-        for compiler, its_tag in ((zig, tag or plain), (["cc", "-fPIC"], plain)):
+        for compiler, its_tag in ((zig, tag or plain), ([*shlex.split(os.environ.get("CC") or "cc"), "-fPIC"], plain)):
             if failure := compiled(compiler, home["sources"](), library):
                 failures.append(f"{' '.join(compiler[:4])}: {failure}")
                 continue

@@ -52,6 +52,39 @@ def test_bash_completes(scripts: dict[str, str], tmp_path: Path, typed: str, off
     assert offered in found.stdout.split(), found.stderr
 
 
+@pytest.mark.skipif(shutil.which("fish") is None, reason="no fish here")
+@pytest.mark.parametrize(("typed", "offered"), [("lpcal rec", "reconstruct"), ("lpcal reconstruct --meth", "--method")])
+def test_fish_completes(scripts: dict[str, str], tmp_path: Path, typed: str, offered: str) -> None:
+    script = tmp_path / "lpcal.fish"
+    script.write_text(scripts["fish"], encoding="utf-8")
+    found = subprocess.run(
+        ["fish", "--no-config", "-c", f"source {script}; complete -C '{typed}'"], capture_output=True, text=True, check=False
+    )
+    assert offered in [line.split("\t")[0] for line in found.stdout.splitlines()], found.stderr
+
+
+ZSH = """\
+zmodload zsh/zpty
+zpty shell zsh -f -i
+zpty -w shell 'fpath=(FOLDER $fpath); autoload -Uz compinit; compinit -D -u; bindkey "^I" complete-word; print ready'
+for round in {1..200}; do zpty -r -t shell line && shown+=$line; [[ $shown == *$'\\n'ready* ]] && break; sleep .1; done
+zpty -wn shell 'TYPED	'
+for round in {1..100}; do zpty -r -t shell line && shown+=$line; [[ $shown == *"OFFERED"* ]] && print completed && exit; sleep .1; done
+print -r -- $shown
+"""
+"""An interactive zsh that finds the script in its fpath, as installed, and to which a Tab is typed."""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="no zsh here")
+@pytest.mark.parametrize(("typed", "offered"), [("lpcal rec", "lpcal reconstruct"), ("lpcal reconstruct --meth", "--method")])
+def test_zsh_completes(scripts: dict[str, str], tmp_path: Path, typed: str, offered: str) -> None:
+    (tmp_path / "_lpcal").write_text(scripts["zsh"], encoding="utf-8")
+    program = ZSH.replace("FOLDER", str(tmp_path)).replace("TYPED", typed).replace("OFFERED", offered)
+    found = subprocess.run(["zsh", "-f", "-c", program], capture_output=True, text=True, check=False, timeout=120)
+    assert found.stdout.strip() == "completed", found.stdout + found.stderr
+
+
 @pytest.mark.parametrize("shell", WHERE)
 def test_the_command_prints_it(lpcal: Any, shell: str, scripts: dict[str, str]) -> None:
     code, out, _ = lpcal("completion", shell)
