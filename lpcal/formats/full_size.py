@@ -10,10 +10,9 @@ import math
 import tempfile
 import threading
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +21,7 @@ from lpcal.formats.full_scale import FullScale, full_scale
 from lpcal.formats.images import Numbers
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.geometry.piled import piled
-from lpcal.records.full_images import PART, FullImages
+from lpcal.records.full_images import PART, FullImages, Store
 from lpcal.records.observations import RawCapture
 
 HELD = 40_000_000
@@ -54,11 +53,19 @@ def coarse_mask(mask: Mask, factor: int) -> Mask:
     return np.asarray(blocks(mask, factor).mean(axis=(1, 3), dtype=np.float32) > 0.5)
 
 
+class Keeper(Store, Protocol):
+    """A store that images are put into."""
+
+    def keep(self, k: int, image: npt.NDArray[Any]) -> None:
+        """Keep image k (H, W[, 3])."""
+        ...
+
+
 @dataclass
 class Sieve:
     """Takes images one by one, in any order and from several threads; what it keeps in memory is coarse."""
 
-    store: Scratch
+    store: Keeper
     full_scale: float
     step: float
     factor: int
@@ -74,10 +81,11 @@ class Sieve:
         self.counts = np.zeros(round(self.full_scale) + 1 if self.full_scale > 1 else 0, np.int64)
 
     @staticmethod
-    def of(first: Numbers, images: int, lights: int) -> Sieve:
-        """For so many images like the first."""
+    def of(first: Numbers, images: int, lights: int, store: Keeper | None = None) -> Sieve:
+        """For so many images like the first, kept in a store; by default in a file of the system's temporary ones."""
         shape = first.stored.shape
-        return Sieve(Scratch((images, *shape), first.stored.dtype), first.full_scale, first.step, factor_for(shape), lights)
+        kept = Scratch((images, *shape), first.stored.dtype) if store is None else store
+        return Sieve(kept, first.full_scale, first.step, factor_for(shape), lights)
 
     def take(self, k: int, image: Numbers) -> None:
         """Image k."""
@@ -129,11 +137,11 @@ def settled(raw: RawCapture, sieve: Sieve, full: FullScale, mask: Mask | None) -
     return replace(raw, mask=None if mask is None else coarse_mask(mask, sieve.factor), flat=flat, full=images)
 
 
-def read_all(paths: Sequence[Path], read: Any, lights: int, first: Numbers) -> Sieve:
-    """A sieve that has taken the images of these paths, by threads that share them."""
+def read_all[P](paths: Sequence[P], read: Callable[[P], Numbers], lights: int, first: Numbers, store: Keeper | None = None) -> Sieve:
+    """A sieve that has taken the images of these paths, by threads that share them; they are kept in `store`, else in a file of its own."""
     from lpcal.surface.bands import shared
 
-    sieve = Sieve.of(first, len(paths), lights)
+    sieve = Sieve.of(first, len(paths), lights, store)
     shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
     return sieve
 

@@ -68,6 +68,10 @@ def read_image(path: Path) -> StoredImage:
     return read_numbers(path).image
 
 
+FLOAT_STEP = 1e-6
+"""One step of the numbers of a float image, as a fraction of full scale: finer than any sensor's."""
+
+
 @dataclass(frozen=True)
 class Numbers:
     """An image as its file stores it."""
@@ -124,7 +128,7 @@ def read_numbers(path: Path) -> Numbers:
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
-    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else 1e-6, tone_claim(data), taken_at(data))
+    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data))
 
 
 MOST_PIXELS = 250_000_000

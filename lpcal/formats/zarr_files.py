@@ -3,6 +3,7 @@
 A capture is a group whose attributes hold ``lpcal: 1, kind: capture, lights: [L0, ...]``, and where they are known ``exposure_s: [..]`` and
 ``ambient_exposure_s: [..]``; its arrays are ``images`` (L, H, W[, 3]) of whole numbers of 8 or 16 bits or of floats up to 1, and where
 there are any ``ambient`` (K, H, W[, 3]) and ``mask`` (H, W). A surface's arrays are the maps of surface.npz, by tiles of `TILE` pixels.
+A capture that is too large to be held stays where it lies: it is looked through once, image by image, and then read by tiles.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats import full_size
+from lpcal.formats.full_scale import full_scale
+from lpcal.formats.images import FLOAT_STEP, Numbers
 from lpcal.formats.outputs import Kind, whole
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image
@@ -63,25 +67,73 @@ def read_capture_zarr(folder: Path, lights: Sequence[str], *, name: str | None =
             f"no image of {', '.join(lacking[:8])}", where=str(folder), needed="an image for each light", todo="take a subset with --use"
         )
     rows = [held.index(light) for light in chosen]
-    full = float(np.iinfo(images.dtype).max) if images.dtype.kind in "ui" else 1.0
-    ambient = group["ambient"][...] if "ambient" in group else None
+    ambient = group.get("ambient")
+    if ambient is not None and (ambient.ndim != images.ndim or ambient.shape[1:] != images.shape[1:] or ambient.dtype != images.dtype):
+        raise DisagreementError(
+            f"ambient {ambient.shape} of {ambient.dtype}",
+            where=str(folder),
+            needed=f"(K, *{images.shape[1:]}) of {images.dtype}, as images",
+        )
     exposures = np.array(group.attrs.get("exposure_s") or np.ones(len(held)), dtype=float)
-    of_ambient = group.attrs.get("ambient_exposure_s") or np.ones(0 if ambient is None else len(ambient))
-    return RawCapture(
+    of_ambient = group.attrs.get("ambient_exposure_s") or np.ones(0 if ambient is None else ambient.shape[0])
+    lying = _Lying(images, rows, ambient)
+    sieve = _sieved(lying, len(rows)) if full_size.too_large(images.shape[1:], len(rows)) else None
+    first = lying.image(0)
+    if sieve is None:
+        stacks = [np.stack([_shares(lying.image(k)) for k in range(*both)]) for both in lying.groups]
+        full = full_scale(stacks[0], first.step)
+        stacks = [np.asarray(stack / np.float32(full.divisor), np.float32) for stack in stacks]
+    else:
+        full = sieve.full()
+        stacks = [sieve.coarse(range(*both), full) for both in lying.groups]
+    mask = np.asarray(group["mask"][...]) > 0 if "mask" in group else None
+    raw = RawCapture(
         name=name or folder.resolve().name.removesuffix(".zarr"),
         lights=tuple(chosen),
-        images=np.stack([_shares(images[row], full) for row in rows]),
+        images=stacks[0],
         exposure_s=exposures[rows],
-        ambient=None if ambient is None else _shares(ambient, full),
+        ambient=None if ambient is None else stacks[1],
         ambient_exposure_s=np.array(of_ambient, dtype=float),
-        mask=np.asarray(group["mask"][...]) > 0 if "mask" in group else None,
-        step=1 / full if full > 1 else 1 / 65535,
+        mask=mask,
+        step=full.step or first.step,
+        white_level=full.white_level,
+        notes=full.notes,
     )
+    return raw if sieve is None else full_size.settled(raw, sieve, full, mask)
 
 
-def _shares(stored: Any, full: float) -> Image:
+class _Lying:
+    """The images that are taken of a group, where they lie: those of the lights, then the ambient ones."""
+
+    def __init__(self, images: Any, rows: Sequence[int], ambient: Any) -> None:
+        """The rows that are taken of arrays (L, H, W[, 3]), and all of (K, H, W[, 3])."""
+        many = 0 if ambient is None else ambient.shape[0]
+        self._of = [(images, row) for row in rows] + [(ambient, row) for row in range(many)]
+        self.groups = [(0, len(rows))] + ([(len(rows), len(self._of))] if many else [])
+        self.shape, self.dtype = (len(self._of), *images.shape[1:]), images.dtype
+
+    def image(self, k: int) -> Numbers:
+        """One image, as it is stored."""
+        array, row = self._of[k]
+        full = float(np.iinfo(self.dtype).max) if self.dtype.kind in "ui" else 1.0
+        return Numbers(np.asarray(array[row]), full, 1 / full if full > 1 else FLOAT_STEP)
+
+    def keep(self, k: int, image: Any) -> None:
+        """Nothing: it lies there."""
+
+    def read(self, images: slice, rows: slice, columns: slice) -> Any:
+        """Part (N, h, w[, 3]) of some of the images, by the chunks that hold it."""
+        return np.stack([array[row, rows, columns] for array, row in self._of[images]])
+
+
+def _sieved(lying: _Lying, lights: int) -> full_size.Sieve:
+    """Look through the images once."""
+    return full_size.read_all(range(lying.shape[0]), lying.image, lights, lying.image(0), lying)
+
+
+def _shares(numbers: Numbers) -> Image:
     """Stored numbers as fractions of full scale."""
-    return np.asarray(np.asarray(stored, np.float32) / np.float32(full), np.float32)
+    return numbers.image.pixels
 
 
 def tiles(folder: Path, side: int = TILE) -> Iterator[tuple[slice, slice, Any]]:

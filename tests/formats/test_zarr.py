@@ -9,6 +9,7 @@ import pytest
 
 import lpcal as library
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats import full_size
 from lpcal.formats.zarr_files import MAPS, tiles, write_capture_zarr
 from many_captures import collection, dome
 
@@ -37,6 +38,31 @@ def test_a_subset_of_lights_is_taken_and_a_lacking_one_is_named(tmp_path):
     assert library.read_capture(tmp_path / "c.zarr", dome(), use=["L4", "L1"]).lights == ("L1", "L4")
     with pytest.raises(DisagreementError, match="no image of L0, L2, L5"):
         library.read_capture(tmp_path / "c.zarr", dome())
+
+
+@pytest.mark.parametrize("colours", [(), (3,)])
+def test_a_capture_that_is_too_large_stays_where_it_lies_and_is_read_by_parts(tmp_path, monkeypatch, colours):
+    monkeypatch.setattr(full_size, "HELD", 40_000)
+    monkeypatch.setattr(full_size, "COARSE_PIXELS", 4_000)
+    images = np.random.default_rng(1).integers(0, 60000, (4, 130, 171, *colours)).astype(np.uint16)
+    (raw,) = [library.read_capture(folder, ["L0"]) for folder in collection(tmp_path, 1)]
+    shares = (images / np.float32(65535)).astype(np.float32)
+    lights, exposures = ("L0", "L1", "L2"), np.ones(3)
+    mask = np.ones(images.shape[1:3], bool)
+    stored = replace(raw, lights=lights, images=shares[:3], exposure_s=exposures, ambient=shares[3:], mask=mask, step=1 / 65535)
+    write_capture_zarr(tmp_path / "c.zarr", stored)
+    monkeypatch.setattr(full_size, "Scratch", None)  # nothing is copied
+    found = library.read_capture(tmp_path / "c.zarr", ["L2", "L0"])
+    assert found.full is not None
+    assert found.size == (171, 130)
+    rows, columns = slice(90, 130), slice(33, 140)
+    of_lights, of_room, _ = found.full.read(rows, columns)
+    assert np.array_equal(of_lights, shares[[2, 0], rows, columns])
+    assert np.array_equal(of_room, shares[3:, rows, columns])
+    factor = found.full.factor
+    np.testing.assert_allclose(found.images[1], full_size.blocks(shares[0], factor).mean(axis=(1, 3)), atol=1e-6)
+    monkeypatch.undo()
+    assert library.read_capture(tmp_path / "c.zarr", ["L2", "L0"]).full is None
 
 
 def test_tiles_are_the_image_piece_by_piece(tmp_path):
