@@ -1,6 +1,6 @@
 """What ``lpcal diff`` sees: pairs of calibrations of one drawn rig, unmoved, and with one light moved between them.
 
-``python tools/moved_rigs.py [--rigs 20] [--chrome 4 8 12] [--moves 0.3]``
+``python tools/moved_rigs.py [--rigs 20] [--chrome 4 8 12] [--moves 0.3]``, ``python tools/moved_rigs.py --bound``
 
 Each rig (lightpanel-6) is drawn by `light_rigs` on two days, its chrome spheres placed anew: images are rendered LED by LED and go through
 lpcal's detection. The camera is off by `CAMERA_PX`, as by an intrinsics, and the same on both days, as ``lpcal diff`` takes it unless it
@@ -8,8 +8,12 @@ has changed beyond chance. Each pair is held against each other as it is, then w
 shifts the highlights by what the simulator's own LEDs make of it. ``--render`` draws the moved lights anew instead, moved one way (slow).
 Spheres are drawn once and kept in a folder of the system's temporary files; the first so many of each day are used.
 
-Printed: silent pairs; named lights of the moved, those named as one of two, and false names; the sigma that is stated, which is the
-Cramer-Rao bound by the scatter of the highlights, and the errors of the found moves beside it.
+``--bound`` draws nothing: highlights with `SCATTER_PX` and outlines as lpcal's own covariances have them, of spheres placed as each of
+`DESIGNS` says; printed is the Cramer-Rao bound of one light's move, what all lights share being nothing, and how many of those sigmas a
+joint turned by 0.1 deg is.
+
+Printed otherwise: silent pairs; named lights of the moved, those named as one of two, and false names; the sigma that is stated, which is
+the Cramer-Rao bound by the scatter of the highlights, and the errors of the found moves beside it.
 """
 
 from __future__ import annotations
@@ -25,13 +29,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from light_rigs import CACHE, capture_rig, in_frame, rig_of, sources
+from light_rigs import CACHE, _outline, capture_rig, in_frame, rig_of, sources
+from lpcal.chain.refine_lights.geometry_fit import BIAS_PX
 from lpcal.chain.refine_lights.moved_lights import Day, MovedLights, moved_lights
 from lpcal.geometry import se3, sphere
 from lpcal.records.calibration import Camera, SphereFinding
 from lpcal.records.comparison import UNLIKELY
 from lpcal.records.observations import SphereView
-from lpcal.simulate.built import Built
+from lpcal.simulate.built import Built, build
 from lpcal.simulate.leds import LedLight
 from lpcal.simulate.recipe import Recipe
 
@@ -39,6 +44,41 @@ CAMERA_PX = np.array([0.3, 0.3, 0.4, 0.4])
 """Errors of the focal lengths and the principal point, one standard deviation."""
 OUTLINE_POINTS = 45
 """As many as lights.yaml holds."""
+
+
+SCATTER_PX = 0.006
+"""Of a drawn chrome sphere's highlights, as pairs of days show it."""
+JOINT_RAD = np.radians(0.1)
+"""The turn of a joint that is to be seen."""
+PLACES = 60
+"""Places that are tried for a sphere, of which the one farthest from all others is taken."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """Chrome spheres of a day, all over a volume, and the camera that sees them."""
+
+    words: str
+    spheres: int
+    radius_m: float = 0.025
+    depth: tuple[float, float] = (0.9, 1.1)
+    """Nearest and farthest, of the working distance."""
+    finer: int = 1
+    """By how much the camera's pixels are finer than 640x400."""
+
+
+DEEP = (0.6, 1.5)
+"""Depths at which spheres of 50 mm are whole in the picture and lit by all lights."""
+DESIGNS = (
+    Design("at the working distance", 4),
+    Design("at the working distance", 12),
+    Design("at the working distance", 24),
+    Design("near and far", 12, depth=DEEP),
+    Design("near and far", 24, depth=DEEP),
+    Design("near and far, 80 mm across", 12, 0.04, (0.7, 1.6)),
+    Design("near and far, camera of 2560x1600", 12, depth=DEEP, finer=4),
+    Design("near and far, camera of 5120x3200", 24, depth=DEEP, finer=8),
+)
 
 
 @dataclass(frozen=True)
@@ -150,6 +190,64 @@ def compared(one: Seen, two: Seen, count: int, camera: Camera, shifted: dict[str
     return found
 
 
+def placed(design: Design, built: Built, rng: np.random.Generator) -> list[np.ndarray]:
+    """Centres of a design's spheres, each whole in the picture and far from the others."""
+    lens, focus, found = built.lens, built.focus_C, []
+    around = 1.35 * design.radius_m * np.concatenate([np.eye(3)[:2], -np.eye(3)[:2]])
+    while len(found) < design.spheres:
+        z = focus[2] * rng.uniform(*design.depth, PLACES)
+        half = np.array(lens.image_size) / 2 / lens.K[0, 0] * z[:, None]
+        tried = focus * (z / focus[2])[:, None] + np.column_stack([rng.uniform(-half, half), np.zeros(PLACES)])
+        inside = [place for place in tried if lens.inside(place + around, 4)]
+        found += [max(inside, key=lambda place: min((np.linalg.norm(place - other) for other in found), default=0.0))] if inside else []
+    return found
+
+
+def believed(design: Design, built: Built, camera: Camera, rng: np.random.Generator) -> Day:
+    """A day of a design as the solver believes it to be: highlights and outlines with errors of their stated sizes."""
+    found = []
+    for number, centre_C in enumerate(placed(design, built, rng)):
+        points = _outline(camera, "chrome", centre_C, design.radius_m, BIAS_PX["chrome"][0], rng)
+        seen = {
+            light.name: camera.project(sphere.mirror_point(centre_C, design.radius_m, light.source_C)) + SCATTER_PX * rng.normal(size=2)
+            for light in built.lights
+        }
+        view = SphereView(f"chrome_{number}", "chrome", design.radius_m, points, 0.05, seen, dict.fromkeys(seen, SCATTER_PX))
+        found.append(_finding(view, {}))
+    return Day(found, camera)
+
+
+def bound_of(design: Design, seeds: int) -> tuple[np.ndarray, float]:
+    """Sigma of a light's move (3,) along its arm, sideways and along its emission, and of how many of them a joint's turn is."""
+    rig, _, _ = rig_of("lightpanel-6", 4, 0)
+    variances, sigmas = [], []
+    for seed in range(seeds):
+        built = build(rig, recipe(seed))
+        lens, scale = built.lens, np.diag([design.finer, design.finer, 1.0])
+        camera = Camera((lens.image_size[0] * design.finer, lens.image_size[1] * design.finer), "opencv5", scale @ lens.K, lens.distortion)
+        rng = np.random.default_rng([seed, 81])
+        days = [believed(design, built, camera, rng) for _ in range(2)]
+        sources_C = np.array([[light.source_C for light in built.lights]] * 2)
+        axes_C = np.array([light.H_CL[:3, :3] for light in built.lights])
+        found = moved_lights(days[0], days[1], sources_C, axes_C, [light.name for light in built.lights], UNLIKELY)
+        assert found is not None
+        for light, R, covariance in zip(built.lights, axes_C, found.covariance, strict=True):
+            own = R.T @ covariance @ R
+            out_m = float((light.source_C - light.H_CL[:3, 3]) @ R[:, 2])
+            by_m = JOINT_RAD * np.array([-out_m, 0.0, light.setting["d2_m"]])
+            variances.append(np.diag(own))
+            sigmas.append(np.sqrt(by_m @ np.linalg.solve(own, by_m)))
+    return np.sqrt(np.mean(variances, axis=0)), float(np.median(sigmas))
+
+
+def bounds(seeds: int) -> None:
+    """Print the bound of each design."""
+    print("spheres a day, where; sigma of a light's move along its arm, sideways, along its emission, mm; a joint's 0.1 deg in sigmas")
+    for design in DESIGNS:
+        sigma, joint = bound_of(design, seeds)
+        print(f"{design.spheres:4d} {design.words:40s} " + "".join(f"{1e3 * one:8.3f}" for one in sigma) + f"{joint:8.1f}", flush=True)
+
+
 @dataclass
 class Tally:
     """What many pairs showed with so many spheres a day."""
@@ -195,7 +293,11 @@ def main() -> None:
     parser.add_argument("--chrome", type=int, nargs="+", default=[4, 8, 12])
     parser.add_argument("--moves", type=float, nargs="+", default=[0.3], metavar="MM")
     parser.add_argument("--render", action="store_true", help="render the moved light, one of each rig, instead of shifting its highlights")
+    parser.add_argument("--bound", action="store_true", help="the Cramer-Rao bound of designs, nothing drawn")
     asked = parser.parse_args()
+    if asked.bound:
+        bounds(min(asked.rigs, 2))
+        return
     for millimetres in asked.moves:
         print(
             f"\n{millimetres} mm: spheres a day, silent pairs, moved and named, or other, false; sigma (error), mm: arm, sideways, emission"

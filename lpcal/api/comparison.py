@@ -121,7 +121,7 @@ def compare_calibrations(
     all_names = [*dict.fromkeys(light.name for one in (before, after) for light in one.lights)]
     return CalibrationChange(
         lights=tuple(light for light in lights if light.name not in swapped) if exchanged else lights,
-        together=_together(places.common, old, new),
+        together=_together(places.common, old, new, float("nan") if seen is None else seen.shared_chance),
         scale=float(places.common[6]) if places.common.size > 6 else 0.0,
         handeye=_handeye(before.H_PC, after.H_PC, H_PC_covariances),
         camera=camera,
@@ -142,6 +142,7 @@ class _Seen:
     """(L, 3, 3) of `places.off`."""
     scatter_px: float
     either: tuple[int, ...]
+    shared_chance: float
 
 
 def _by_spheres(
@@ -161,7 +162,8 @@ def _by_spheres(
     if found is None:
         return None
     std = np.sqrt(np.diagonal(found.covariance, axis1=1, axis2=2))
-    return _Seen(OddOnes(found.common, found.moved_C, std, found.chance, found.freedom), found.covariance, found.scatter_px, found.either)
+    places = OddOnes(found.common, found.moved_C, std, found.chance, found.freedom)
+    return _Seen(places, found.covariance, found.scatter_px, found.either, found.shared_chance)
 
 
 def _is_another(camera: PartChange) -> bool:
@@ -260,13 +262,13 @@ def _exchanged(old: list[Light], new: list[Light]) -> tuple[tuple[str, str], ...
     return tuple((old[k].name, old[j].name) for k, j in pairs)
 
 
-def _together(common: Array, old: list[Light], new: list[Light]) -> PartChange:
+def _together(common: Array, old: list[Light], new: list[Light], chance: float) -> PartChange:
     """What all lights share, beside the stated sigmas of their places and directions."""
     place = np.array([[light.position_std_m for light in one] for one in (old, new)])
     turn = np.array([[light.direction_std_rad for light in one] for one in (old, new)])
     std, turn_std = (float(np.sqrt(np.sum(np.mean(each**2, axis=1)))) for each in (place, turn))
     moved, turned = float(np.linalg.norm(common[:3])), float(np.linalg.norm(common[3:6]))
-    return PartChange(moved, std, turned, turn_std)
+    return PartChange(moved, std, turned, turn_std, chance)
 
 
 def _handeye(before: Array | None, after: Array | None, covariances: tuple[Array | None, Array | None]) -> PartChange:

@@ -148,6 +148,26 @@ def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(ax
         assert found.lights[k].moved_L_std[axis] < 1e-4
 
 
+def test_with_the_spheres_of_both_days_what_all_lights_share_is_named_as_such_and_no_single_light():
+    true = rig(6)
+    knocked = replace(true, lights=tuple(moved(light, np.array([0.0, 3e-3, 0.0])) for light in true.lights))
+    found = seen_on_two_days(true, knocked, 4)
+    assert found.changed == ("all lights changed",)
+    assert found.together.chance < 1e-6
+    still = seen_on_two_days(true, true, 4)
+    assert still.together.chance > 0.01
+
+
+def test_with_four_spheres_a_day_half_a_millimetre_is_named_of_one_light_and_no_other_is_doubted():
+    true = rig(6)
+    changed = moved(true.lights[3], 5e-4 * true.lights[3].H_CL[:3, 1])
+    after = replace(true, lights=(*true.lights[:3], changed, *true.lights[4:]))
+    both = spheres(true, 20, 4), spheres(after, 21, 4)
+    found = library.compare_calibrations(measured(true, 20), measured(after, 21), solutions=both)
+    assert found.changed == ("L3: moved",)
+    assert found.lights[3].moved_L_std[1] < 1.1e-4
+
+
 def test_lights_that_were_exchanged_or_are_missing_are_named():
     true = rig(8)
     one, two = (replace(true.lights[a], name=true.lights[b].name) for a, b in ((1, 5), (5, 1)))

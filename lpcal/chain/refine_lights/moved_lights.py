@@ -14,7 +14,9 @@ All d_k are 0 first. Linear about that solution, with A the derivative by d_k th
 and likewise along each axis of the light's own frame: along its arm, sideways (the azimuth turns it there), along its emission (its joint
 turns it there). sigma is what the highlights themselves scatter by, not what is stated of them: what is wrong with both days alike, as the
 drawing, the radius of the spheres or the camera, cancels or is taken up by H and c. A light that has moved is left free, and the others are
-looked at again. Source: generalised least squares; Cook and Weisberg, Residuals and Influence in Regression (1982), 2.2.
+looked at again. Where one camera serves both days, H and c are what the outlines leave open and no more: H = 1 and c = 0 are tried first,
+and kept if, the lights that have moved being free, the data ask for no other (F of seven), and no light is named whose move they would
+explain as well. Source: generalised least squares; Cook and Weisberg, Residuals and Influence in Regression (1982), 2.2.
 """
 
 from __future__ import annotations
@@ -39,6 +41,8 @@ FEWEST_SPHERES = 2
 """Chrome spheres a day: one alone leaves each light's distance open."""
 HYPOTHESES = 4
 """What is asked of each light: has it moved anywhere; along its arm; sideways; along its emission."""
+SHARED = 7
+"""What all lights may share: a shift, a turn, a scale."""
 LEAD = 10.0
 """A light is named if another one's chance is so many times its own: of two whose moves would explain the data as well, neither is."""
 ROUNDS = 5
@@ -91,6 +95,10 @@ class MovedLights:
     freedom: int
     either: tuple[int, ...] = ()
     """Two lights one of which has moved beyond chance, but which of them the data do not say; their `chance` is 1."""
+    moved_alone: tuple[int, ...] = ()
+    """The lights that are left free when the others are held against each other; of two of which either has moved, the likelier."""
+    shared_chance: float = float("nan")
+    """That an unmoved rig shows as much of `common`; NaN where two cameras saw the days."""
 
 
 def moved_lights(before: Day, after: Day, sources_C: Array, axes_C: Array, names: Sequence[str], unlikely: float) -> MovedLights | None:
@@ -108,23 +116,38 @@ def moved_lights(before: Day, after: Day, sources_C: Array, axes_C: Array, names
     MovedLights, or None where a day has fewer than two chrome spheres, or the data are too few to tell.
     """
     problem = _problem(before, after, names, sources_C[0].mean(axis=0))
-    if problem is None:
-        return None
-    found = problem.solved(sources_C)
+    found = None if problem is None else problem.solved(sources_C)
     if found is None:
         return None
+    if before.camera is not after.camera:
+        return _peeled(found, axes_C, unlikely)
+    still = _peeled(found.still(), axes_C, unlikely)
+    if still is not None and _explains(still, found, unlikely):
+        return replace(still, common=found.common, shared_chance=_shared_chance(found, still.moved_alone))
+    freed = _peeled(found, axes_C, unlikely)
+    return None if freed is None else replace(freed, shared_chance=_shared_chance(found, freed.moved_alone))
+
+
+def _explains(still: MovedLights, found: _Linear, unlikely: float) -> bool:
+    """Whether moves of single lights explain the data without anything that all share, and better than that would alone."""
+    said = still.chance.min() if still.moved_alone else 1.0
+    return _shared_chance(found, still.moved_alone) >= unlikely and _shared_chance(found, ()) >= (LEAD * said if said < unlikely else 0.0)
+
+
+def _peeled(found: _Linear, axes_C: Array, unlikely: float) -> MovedLights | None:
+    """Each light against all others; one that has moved is left free when the others are looked at again."""
     free: list[int] = []
     while True:
         tested = _tested(found, axes_C, free)
         if tested is None:
             return None
-        worst, second = sorted((k for k in range(len(names)) if k not in free), key=lambda k: float(tested.chance[k]))[:2]
-        if tested.chance[worst] >= unlikely or len(free) >= len(names) - 3:
-            return tested
+        count = len(tested.chance)
+        worst, second = sorted((k for k in range(count) if k not in free), key=lambda k: float(tested.chance[k]))[:2]
+        if tested.chance[worst] >= unlikely or len(free) >= count - 3:
+            return replace(tested, moved_alone=tuple(free))
         if tested.chance[second] < LEAD * tested.chance[worst]:
-            either = (worst, second)
-            unsaid = np.isin(np.arange(len(names)), free)
-            return replace(tested, chance=np.where(unsaid, tested.chance, 1.0), either=either)
+            chance = np.where(np.isin(np.arange(count), free), tested.chance, 1.0)
+            return replace(tested, chance=chance, either=(worst, second), moved_alone=(*free, worst))
         free.append(worst)
 
 
@@ -162,13 +185,13 @@ class _Problem:
 
     def sources(self, x: Array, own: Array) -> tuple[Array, Array]:
         """(L, 3) of either day."""
-        s, common = x[: 3 * self.lights].reshape(-1, 3), x[3 * self.lights : 3 * self.lights + 7]
+        s, common = x[: 3 * self.lights].reshape(-1, 3), x[3 * self.lights : 3 * self.lights + SHARED]
         m = self.middle_C
         return s, se3.apply(_about(m, common[:6]), (1 + common[6]) * (s - m) + m) + own
 
     def centres(self, x: Array) -> Array:
         """(S, 3)."""
-        return x[3 * self.lights + 7 : -1].reshape(-1, 3)
+        return x[3 * self.lights + SHARED : -1].reshape(-1, 3)
 
     def residuals(self, x: Array, own: Array, scatter_px: float) -> Array:
         """All, whitened; those of the highlights first."""
@@ -188,7 +211,7 @@ class _Problem:
         J, own = np.zeros((len(r), len(x))), np.zeros((len(r), self.lights, 3))
         light, seen = np.repeat(self.light_of, 2), np.arange(2 * len(self.seen_px))
         ball = np.concatenate([np.repeat(self.sphere_of, 2), np.repeat(np.arange(len(self.day)), 3)])
-        first = 3 * self.lights + 7
+        first = 3 * self.lights + SHARED
         for axis in range(3):
             by_source = (self.residuals(x + eye[axis : 3 * self.lights : 3].sum(axis=0), nothing, scatter_px) - r) / STEP
             by_centre = (self.residuals(x + eye[first + axis : -1 : 3].sum(axis=0), nothing, scatter_px) - r) / STEP
@@ -214,7 +237,7 @@ class _Problem:
             off = self.highlights(x, np.zeros((self.lights, 3))) * self.weight[:, None]
             scatter_px = max(float(np.sqrt(np.sum(off**2) / max(freedom - len(self.measured), 1))), STEP)
         r, J, own = self.derivatives(x, scatter_px)
-        return _Linear(r, J, own, x[3 * self.lights : 3 * self.lights + 7], scatter_px)
+        return _Linear(r, J, own, x[3 * self.lights : 3 * self.lights + SHARED], scatter_px)
 
 
 @dataclass(frozen=True)
@@ -225,6 +248,12 @@ class _Linear:
     """(M, L, 3) by the lights' own moves."""
     common: Array
     scatter_px: float
+
+    def still(self) -> _Linear:
+        """The same where the lights share no move: linear about the solution in which they do."""
+        shared = np.s_[3 * self.own.shape[1] : 3 * self.own.shape[1] + SHARED]
+        off = self.r - self.J[:, shared] @ self.common
+        return _Linear(off, np.delete(self.J, shared, axis=1), self.own, np.zeros(SHARED), self.scatter_px)
 
 
 def _problem(before: Day, after: Day, names: Sequence[str], middle_C: Array) -> _Problem | None:
@@ -280,6 +309,19 @@ def _tested(found: _Linear, axes_C: Array, free: Sequence[int]) -> MovedLights |
             odds.append(float(fisher.sf(alone / ((float(r @ r) - alone) / (freedom + 2)), 1, freedom + 2)))
         chance[k] = min(1.0, min(odds) * len(odds) * lights)
     return MovedLights(moved, covariance, chance, found.common, found.scatter_px, freedom)
+
+
+def _shared_chance(found: _Linear, free: Sequence[int]) -> float:
+    """That lights which share no move show as much of one, those of `free` moving as they like."""
+    from scipy.stats import f as fisher
+
+    still = found.still()
+    least = []
+    for one in (found, still):
+        Q = _span(one, free)
+        least.append(float(one.r @ one.r - np.sum((Q.T @ one.r) ** 2)))
+    freedom = len(found.r) - found.J.shape[1] - 3 * len(free)
+    return 1.0 if freedom < 1 else float(fisher.sf(max(least[1] - least[0], 0.0) / SHARED / (least[0] / freedom), SHARED, freedom))
 
 
 def _span(found: _Linear, free: Sequence[int]) -> Array:
