@@ -1,8 +1,9 @@
 """Surfaces of captures with known truth: a table, quantiles, and a picture sheet of the ten worst.
 
-``python tools/bench_scenes.py SCENES... --out DIR [--jobs N] [--shake N] [--sheet FILE.png] [-- WORDS...]``: a scene is a folder with
-calibration.yaml, capture/ and truth/surface.npz (``mask``, ``normals``, ``depth``); WORDS go to ``lpcal reconstruct``. --shake
-reconstructs each scene N times more, a tenth of its noise added to its images, and states the largest move in `scale_std`.
+``python tools/bench_scenes.py SCENES... --out DIR [--jobs N] [--on ENGINE] [--shake N] [--sheet FILE.png] [-- WORDS...]``: a scene is a
+folder with calibration.yaml, capture/ and truth/surface.npz (``mask``, ``normals``, ``depth``); WORDS go to ``lpcal reconstruct``. --shake
+reconstructs each scene N times more, a tenth of its noise added to its images, and states the largest move in `scale_std`. --on takes the
+engines of ``lpcal reconstruct``.
 
 Figures: IoU of the masks; median and mean angle of the normals over both masks, degrees, and the share within two stated standard
 deviations; the worst component's distance error over its `scale_std`, of the nearest of its alternatives with odds of 5 % or more; median
@@ -19,12 +20,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
 import cv2
 import numpy as np
+
+from lpcal.api.engines import Lost, each, engine_of
 
 GOOD = {"iou": 0.95, "normals_mean_deg": 6.0, "distance_sigmas": 3.0, "shape_percent": 1.0}
 """A scene is good when its IoU is no less and its other figures are no more: the bounds of the project's benchmark."""
@@ -112,16 +114,20 @@ def moved(scene: Path, target: Path, words: list[str], times: int) -> float:
 
 
 def row_of(scene: Path, out: Path, words: list[str], times: int) -> dict[str, float | str]:
-    """Reconstruct and judge one scene, and print its line."""
+    """Reconstruct and judge one scene."""
     target = out / scene.name
     said, seconds = reconstructed(scene / "capture", scene / "calibration.yaml", target, words)
     row: dict[str, float | str] = {"scene": scene.name, "said": said, "seconds": seconds}
     if not said:
         row |= figures(scene, target)
         row |= {"moved_sigmas": moved(scene, target, words, times)} if times else {}
-    numbers = "  ".join(f"{key} {value:.3g}" for key, value in row.items() if isinstance(value, float))
-    print(f"{scene.name}  {said or numbers}{'' if is_good(row) else '  BAD'}", flush=True)
     return row
+
+
+def line_of(row: dict[str, float | str]) -> str:
+    """A row for people."""
+    numbers = "  ".join(f"{key} {value:.3g}" for key, value in row.items() if isinstance(value, float))
+    return f"{row['scene']}  {row['said'] or numbers}{'' if is_good(row) else '  BAD'}"
 
 
 def is_good(row: dict[str, float | str]) -> bool:
@@ -155,6 +161,7 @@ def main(words: list[str]) -> None:
     parser.add_argument("scenes", nargs="+", type=Path)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--on", default="processes")
     parser.add_argument("--shake", type=int, default=0)
     parser.add_argument("--sheet", type=Path)
     parser.add_argument("--json", type=Path)
@@ -162,8 +169,13 @@ def main(words: list[str]) -> None:
     asked = parser.parse_args(own)
     folders = [one for path in asked.scenes for one in ([path] if (path / "calibration.yaml").exists() else sorted(path.iterdir()))]
     scenes = {one.name: one for one in folders if (one / "truth/surface.npz").exists()}
-    with ThreadPoolExecutor(asked.jobs) as pool:
-        rows = list(pool.map(partial(row_of, out=asked.out, words=beyond, times=asked.shake), scenes.values()))
+    asked.out.mkdir(parents=True, exist_ok=True)
+    judge = partial(row_of, out=asked.out.resolve(), words=beyond, times=asked.shake)
+    folders, found = [one.resolve() for one in scenes.values()], {}
+    for number, row in each(judge, folders, engine_of(asked.on, asked.jobs, asked.out)):
+        found[number] = {"scene": folders[number].name, "said": row.why, "seconds": 0.0} if isinstance(row, Lost) else row
+        print(line_of(found[number]), flush=True)
+    rows = [found[number] for number in range(len(folders))]
     known = [row for row in rows if not row["said"]]
     print(f"good {sum(map(is_good, rows))} of {len(rows)}; worst tenth, median, best tenth:")
     for key in [key for key, value in known[0].items() if isinstance(value, float)] if known else []:

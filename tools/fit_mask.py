@@ -1,4 +1,4 @@
-"""Fit the weights by which the automatic mask tells the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N]``.
+"""Fit the weights by which the automatic mask tells the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
 estimated, as the mask does it. Prints the weights for lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts,
@@ -9,7 +9,6 @@ DOUBT_POWER of lpcal.surface.mask). The regions themselves depend a little on th
 from __future__ import annotations
 
 import argparse
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from scipy import optimize
 
 from lpcal.api.curve import settle_sensor
+from lpcal.api.engines import engine_of
 from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
@@ -231,8 +231,9 @@ def main() -> None:
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("scenes", nargs="+", type=Path)
     words.add_argument("--jobs", type=int, default=1)
+    words.add_argument("--on", default="processes")
     given = words.parse_args()
-    with ProcessPoolExecutor(given.jobs) as pool:
+    with engine_of(given.on, given.jobs, Path()).start() as pool:
         report(list(chain.from_iterable(pool.map(example, given.scenes))))
 
 

@@ -1,8 +1,8 @@
 """Fit the standard deviation of normals: how each clue of ``surface/uncertainty.py`` counts.
 
-``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--keep FILE.npz]``: SCENES are drawn scenes with truth (folders that hold
-``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of such. Each is reconstructed within its
-true mask; the clues of its pixels stand beside the angle between its normals and the true ones. The variance is a sum of squared clues,
+``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE.npz]``: SCENES are drawn scenes with truth (folders that
+hold ``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of such. Each is reconstructed within
+its true mask; the clues of its pixels stand beside the angle between its normals and the true ones. The variance is a sum of squared clues,
 each with a factor that is not negative; the factors are those of the greatest likelihood (Student's, so that wild pixels do not rule),
 every scene counting alike, scaled so that the median scene has the share of pixels within two sigma that is expected.
 
@@ -16,13 +16,13 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
 from scipy import ndimage, optimize
 
 from lpcal import read_calibration, read_capture, reconstruct
+from lpcal.api.engines import engine_of
 from lpcal.geometry.arrays import Array
 from lpcal.surface import uncertainty
 
@@ -112,6 +112,7 @@ def main() -> None:
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("scenes", nargs="+", type=Path)
     words.add_argument("--jobs", type=int, default=1)
+    words.add_argument("--on", default="processes")
     words.add_argument("--keep", type=Path)
     given = words.parse_args()
     if given.keep is not None and given.keep.exists():
@@ -119,7 +120,7 @@ def main() -> None:
             names = sorted({key.rpartition(".")[0] for key in kept.files})
             scenes = [(name, kept[f"{name}.square"], kept[f"{name}.error"], float(kept[f"{name}.calibration"])) for name in names]
     else:
-        with ProcessPoolExecutor(given.jobs) as pool:
+        with engine_of(given.on, given.jobs, Path()).start() as pool:
             scenes = list(pool.map(clues_of, scenes_of(given.scenes)))
         if given.keep is not None:
             parts = ((f"{one[0]}.{key}", one[k]) for one in scenes for k, key in ((1, "square"), (2, "error"), (3, "calibration")))

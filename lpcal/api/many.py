@@ -10,16 +10,13 @@ from functools import partial
 from typing import Any
 
 from lpcal.api import files
-from lpcal.api.engines import Engine, Lost, each, engine_of
+from lpcal.api.engines import WINDOW, Engine, Lost, each, engine_of
 from lpcal.api.surfaces import reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
-
-WINDOW = 64
-"""Captures that are handed to a caller's executor at a time: enough that no worker waits, few enough to hold."""
 
 
 def reconstruct_many(

@@ -7,14 +7,17 @@ counts; those that fewer than three lights tell are filled from their neighbours
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 import numpy as np
 
+from lpcal.api.engines import WINDOW, Engine, Lost, each
 from lpcal.api.staged import staged
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.records import screens
@@ -162,8 +165,49 @@ class Study(Shown):
     says: str
 
 
+@dataclass(frozen=True)
+class _Try:
+    """One trial, as it goes to a worker."""
+
+    conditions: Conditions
+    plain: bool
+
+
+def _tried(one: _Try) -> Trial | LpcalError:
+    """Its errors; what goes wrong is the result, for a worker raises nothing."""
+    try:
+        return trial(one.conditions, plain=one.plain)
+    except LpcalError as error:
+        return error
+
+
+def _trials(tries: Sequence[_Try], engine: Engine | None, told: Progress) -> list[Trial]:
+    """All of them, here or where the engine says.
+
+    Raises
+    ------
+    LpcalError
+        That of a trial that failed, or InputError where the workers of one were lost.
+    """
+    found: dict[int, Trial] = {}
+    for number, one in enumerate(map(_tried, tries)) if engine is None else each(_tried, tries, engine):
+        if isinstance(one, Lost):
+            raise InputError(one.why, where="study", needed="workers that live", todo="try it here: without --on")
+        if isinstance(one, LpcalError):
+            raise one
+        found[number] = one
+        told("trials", len(found), len(tries))
+    return [found[number] for number in range(len(tries))]
+
+
 @staged("study")
-def study(which: Which, *, at: Sequence[float] | None = None, progress: Progress = silent) -> Study:
+def study(
+    which: Which,
+    *,
+    at: Sequence[float] | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Study:
     """Repeat an experiment of the LightPanel paper on a simulated sphere: which angle of the lights, or how much ambient light, is best.
 
     Parameters
@@ -172,6 +216,8 @@ def study(which: Which, *, at: Sequence[float] | None = None, progress: Progress
         "phase-angle" varies the angle between the lights and the axis; "ambient" the ambient light.
     at : sequence of float, optional
         Where to try: degrees from the axis, or per cent of ambient light; by default as finely as the paper's figures.
+    executor : concurrent.futures.Executor, optional
+        Where the trials are worked on, as of `reconstruct_many`; by default one after the other, here. The figures are the same.
     progress : callable, optional
         Called as ``progress(what, done, total)``.
 
@@ -184,7 +230,7 @@ def study(which: Which, *, at: Sequence[float] | None = None, progress: Progress
     Raises
     ------
     InputError
-        Another study is asked for.
+        Another study is asked for, or the workers of a trial were lost.
 
     Examples
     --------
@@ -193,19 +239,31 @@ def study(which: Which, *, at: Sequence[float] | None = None, progress: Progress
     >>> found.curves[0].name, found.curves[0].best
     ('plain least squares', 26.0)
     """
+    return study_on(
+        None if executor is None else Engine("the caller's executor", lambda: nullcontext(executor), WINDOW), which, at, progress
+    )
+
+
+def study_on(engine: Engine | None, which: Which, at: Sequence[float] | None = None, progress: Progress = silent) -> Study:
+    """As `study`, on an engine; None: here, one trial after the other.
+
+    Raises
+    ------
+    InputError
+        As `study`.
+    """
     if which not in ACROSS:
         raise InputError(f"{which!r}", where="which", needed=" or ".join(ACROSS))
     swept = which == "phase-angle"
     variants, usual = (VARIANTS, ANGLES) if swept else (AMBIENTS, 100 * LEVELS)
     places = usual if at is None else np.asarray(at, dtype=float)
-    curves = []
-    for number, variant in enumerate(variants):
+    tries = []
+    for variant in variants:
         own = variant.conditions
-        tried = [replace(own, phase_deg=x) if swept else replace(own, ambient=x / 100) for x in places.tolist()]
-        trials = [trial(one, plain=variant.way == PLAIN) for one in tried]
-        mean, median = np.array([one.mean for one in trials]), np.array([one.median for one in trials])
-        curves.append(StudyCurve(variant.name, variant.but, places, mean, median))
-        progress(f"study {which}", number + 1, len(variants))
+        varied = [replace(own, phase_deg=x) if swept else replace(own, ambient=x / 100) for x in places.tolist()]
+        tries += [_Try(one, variant.way == PLAIN) for one in varied]
+    trials = np.array([(one.mean, one.median) for one in _trials(tries, engine, progress)]).reshape(len(variants), len(places), 2)
+    curves = [StudyCurve(one.name, one.but, places, *found.T) for one, found in zip(variants, trials, strict=True)]
     said = _phase_said(dict(zip(variants, curves, strict=True))) if swept else _ambient_said(curves)
     return Study(which, ACROSS[which], tuple(curves), said)
 

@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lpcal.cli.engine_words import add_on, engine_of_words, jobs_of
 from lpcal.cli.rig_option import add_rig_option, length, open_workspace
 from lpcal.errors import InputError, UsageError
 from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
-    from lpcal.api.engines import Engine
     from lpcal.pipeline.workspace import Workspace
     from lpcal.records.sensor import StatedSensor
     from lpcal.surface.mask import Hints
@@ -48,9 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="cores: of one capture those that share its work (default: all), of many the captures worked on at a time "
         "(default: one after the other; with --on, every processor); the result is the same with any number",
     )
-    parser.add_argument(
-        "--on", metavar="ENGINE", help="where: processes, dask, dask://HOST:PORT, slurm or slurm-trial (default: processes)"
-    )
+    add_on(parser)
     parser.add_argument("--anew", action="store_true", help="do again what stands and is up to date")
     add_rig_option(parser)
 
@@ -71,7 +69,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         keep=options.keep,
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
         outputs=_outputs(options.outputs, pages=not options.no_pages),
-        jobs=_jobs(options.jobs),
+        jobs=jobs_of(options.jobs),
         placed_mesh=options.mesh_frame == "placed",
     )
     if not options.captures:
@@ -80,17 +78,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     else:
         rig = _rig_if_any(options)
         tasks = capture_tasks(options.captures, rig, options.output)
-    engine = _engine(options.on, wishes.jobs, tasks[0].target.parent) if len(tasks) > 1 else None
+    engine = engine_of_words(options.on, wishes.jobs, tasks[0].target.parent) if len(tasks) > 1 else None
     return reconstruct_all(tasks, calibration_of(rig, options.calibration), wishes, progress, rig, engine=engine, anew=options.anew)
-
-
-def _engine(where: str | None, jobs: int | None, folder: Path) -> Engine | None:
-    """Where many captures are worked on; None: one after the other, here."""
-    if where is None and jobs in {None, 1}:
-        return None
-    from lpcal.api.engines import engine_of
-
-    return engine_of(where or "processes", jobs, folder)
 
 
 def _outputs(text: str | None, *, pages: bool) -> tuple[str, ...]:
@@ -103,15 +92,6 @@ def _outputs(text: str | None, *, pages: bool) -> tuple[str, ...]:
         what = f"no output is called {', '.join(strange)}" if strange else "no word"
         raise UsageError(what, where="--outputs", needed=f"some of {','.join(OUTPUTS)}", todo="write for example normals,depth")
     return tuple(word for word in OUTPUTS if word in found and (pages or word != "page"))
-
-
-def _jobs(text: str | None) -> int | None:
-    """How many cores share the work; None: all."""
-    if text is None:
-        return None
-    if not text.isascii() or not text.isdigit() or int(text) < 1:
-        raise UsageError(f"{text!r} is no number of cores", where="--jobs", needed="a whole number from 1, such as 4")
-    return int(text)
 
 
 def _sensor(options: argparse.Namespace) -> StatedSensor:

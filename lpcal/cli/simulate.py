@@ -6,6 +6,7 @@ import argparse
 import re
 from pathlib import Path
 
+from lpcal.cli.engine_words import add_engine_words, engine_of_words, jobs_of
 from lpcal.errors import UsageError
 from lpcal.records.outcome import Outcome, Progress
 
@@ -21,6 +22,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 60, in session/"
     )
     parser.add_argument("--object", metavar="NAME", help="the object of the session: bust (default), pair, vase, knot, stone or beast")
+    parser.add_argument("--count", type=int, default=0, metavar="N", help="so many rigs, of seeds one after the other: DIR/seed_0001, ...")
+    add_engine_words(parser, "of --count, rigs")
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
@@ -42,6 +45,14 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         raise UsageError(f"--object {options.object}", needed=f"one of {', '.join(SHAPES)}", todo="correct it")
     if options.object is not None and not options.session:
         raise UsageError("--object without --session", needed="the number of stops round the object", todo="write for example --session 16")
+    if options.count < 0 or (not options.count and (options.on or options.jobs)):
+        raise UsageError(f"--count {options.count}", needed="one rig or more, with --jobs or --on", todo="write for example --count 20")
     recipe = Recipe(seed=options.seed, image_size=(int(size[1]), int(size[2])), stations=options.stations)
     rig = read_rig(rig_file(options.rig))
-    return simulate(rig, options.folder, recipe, progress, stops=options.session, item=options.object or "bust")
+    stops, item = options.session, options.object or "bust"
+    if not options.count:
+        return simulate(rig, options.folder, recipe, progress, stops=stops, item=item)
+    from lpcal.pipeline.simulate_many import simulate_many
+
+    engine = engine_of_words(options.on, jobs_of(options.jobs), options.folder)
+    return simulate_many(rig, options.folder, recipe, options.count, progress, engine=engine, stops=stops, item=item)

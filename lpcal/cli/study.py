@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lpcal.cli.engine_words import add_engine_words, engine_of_words, jobs_of
 from lpcal.records.outcome import Outcome, Progress
 
 if TYPE_CHECKING:
@@ -20,11 +21,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
     parser.add_argument("which", choices=("phase-angle", "ambient"), help="what is varied: the lights' angle, or the ambient light")
     parser.add_argument("-o", "--output", type=Path, default=Path(), metavar="DIR", help="where table and plot go (default: here)")
+    add_engine_words(parser, "trials")
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Table, plot and a sentence, into a folder."""
-    from lpcal.api.studies import ACROSS, study
+    from lpcal.api.studies import ACROSS, study_on
     from lpcal.formats.outputs import marked, refuse_place, whole, write_text
     from lpcal.report.side_pages import SOFTWARE, PlotLine, plot_png
 
@@ -33,7 +35,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     table, plot = options.output / f"study_{options.which}.csv", options.output / f"study_{options.which}.png"
     refuse_place(table, of_table)
     refuse_place(plot, of_plot)
-    found = study(options.which, progress=progress)
+    engine = engine_of_words(options.on, jobs_of(options.jobs), options.output)
+    found = study_on(engine, options.which, progress=progress)
     scale = 1.0 if options.which == "phase-angle" else FULL_SCALE
     curves = [PlotLine(curve.name, scale * curve.x, curve.mean_percent) for curve in found.curves]
     lines = [f"{'x':>8} " + "".join(f"{curve.name[:24]:>26}" for curve in curves)]

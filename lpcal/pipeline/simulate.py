@@ -30,6 +30,9 @@ from lpcal.simulate.captures import object_captures, sphere_captures
 from lpcal.simulate.recipe import Recipe
 from lpcal.simulate.tracking import Recording
 
+MADE_FROM = "truth/made_from.txt"
+"""What says that a drawn folder is up to date, where many are drawn."""
+
 
 @dataclass(frozen=True)
 class _BoardImages:
@@ -40,7 +43,9 @@ class _BoardImages:
     t_camera_s: Array
 
 
-def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress, *, stops: int = 0, item: str = "bust") -> Outcome:
+def simulate(
+    rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress, *, stops: int = 0, item: str = "bust", made_from: str = ""
+) -> Outcome:
     """Write the rig folder; with `stops` also a robot's path round an object of a name, its captures placed by its own recording.
 
     Raises
@@ -59,6 +64,8 @@ def simulate(rig_file: RigFile, folder: Path, recipe: Recipe, progress: Progress
         draft.mkdir()
         write_text(draft / "panel.yaml", rig_file.file.read_text(encoding="utf-8"))
         write_text(draft / "truth" / "README.md", README)
+        if made_from:
+            write_text(draft / MADE_FROM, made_from + "\n")
         _write_camera(draft, rig, session.built, recipe)
         if session.built.beam is not None:
             write_yaml(draft / "truth" / "distance_sensor.yaml", asdict(session.built.beam))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ import pytest
 from lpcal.api.engines import Lost, each, engine_of
 from many_captures import collection, same_bytes
 
+distributed = pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
 DASK = pytest.mark.filterwarnings("ignore")  # dask's own, of ports and of workers that go
 
@@ -27,7 +29,6 @@ def captures(tmp_path: Path) -> list[Path]:
 
 @DASK
 def test_dask_gives_the_bytes_of_the_loop(lpcal, captures, tmp_path):
-    pytest.importorskip("distributed")
     words = ["reconstruct", *captures, "-c", "dome.yaml", "-o"]
     (captures[1] / "L2.png").unlink()
     assert lpcal(*words, "loop", cwd=tmp_path)[0] == 6
@@ -57,7 +58,6 @@ def started(*words: str) -> subprocess.Popen[str]:
 @pytest.fixture
 def scheduler() -> Iterator[tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]]:
     """A dask scheduler and two workers without nannies: killed ones stay dead."""
-    pytest.importorskip("distributed")
     head = started("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
     assert head.stderr is not None
     address = next(found[1] for line in head.stderr if (found := re.search(r"tcp://(127\.0\.0\.1:\d+)", line)))
@@ -96,3 +96,39 @@ def test_where_the_dask_scheduler_is_killed_what_is_not_done_is_named(scheduler)
     lost = [one for one in found.values() if isinstance(one, Lost)]
     assert 0 < len(lost) <= 9
     assert all(one.why for one in lost)
+
+
+def with_small_disk(address: str, folder: Path, size: str) -> subprocess.Popen[str]:
+    """A worker to which another disk stands at a folder, of a size that holds no surface."""
+    mount = ["unshare", "-m", "sh", "-c", f'mount -t tmpfs -o size={size} tmpfs "{folder}" && exec "$@"', "sh"]
+    worker = ["-m", "distributed.cli.dask_worker", f"tcp://{address}", "--no-nanny", "--nthreads", "1", "--no-dashboard"]
+    return subprocess.Popen([*mount, sys.executable, *worker], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
+
+
+@DASK
+@pytest.mark.skipif(
+    shutil.which("unshare") is None or subprocess.run(["unshare", "-m", "true"], capture_output=True, check=False).returncode != 0,
+    reason="a disk of its own for one process needs Linux's mount namespaces",
+)
+def test_a_full_disk_on_one_worker_costs_the_captures_that_it_had_and_the_next_run_makes_them_good(lpcal, scheduler, captures, tmp_path):
+    """Of three workers one has a disk of 16 kB where the surfaces go."""
+    address, _, workers = scheduler
+    (tmp_path / "out").mkdir()
+    workers.append(with_small_disk(address, tmp_path / "out", "16k"))
+    with distributed.Client(f"tcp://{address}") as client:
+        client.wait_for_workers(3, timeout=120)
+    words = ["reconstruct", *captures, "-c", "dome.yaml", "-o", "out", "--on", f"dask://{address}"]
+    code, told, warned = lpcal(*words, cwd=tmp_path)
+    stand = sorted(path.parent.name for path in (tmp_path / "out").glob("*/summary.json"))
+    lacking = [one.name for one in captures if one.name not in stand]
+    assert lacking
+    assert (code, f"{len(stand)} done, {len(lacking)} failed" in told if stand else True) == (3, True)
+    assert warned.count("No space left on device") == len(lacking)
+    assert all(f"{name} was not reconstructed" in warned for name in lacking)
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [*stand, "surfaces.csv", "surfaces.html"]
+    workers[-1].kill()
+    workers[-1].wait()
+    code, told, warned = lpcal(*words, cwd=tmp_path)
+    assert code == 0, warned
+    assert f"{len(lacking)} done" in told
+    assert sorted(path.parent.name for path in (tmp_path / "out").glob("*/summary.json")) == [one.name for one in captures]

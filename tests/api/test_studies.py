@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import cv2
 import numpy as np
 import pytest
 
+import lpcal
+from lpcal.api import studies
+from lpcal.api.engines import Lost, engine_of
 from lpcal.api.studies import AMBIENT, PAPER, trial
+from lpcal.errors import InputError
 
 
 def test_wide_enough_and_not_too_wide():
@@ -58,9 +63,25 @@ def test_ambient_light_ruins_once_pixels_saturate():
     assert not burnt < 10 * dark
 
 
+def test_a_study_on_an_executor_finds_the_same_figures():
+    plain = lpcal.study("ambient", at=[0, 97])
+    with ThreadPoolExecutor(2) as pool:
+        there = lpcal.study("ambient", at=[0, 97], executor=pool)
+    for one, other in zip(plain.curves, there.curves, strict=True):
+        assert one.name == other.name
+        assert np.array_equal(one.mean_percent, other.mean_percent, equal_nan=True)
+    assert there.says == plain.says
+
+
+def test_a_trial_whose_workers_are_lost_ends_the_study(monkeypatch):
+    monkeypatch.setattr(studies, "each", lambda work, items, engine: iter([(0, Lost("the worker was killed"))]))
+    with pytest.raises(InputError, match="the worker was killed"):
+        studies.study_on(engine_of("processes", 1), "ambient", [0.0])
+
+
 @pytest.mark.slow
 def test_the_command_writes_table_plot_and_a_sentence(lpcal, tmp_path):
-    code, told, wrong = lpcal("study", "ambient", "-o", tmp_path, "--json", cwd=tmp_path)
+    code, told, wrong = lpcal("study", "ambient", "-o", tmp_path, "--json", "--jobs", "2", cwd=tmp_path)
     assert code == 0, wrong
     document = json.loads(told)
     assert "saturate" in document["says"]
