@@ -96,6 +96,13 @@ class Watched:
             words, tone = (), "good"
         return self._noted(Seen(f"{folder}/{light}" if folder else light, "light", tone, words or ("exposure is right",)))
 
+    def judge_beside(self, name: str, pixels: Image) -> Seen:
+        """An ambient image or a shorter exposure of a capture: it may be dark, shows no board, and stands for no light."""
+        words, tone = exposure_words(pixels)
+        if not words or words[0].startswith("dim"):
+            words, tone = ("exposure is right",), "good"
+        return self._noted(Seen(name, "light", tone, words))
+
     def judge_sphere(self, folder: str, found: SphereView | LpcalError) -> Seen:
         """A capture of a sphere whose lights have all come, as it was found, or why it was not."""
         if isinstance(found, LpcalError):

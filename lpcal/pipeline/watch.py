@@ -88,8 +88,10 @@ class Watch:
             seen = Seen(name, "board", "poor", (error.found,))
             self.session.seen.append(seen)
             return seen
-        stem = path.stem.removeprefix("short_")
-        if stem in self.session.lights:
+        stem = path.stem
+        if stem.removeprefix("short_") != stem or stem == "ambient" or stem.startswith("ambient_"):
+            seen = self.session.judge_beside(name, pixels)
+        elif stem in self.session.lights:
             sphere = self._sphere(path.parent)
             chrome = sphere is not None and sphere.kind == "chrome"
             seen = self.session.judge_light(path.parent.relative_to(self.folder).as_posix(), stem, pixels, chrome=chrome)

@@ -86,6 +86,18 @@ def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark():
     assert session.following() == "spheres/ball: 2 of 3 lights are lacking, next L1"
 
 
+def test_an_ambient_image_or_a_short_exposure_is_no_board_and_no_light(tmp_path):
+    (tmp_path / "panel.yaml").write_text(PANEL)
+    (tmp_path / "objects/vase").mkdir(parents=True)
+    for name in ("ambient", "ambient_1", "short_L0"):
+        cv2.imwrite(str(tmp_path / f"objects/vase/{name}.png"), np.full((48, 64), 5, np.uint8))
+    cv2.imwrite(str(tmp_path / "objects/vase/L1.png"), np.full((48, 64), 200, np.uint8))
+    said: list[str] = []
+    found = watch(tmp_path, read_rig(tmp_path / "panel.yaml").rig, said.append, port=None, idle_s=0.5).document
+    assert found["lacking"] == {"objects/vase": ["L0", "L2"]}
+    assert all("ok  " in line for line in said if "objects/vase/" in line and "next" not in line), said
+
+
 def test_a_sphere_is_looked_for_once_its_lights_have_come_and_a_bad_one_is_asked_for_again(tmp_path):
     lights = [f"L{k}: {{}}" for k in range(6)]
     spheres = [f"{name}: {{kind: matte, radius: 25 mm, images: spheres/{name}}}" for name in ("ball", "none", "later")]
