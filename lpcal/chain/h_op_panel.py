@@ -27,6 +27,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import park, pose_track, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack, TrackPoses, poses_at
+from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.observations import PoseStream
 
 
@@ -204,3 +205,46 @@ def _aligned(own: Array, turn_seen: Array | None, turn_body: Array | None) -> np
         match[k] = m
         k, m = (int(place) for place in previous[k, m])
     return match
+
+
+MOMENTS = 240
+"""Moments of a recording that are kept for its drawing: two units of a drawing 480 wide."""
+SHORT_LAPSES = 60
+"""Stretches without a pose to trust that are kept, the longest ones; a recording with more is poor in any case."""
+
+
+def course_of(stream: PoseStream, track: PoseTrack, *, inverse: bool = False) -> BodyCourse:
+    """The body over the recording at MOMENTS even times where its pose is to be trusted, and the stretches between where it is not.
+
+    `inverse`: the stream holds H_PO.
+    """
+    t_s = np.linspace(stream.t_s[0], stream.t_s[-1], MOMENTS)
+    run = np.searchsorted(track.starts_s, t_s, side="right") - 1
+    t_s = t_s[(run >= 0) & (t_s <= track.ends_s[np.maximum(run, 0)])]
+    H_OP = track.H[np.clip(np.searchsorted(track.t_s, t_s), 0, len(track.t_s) - 1)]
+    H_OP = se3.inv(H_OP) if inverse else H_OP
+    x_O = H_OP[:, :3, 3]
+    moved_m = np.linalg.norm(x_O - np.median(x_O, axis=0), axis=1) if len(t_s) else np.zeros(0)
+    turned_rad = se3.angle_rad(np.swapaxes(H_OP[:, :3, :3], -1, -2) @ H_OP[moved_m.argmin(), :3, :3]) if len(t_s) else np.zeros(0)
+    return BodyCourse(t_s, moved_m, np.asarray(turned_rad), _lapses(stream.t_s, track))
+
+
+def _lapses(t_s: Array, track: PoseTrack) -> tuple[Lapse, ...]:
+    """Stretches of a recording t_s (N,) outside the track's runs; the guard at a run's edge counts as the run's.
+
+    Two runs that follow one another without a gap are parted by a jump: a stretch of next to no length.
+    """
+    edges = np.concatenate([[t_s[0]], np.column_stack([track.starts_s, track.ends_s]).ravel(), [t_s[-1]]]).reshape(-1, 2)
+    interval = float(np.median(np.diff(t_s))) if len(t_s) > 1 else 0.0
+    guard = max(pose_track.GUARD_S, 1.5 * interval)
+    found = []
+    for k, (end, start) in enumerate(edges.tolist()):
+        outer = k in {0, len(edges) - 1}
+        low, high = end + guard * (k > 0), start - guard * (k < len(edges) - 1)
+        if outer and high - low <= interval:
+            continue
+        low, high = min(low, high), max(low, high)
+        inside = int(np.sum((t_s > low + 1e-9) & (t_s < high - 1e-9)))
+        found.append(Lapse(low, high, tracked=high - low <= 1.5 * interval or inside * interval > 0.5 * (high - low)))
+    longest = sorted(found, key=lambda one: one.start_s - one.end_s)[:SHORT_LAPSES]
+    return tuple(sorted(longest, key=lambda one: one.start_s))

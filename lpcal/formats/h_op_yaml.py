@@ -3,6 +3,9 @@
 - ``body``; ``clock_offset_s`` (t_camera = t_mocap + offset; null without clocks)
 - ``views``, one an image: ``image, t_camera_s, used`` (whether the pose is to be trusted), ``why`` (null where it is), ``H_OP`` (4x4, null
   where there is none), ``steady`` (a mean over a dwell rather than an interpolation)
+- ``recording``, null where the poses have no times of their own: at some moments ``t_mocap_s`` how far the body was from its median place
+  (``moved_m``) and how far turned (``turned_deg``); ``lapses: [{start_s, end_s, tracked}]``, stretches without a pose to trust,
+  ``tracked`` where the system gave poses there (flips, jumps), else the body was not seen
 """
 
 from __future__ import annotations
@@ -14,9 +17,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.formats.document_numbers import number, rigid
+from lpcal.formats.document_numbers import number, numbers, rigid
 from lpcal.formats.documents import read_record, write_document
 from lpcal.geometry.arrays import Array
+from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.provenance import Provenance
 
 KIND = "H_OP"
@@ -34,10 +38,16 @@ class ImagePanelPoses:
     why: tuple[str | None, ...]
     steady: npt.NDArray[np.bool_]
     clock_offset_s: float | None
+    course: BodyCourse | None = None
+    """The body over the whole recording; None where poses came without one."""
 
     def by_image(self) -> dict[str, Array]:
         """The pose (4, 4) at each image that has one to trust."""
         return {image: H_OP for image, H_OP in zip(self.images, self.H_OP, strict=True) if np.isfinite(H_OP).all()}
+
+    def times_by_image(self) -> dict[str, float]:
+        """Seconds on the camera's clock of each image; none where the images have no times."""
+        return {} if self.t_camera_s is None else dict(zip(self.images, self.t_camera_s.tolist(), strict=True))
 
 
 def write_h_op(path: Path, poses: ImagePanelPoses, provenance: Provenance) -> None:
@@ -53,7 +63,30 @@ def write_h_op(path: Path, poses: ImagePanelPoses, provenance: Provenance) -> No
         }
         for k, image in enumerate(poses.images)
     ]
-    write_document(path, KIND, {"body": poses.body, "clock_offset_s": poses.clock_offset_s, "views": views}, provenance)
+    body = {"body": poses.body, "clock_offset_s": poses.clock_offset_s, "views": views, "recording": _recording(poses.course)}
+    write_document(path, KIND, body, provenance)
+
+
+def _recording(course: BodyCourse | None) -> dict[str, Any] | None:
+    """The body over the recording, to the digits that a drawing shows."""
+    if course is None:
+        return None
+    return {
+        "t_mocap_s": np.round(course.t_s, 3),
+        "moved_m": np.round(course.moved_m, 5),
+        "turned_deg": np.round(np.degrees(course.turned_rad), 3),
+        "lapses": [{"start_s": round(one.start_s, 4), "end_s": round(one.end_s, 4), "tracked": one.tracked} for one in course.lapses],
+    }
+
+
+def _course(recording: dict[str, Any] | None) -> BodyCourse | None:
+    if recording is None:
+        return None
+    t_s, moved_m, turned_deg = (numbers(recording, key, -1) for key in ("t_mocap_s", "moved_m", "turned_deg"))
+    if not len(t_s) == len(moved_m) == len(turned_deg):
+        raise ValueError("moved_m")
+    lapses = tuple(Lapse(float(numbers(one, "start_s")), float(numbers(one, "end_s")), bool(one["tracked"])) for one in recording["lapses"])
+    return BodyCourse(t_s, moved_m, np.radians(turned_deg), lapses)
 
 
 def read_h_op(path: Path) -> ImagePanelPoses:
@@ -86,4 +119,5 @@ def h_op_from_document(document: dict[str, Any]) -> ImagePanelPoses:
         why=tuple(view["why"] for view in views),
         steady=np.array([view["steady"] for view in views], dtype=bool),
         clock_offset_s=number(document, "clock_offset_s"),
+        course=_course(document.get("recording")),
     )

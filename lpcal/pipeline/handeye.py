@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.api.handeye import solve_handeye
-from lpcal.chain.h_op_panel import track_of
+from lpcal.chain.h_op_panel import course_of, track_of
 from lpcal.formats.h_op_yaml import ImagePanelPoses, write_h_op
 from lpcal.formats.handeye_yaml import write_handeye
 from lpcal.formats.pasted_transforms import EASY_HANDEYE, both_ways, matrix_lines, numbers, write_easy_handeye
@@ -83,8 +83,11 @@ def _with_all_images(handeye: HandEye, given: HandEyeInputs) -> HandEye:
 
 def _panel_at_all_images(given: HandEyeInputs, solved: HandEye) -> ImagePanelPoses:
     """The body's pose at every image, those without a board too."""
+    course = None
     if given.stream is not None and given.t_camera_s is not None:
-        panel = poses_at(track_of(given.stream), solved.mocap_times(given.t_camera_s))
+        track = track_of(given.stream)
+        course = course_of(given.stream, track, inverse=solved.misread)
+        panel = poses_at(track, solved.mocap_times(given.t_camera_s))
         H_OP = np.where(panel.trusted[:, None, None], panel.H, np.nan)
         why, steady = panel.why, panel.steady
     else:
@@ -97,7 +100,7 @@ def _panel_at_all_images(given: HandEyeInputs, solved: HandEye) -> ImagePanelPos
     H_OP = se3.inv(H_OP) if solved.misread else H_OP
     refused = {view.image: view.why for view in solved.views if not view.used}
     verdict = tuple(each if each is not None else refused.get(image) for image, each in zip(given.images, why, strict=True))
-    return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, solved.clock_offset_s)
+    return ImagePanelPoses(given.body, given.images, given.t_camera_s, H_OP, verdict, steady, solved.clock_offset_s, course)
 
 
 STAGE = Stage(

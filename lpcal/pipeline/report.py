@@ -26,6 +26,7 @@ from lpcal.formats.wings_yaml import read_wings
 from lpcal.geometry.arrays import Mask
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.rig import Rig
 from lpcal.report.page import render
 from lpcal.report.pictures import doubtful, png, shaded, shrink
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
@@ -62,6 +63,8 @@ def _report(workspace: Workspace, surfaces: Sequence[SurfaceReport]) -> RigRepor
         camera=read("camera", read_camera_solution),
         boards=read("H_CB", read_h_cb),
         body_poses=None if found is None else found.by_image(),
+        course=None if found is None else found.course,
+        image_times_s={} if found is None else found.times_by_image(),
         handeye=read("handeye", read_handeye),
         wings=read("wings", read_wings),
         distance=read("distance", read_distance),
@@ -69,7 +72,21 @@ def _report(workspace: Workspace, surfaces: Sequence[SurfaceReport]) -> RigRepor
         calibration=read("calibration", read_calibration),
         provenance={kind: read_provenance(path, kind) for kind, path in paths.items()},
         surfaces=tuple(surfaces),
+        lacks=_lacks(workspace.rig_file.rig),
     )
+
+
+def _lacks(rig: Rig) -> frozenset[str]:
+    """What the rig does not state: no stage will find it."""
+    stated = {
+        "camera": rig.camera,
+        "handeye": rig.mocap,
+        "wings": any(light.is_wing for light in rig.lights.values()),
+        "lights": rig.lights,
+        "spheres": rig.spheres,
+        "surfaces": rig.objects,
+    }
+    return frozenset(part for part, found in stated.items() if not found)
 
 
 def write_report(workspace: Workspace, progress: Progress) -> Outcome:

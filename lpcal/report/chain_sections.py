@@ -14,7 +14,9 @@ from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.evidence import CameraEvidence, HandEyeEvidence, ProjectionUncertainty
 from lpcal.records.observations import BoardPoses
 from lpcal.report import charts
+from lpcal.report.charts import Drawing
 from lpcal.report.rig_report import RigReport, origin_sigmas
+from lpcal.report.time_lines import time_lines
 from lpcal.report.wording import NOTHING, fixed, number, plural, with_sigma
 
 type Row = tuple[str, str]
@@ -25,14 +27,6 @@ FEWEST_CORNERS = 8
 MOST_VECTORS = 3000
 """Lines of a drawing of residuals: more are a blot, and a page of megabytes."""
 CORE = {"focal length x": "fx", "focal length y": "fy", "principal point x": "cx", "principal point y": "cy"}
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A chart, as SVG, and what stands over it."""
-
-    svg: str
-    note: str
 
 
 @dataclass(frozen=True)
@@ -92,6 +86,8 @@ class HandEyePart:
     rms: list[Row]
     residuals: list[Row]
     """Titles and charts of those residuals that there are."""
+    times: Drawing | None
+    """Body, gaps, flips and views over the recording."""
     left_out: list[Row]
     warnings: tuple[str, ...]
 
@@ -159,6 +155,7 @@ def handeye_section(report: RigReport) -> HandEyePart | None:
             for measure in MEASURES
             if any(measure.of(view) is not None for view in found.views)
         ],
+        times=None if report.course is None else time_lines(report.course, found, report.image_times_s),
         left_out=_left_out(found.views),
         warnings=found.warnings,
     )

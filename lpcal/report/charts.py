@@ -26,6 +26,14 @@ BAR = 12
 
 
 @dataclass(frozen=True)
+class Drawing:
+    """A chart, as SVG, and what stands over it."""
+
+    svg: str
+    note: str
+
+
+@dataclass(frozen=True)
 class Bar:
     """One bar: its height (None: nothing was measured), what it is, and the tone of its colour."""
 
@@ -104,7 +112,7 @@ def rings(found: Sequence[Ring], image_size: tuple[int, int]) -> str:
         parts += [f'<circle class="fill-warm" cx="{u:.1f}" cy="{v:.1f}" r="1.5"/>' for u, v in ring.spots_px * scale + 2]
         u, v = ring.points_px.mean(axis=0)[0] * scale + 2, ring.points_px[:, 1].max() * scale + 15
         parts.append(f'<text class="middle" x="{u:.1f}" y="{min(v, height - 4):.1f}">{escape(ring.label)}</text>')
-    return _svg(height, parts, "where the spheres' outlines were found in the image")
+    return framed(height, parts, "where the spheres' outlines were found in the image")
 
 
 def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array | None = None) -> str:
@@ -120,7 +128,7 @@ def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array |
     for x, y, dx, dy in [] if arrows_px is None else arrows_px * scale:
         parts.append(f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/>')
         parts.append(f'<circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>')
-    return _svg(height, parts, "where the board's corners fell in the image")
+    return framed(height, parts, "where the board's corners fell in the image")
 
 
 def signed_grid(points: Array, value: Array, *, unit: str) -> str:
@@ -139,7 +147,7 @@ def signed_grid(points: Array, value: Array, *, unit: str) -> str:
         parts.append(f"<circle {where} {shade}><title>{z:.3f} {escape(unit)}</title></circle>")
     height = round((high[1] - low[1]) * scale)
     parts += _colour_bar(height + 8, (-strongest, strongest), unit, signed=True)
-    return _svg(height + 8 + BAR + 18, parts, f"map of a grid, {unit}, from {-strongest:.2g} to {strongest:.2g}")
+    return framed(height + 8 + BAR + 18, parts, f"map of a grid, {unit}, from {-strongest:.2g} to {strongest:.2g}")
 
 
 def heat_map(value: Array, *, unit: str, aspect: float, outline: Mask | None = None, what: str = "map", low: float = 0.0) -> str:
@@ -160,7 +168,7 @@ def heat_map(value: Array, *, unit: str, aspect: float, outline: Mask | None = N
     if outline is not None:
         parts.append(f'<path class="border" d="{_border(outline, across, down)}"/>')
     parts += _colour_bar(round(frame) + 12, (low, high), unit, signed=False)
-    return _svg(round(frame) + 12 + BAR + 18, parts, f"{what}, {unit}, from {low:.3g} to {high:.3g}")
+    return framed(round(frame) + 12 + BAR + 18, parts, f"{what}, {unit}, from {low:.3g} to {high:.3g}")
 
 
 def _border(inside: Mask, across: float, down: float) -> str:
@@ -197,7 +205,7 @@ def vectors(points_px: Array, arrows_px: Array, image_size: tuple[int, int]) -> 
         f"M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}" for (x, y), (dx, dy) in zip(points_px * scale + 2, arrows_px * scale, strict=True)
     )
     frame = f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>'
-    return _svg(height, [frame, f'<path class="vectors" d="{lines}"/>'], "what is left over of every corner, as lines over the image")
+    return framed(height, [frame, f'<path class="vectors" d="{lines}"/>'], "what is left over of every corner, as lines over the image")
 
 
 def dot_rows(rows: Sequence[tuple[str, Sequence[tuple[float, str, str]]]], *, unit: str, gate: float | None = None) -> str:
@@ -273,8 +281,9 @@ class _Plot:
         return f'<path d="M{self.left} {self.v(y):.1f}h{self.width}" class="gate"/>'
 
     def svg(self, parts: Iterable[str], what: str) -> str:
-        return _svg(self.height, parts, what)
+        return framed(self.height, parts, what)
 
 
-def _svg(height: int, parts: Iterable[str], what: str) -> str:
+def framed(height: int, parts: Iterable[str], what: str) -> str:
+    """The parts of a drawing as one SVG of this height; `what` is said to those who cannot see it."""
     return f'<svg class="chart" viewBox="0 0 {WIDTH} {height}" role="img" aria-label="{escape(what)}">{"".join(parts)}</svg>'

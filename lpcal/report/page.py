@@ -24,14 +24,15 @@ from lpcal.records.calibration import Camera, Light, SphereFinding
 from lpcal.records.evidence import LightsEvidence
 from lpcal.records.provenance import Provenance
 from lpcal.report import charts
-from lpcal.report.chain_sections import Drawing, camera_section, handeye_section
-from lpcal.report.rig_report import KINDS, OPTIONAL, RigReport, SurfaceReport, designed
+from lpcal.report.chain_sections import camera_section, handeye_section
+from lpcal.report.charts import Drawing
+from lpcal.report.rig_report import KINDS, LACKING, OPTIONAL, PARTS, RigReport, SurfaceReport, designed
 from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.scene_items import LineScene
 from lpcal.report.surface_sections import surface_section
 from lpcal.report.templates import environment, packed_three
 from lpcal.report.verdict import headline, verdicts
-from lpcal.report.wording import NOTHING, fixed, number, plural, sigma_of
+from lpcal.report.wording import NOTHING, fixed, listed, number, plural, sigma_of
 
 __all__ = ["RigReport", "SurfaceReport", "render"]
 
@@ -65,7 +66,9 @@ def render(report: RigReport, stamp: str = "") -> str:
             room=_script(room_scene(report)),
             surfaces=[surface_section(surface) for surface in report.surfaces],
             provenance=[_provenance(kind, report.provenance[kind]) for kind in KINDS if kind in report.provenance],
-            missing=[kind for kind in KINDS if kind not in report.provenance and kind != OPTIONAL],
+            sections=[part for part in ("camera", "handeye", "lights", "spheres", "surfaces") if not report.left_out(part)],
+            without=listed([words for part, words in LACKING.items() if report.left_out(part)]),
+            missing=_missing(report),
         )
     )
 
@@ -77,6 +80,12 @@ def script_json(value: Any) -> str:
 
 def _script(scene: LineScene | None) -> str | None:
     return None if scene is None else script_json(scene.document())
+
+
+def _missing(report: RigReport) -> list[str]:
+    """Kinds of document that the rig should have and does not."""
+    needless = {kind for part, kinds in PARTS.items() if report.left_out(part) for kind in kinds}
+    return [kind for kind in KINDS if kind not in report.provenance and kind != OPTIONAL and kind not in needless]
 
 
 def _latest(report: RigReport) -> str:

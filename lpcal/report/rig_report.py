@@ -9,6 +9,7 @@ import numpy as np
 
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.body_course import BodyCourse
 from lpcal.records.calibration import Calibration, HandEye, Light, LightsSolution, Wings
 from lpcal.records.camera import Camera, CameraSolution
 from lpcal.records.distance import SensorSolution
@@ -18,6 +19,24 @@ from lpcal.records.surface import SurfaceSummary
 
 KINDS = ("camera", "H_CB", "H_OP", "handeye", "wings", "distance", "lights", "calibration")
 """The documents in the chain's order, by kind; each stands in calib/ under its kind's name."""
+PARTS = {
+    "camera": ("camera", "H_CB"),
+    "handeye": ("H_OP", "handeye"),
+    "wings": ("wings",),
+    "lights": ("calibration",),
+    "spheres": ("lights",),
+    "surfaces": (),
+}
+"""What a rig may have and need not, each with the kinds of document that stand for it."""
+LACKING = {
+    "camera": "a camera whose lens is known",
+    "handeye": "motion capture",
+    "wings": "wings whose setting is stated",
+    "lights": "lights",
+    "spheres": "spheres",
+    "surfaces": "objects",
+}
+"""What each part is called where a rig goes without it."""
 OPTIONAL = "distance"
 """The document that most rigs do not have: it is not missed."""
 
@@ -42,6 +61,10 @@ class RigReport:
     """H_CB.yaml."""
     body_poses: Mapping[str, Array] | None = None
     """H_OP.yaml: the tracked body (4, 4) at each image that has a pose to trust."""
+    course: BodyCourse | None = None
+    """The tracked body over the recording; None where its poses came without one."""
+    image_times_s: Mapping[str, float] = field(default_factory=dict)
+    """On the camera's clock, of the images that have a time."""
     handeye: HandEye | None = None
     wings: Wings | None = None
     distance: SensorSolution | None = None
@@ -51,6 +74,20 @@ class RigReport:
     provenance: Mapping[str, Provenance] = field(default_factory=dict)
     """By kind, of the documents that there are."""
     surfaces: tuple[SurfaceReport, ...] = ()
+    lacks: frozenset[str] = frozenset()
+    """Parts (of PARTS) that the rig does not have: nothing is missed where they would stand."""
+
+    def left_out(self, part: str) -> bool:
+        """Whether a part does not belong to this rig and nothing was found for it either."""
+        there = {
+            "camera": self.lens,
+            "handeye": self.handeye,
+            "wings": self.wings,
+            "lights": self.shown_lights,
+            "spheres": self.lights and self.lights.spheres,
+            "surfaces": self.surfaces,
+        }
+        return part in self.lacks and not there[part]
 
     @property
     def lens(self) -> Camera | None:

@@ -66,8 +66,9 @@ class Verdict:
 
 
 def verdicts(report: RigReport) -> list[Verdict]:
-    """A line a stage, in the chain's order."""
+    """A line a stage, in the chain's order; of parts that the rig does not have the camera alone: without it rays are parallel."""
     lines = [_camera(report), _handeye(report.handeye), _wings(report.wings), *_distance(report.distance), _lights(report)]
+    lines = [line for line in lines if line.stage not in {"handeye", "wings", "lights"} or not report.left_out(line.stage)]
     return [*lines, *(_surface(surface) for surface in report.surfaces)]
 
 

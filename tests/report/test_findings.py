@@ -9,13 +9,16 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
+from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.calibration import Calibration
 from lpcal.records.evidence import CameraEvidence, LightsEvidence, NextSphere, NextView, OtherSolver, ProjectionUncertainty, ViewThatMatters
 from lpcal.report import charts
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.page import lights_section, render, spheres_section
+from lpcal.report.rig_report import PARTS
+from lpcal.report.time_lines import time_lines
 from lpcal.report.verdict import verdicts
-from report_rig import documents, report_of, surface, text_of
+from report_rig import documents, read, report_of, surface, text_of
 
 TRUSTED = np.zeros((4, 6), bool)
 TRUSTED[1:3, 1:5] = True
@@ -143,6 +146,74 @@ def test_a_rig_without_lights_is_not_said_to_have_none_refined() -> None:
     line = next(one for one in verdicts(report) if one.title == "Lights")
     assert (line.tone, line.found) == ("absent", "No lights: the rig states none.")
     assert "0 lights" not in text_of(render(report))
+
+
+def test_parts_that_a_rig_does_not_have_are_not_missed() -> None:
+    whole = documents()
+    hand = replace(
+        report_of({kind: whole[kind] for kind in ("camera", "H_CB", "H_OP", "handeye")}), lacks=frozenset(PARTS) - {"camera", "handeye"}
+    )
+    page = read(render(hand))
+    said = " ".join(" ".join(page.words).split())
+    assert {"camera", "handeye"} <= page.ids
+    assert not {"lights", "spheres", "surfaces"} & page.ids
+    assert "#lights" not in page.references
+    assert "without wings whose setting is stated, lights, spheres and objects" in said
+    assert "Not there: calibration" not in said
+    assert [line.stage for line in verdicts(hand)] == ["camera", "handeye"]
+    dome = replace(
+        report_of({kind: whole[kind] for kind in ("camera", "H_CB", "lights", "calibration")}), lacks=frozenset({"handeye", "wings"})
+    )
+    assert "handeye" not in read(render(dome)).ids
+    assert "H_OP.yaml" not in text_of(render(dome))
+    assert "handeye" in read(render(replace(dome, lacks=frozenset()))).ids, "a rig that has mocap misses its hand-eye"
+    blind = replace(
+        report_of({"lights": whole["lights"], "calibration": whole["calibration"]}), lacks=frozenset({"camera", "handeye", "wings"})
+    )
+    assert "camera" not in read(render(blind)).ids
+    assert "rays are taken as parallel" in text_of(render(blind))
+
+
+def test_what_was_found_is_shown_even_where_the_rig_does_not_state_it() -> None:
+    imported = replace(report_of(documents()), lacks=frozenset(PARTS))
+    assert {"camera", "handeye", "lights", "spheres"} <= read(render(imported)).ids
+
+
+def course(lapses: tuple[Lapse, ...] = ()) -> BodyCourse:
+    t_s = np.delete(np.linspace(10, 40, 61), np.arange(20, 25))
+    return BodyCourse(t_s, 0.3 * np.abs(np.sin(t_s)), 0.5 * np.abs(np.cos(t_s)), lapses)
+
+
+def test_the_recording_is_drawn_over_time() -> None:
+    whole = report_of(documents())
+    times = {view.image: 11.0 + 5 * k for k, view in enumerate(whole.handeye.views)}
+    found = replace(whole.handeye, clock_drift=1e-4, taken_offset_s=0.5)
+    part = time_lines(course((Lapse(20.0, 22.4, tracked=False), Lapse(30.0, 30.3, tracked=True))), found, times)
+    said = plain(part.note)
+    assert (
+        "30 s of the recording; the body was not seen (amber) 1 time, 2.4 s at most and flipped or jumped (red) 1 time, 0.3 s at most."
+        in said
+    )
+    assert "Markers that fit in two ways make flips" in said
+    assert "drift apart by 3.00 ms" in said
+    bands = [float(value) for value in re.findall(r'<rect x="([\d.]+)"', part.svg)]
+    across = charts.WIDTH - charts.LEFT - charts.RIGHT
+    assert bands == pytest.approx([charts.LEFT + across / 3, charts.LEFT + across * 2 / 3], abs=0.1)
+    dots = np.array(re.findall(r'<circle class="fill-\w+" cx="([\d.]+)"', part.svg), float)
+    expected = found.mocap_times(np.array(list(times.values()))) - 10
+    assert dots == pytest.approx(charts.LEFT + across * expected / 30, abs=0.1)
+    assert part.svg.count('class="curve"') == 4, "two curves, each broken at the gap"
+    assert "seen and steady all along" in plain(time_lines(course(), found, times).note)
+
+
+def test_the_recording_stands_on_the_page() -> None:
+    whole = documents()
+    for k, view in enumerate(whole["H_OP"]["views"]):
+        view["t_camera_s"] = 12.0 + k
+    whole["H_OP"]["recording"] = {"t_mocap_s": [10.0, 15.0, 20.0], "moved_m": [0, 0.1, 0.2], "turned_deg": [0, 5, 9.0], "lapses": []}
+    assert "Over time" in text_of(render(report_of(whole)))
+    whole["H_OP"]["recording"] = None
+    assert "Over time" not in text_of(render(report_of(whole)))
 
 
 def test_a_piece_that_fails_the_gate_is_named() -> None:
