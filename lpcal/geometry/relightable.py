@@ -22,8 +22,8 @@ LOWEST_RAD = 0.15
 RIDGE = 1e-4
 """Share of the mean of the basis' squares that is added to them: next to nothing where the lights determine the fit."""
 PTM_TERMS = 6
-HSH_TERMS = (4, 9)
-"""Terms of the harmonics of order 1 and 2, which viewers know."""
+HSH_TERMS = (4, 9, 16)
+"""Terms of the harmonics of order 1 to 3, which RTIViewer knows; OpenLIME knows the first two."""
 
 
 def ptm_basis(directions: Array) -> Array:
@@ -33,11 +33,12 @@ def ptm_basis(directions: Array) -> Array:
 
 
 def hsh_basis(directions: Array, terms: int) -> Array:
-    """Hemispherical harmonics (L, terms) of directions (L, 3), 4 or 9 terms."""
+    """Hemispherical harmonics (L, terms) of directions (L, 3), 4, 9 or 16 terms."""
     phi = np.arctan2(directions[:, 1], directions[:, 0])
     c = np.cos(np.minimum(np.arccos(np.clip(directions[:, 2], -1, 1)), np.pi / 2 - LOWEST_RAD))
     s = np.sqrt(np.maximum(c - c * c, 0.0))
     one, two, three, five = (np.sqrt(factor / np.pi) for factor in (0.5, 6.0, 30.0, 2.5))
+    steep, bowed, leaning = (np.sqrt(factor / np.pi) for factor in (140.0, 210.0, 84.0))
     found = [
         np.full_like(c, one),
         two * np.cos(phi) * s,
@@ -48,6 +49,13 @@ def hsh_basis(directions: Array, terms: int) -> Array:
         five * (1 - 6 * c + 6 * c * c),
         three * np.sin(phi) * (2 * c - 1) * s,
         three * np.sin(2 * phi) * (c * c - c),
+        steep * np.cos(3 * phi) * s**3,
+        bowed * np.cos(2 * phi) * (2 * c - 1) * (c * c - c),
+        leaning * np.cos(phi) * s * (1 - 5 * c + 5 * c * c),
+        np.sqrt(3.5 / np.pi) * (20 * c**3 - 30 * c * c + 12 * c - 1),
+        leaning * np.sin(phi) * s * (1 - 5 * c + 5 * c * c),
+        bowed * np.sin(2 * phi) * (2 * c - 1) * (c * c - c),
+        steep * np.sin(3 * phi) * s**3,
     ]
     return np.stack(found[:terms], axis=1)
 

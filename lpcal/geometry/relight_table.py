@@ -1,0 +1,152 @@
+"""Images as a table over the light's direction: Lambert's law where it holds, what it leaves over between the lights, few components.
+
+Symbols: unit directions d_l (u, v, w) of L lights, u right, v up, w to the camera; display-encoded images S_l (N,), gamma g; per value
+b (3,)::
+
+    b       least squares of S_l^g = b . d_l over the samples that are lit,      M(d) = clip(b . d, 0, 1)^(1/g)
+    S(d)  = M(d) + sum_l W_l(d) (S_l - M(d_l))
+
+The law carries the edge of the attached shadow, which no smooth function of d follows; W interpolates the rest, which is smooth, by
+thin-plate splines in (u, v) with a polynomial of second order.
+
+Nodes: R x R places of the octahedral map of the hemisphere, turned by 45 degrees so that they fill the square; between nodes S is
+bilinear. A pixel's 3 R^2 values are then a mean and few principal components over the pixels. Sources: Duchon 1977 (splines); Engelhardt
+and Dachsbacher 2008 (octahedral maps); Ponchio et al. 2018, A compact representation of relightable images (table and components).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry.arrays import Array, Image, Mask
+
+RESOLUTION = 16
+"""Nodes along a side: some ten degrees apart, as the lights of a good dome."""
+FEWEST_LIGHTS = 12
+"""Lights from which a table is worth more than harmonics: twice the terms of its polynomial."""
+SAMPLED, HELD_OUT = 6000, 1500
+"""Pixels from which the components are taken, and on which images are held out."""
+MOST_HELD_OUT = 24
+"""Lights held out in turn, evenly over those that there are: each costs a fit."""
+ROUNDS = 6
+"""Fits of b, each to the samples that the one before calls lit: the set stands after four."""
+DARK = 1e-3
+"""Linear value under which a sample is in shadow."""
+BLOCK = 20_000
+"""Pixels at a time."""
+
+
+@dataclass(frozen=True)
+class RelightTable:
+    """A mean and components over nodes and channels, every pixel's share of each, and how well held-out images are predicted."""
+
+    basis: Array
+    """(P + 1, R^2, 3): the mean, then the components."""
+    planes: Image
+    """(P, H, W)."""
+    held_out: Array
+    """(K,) rms of held-out images that the table predicts, as a share of full scale, before the components are cut off."""
+    cut_off: float
+    """Rms of what the components leave out, as a share of full scale."""
+
+
+def nodes(resolution: int) -> Array:
+    """Directions (R^2, 3) of the nodes, x first."""
+    x, y = np.meshgrid(np.linspace(-1, 1, resolution), np.linspace(-1, 1, resolution))
+    u, v = (x - y) / 2, (x + y) / 2
+    found = np.stack([u, v, np.maximum(1 - np.abs(u) - np.abs(v), 0)], axis=-1).reshape(-1, 3)
+    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+
+
+def table(directions: Array, images: Image, gamma: float, components: int, inside: Mask | None = None) -> RelightTable:
+    """Tabulate display-encoded images (L, H, W, 3) of lights (L, 3); `inside` (H, W) says from which pixels the components are taken."""
+    height, width = images.shape[1:3]
+    flat = images.reshape(len(images), -1, 3)
+    rows = np.arange(height * width) if inside is None or not inside.any() else np.flatnonzero(inside)
+    law = _Law(directions, nodes(RESOLUTION), gamma)
+    sample = rows[np.linspace(0, len(rows) - 1, min(SAMPLED, len(rows))).astype(int)]
+    told = law.at_nodes(flat[:, sample])
+    mean = told.mean(axis=0)
+    _, V = np.linalg.eigh((told - mean).T @ (told - mean))
+    V = V[:, ::-1][:, :components].T
+    planes = np.zeros((components, height * width), np.float32)
+    for first in range(0, height * width, BLOCK):
+        part = slice(first, first + BLOCK)
+        planes[:, part] = V @ (law.at_nodes(flat[:, part]) - mean).T
+    left = told - mean - (told - mean) @ V.T @ V
+    basis = np.concatenate([mean[None], V]).reshape(components + 1, -1, 3)
+    held = rows[np.linspace(0, len(rows) - 1, min(HELD_OUT, len(rows))).astype(int)]
+    return RelightTable(
+        np.asarray(basis, float),
+        planes.reshape(components, height, width),
+        _held_out(directions, flat[:, held], gamma),
+        float(np.sqrt(np.mean(left**2))),
+    )
+
+
+class _Law:
+    """What lights (L, 3) at images tell of the images under other lights (M, 3)."""
+
+    def __init__(self, directions: Array, asked: Array, gamma: float) -> None:
+        self.directions, self.asked, self.gamma = directions, asked, gamma
+        self.weights = _spline(directions[:, :2], asked[:, :2])
+
+    def at_nodes(self, images: Image) -> Array:
+        """Encoded values (N, 3 M) of pixels (L, N, 3), a pixel a row, nodes first."""
+        values = images.reshape(len(images), -1).astype(float)
+        b = _lambert(self.directions, values**self.gamma)
+        told = self._shown(self.asked, b) + self.weights @ (values - self._shown(self.directions, b))
+        return np.asarray(np.clip(told, 0, 1).reshape(len(self.asked), -1, 3).transpose(1, 0, 2).reshape(images.shape[1], -1))
+
+    def _shown(self, directions: Array, b: Array) -> Array:
+        return np.asarray(np.clip(directions @ b, 0, 1) ** (1 / self.gamma))
+
+
+def _lambert(directions: Array, linear: Array) -> Array:
+    """b (3, N) of linear values (L, N), from those that are lit."""
+    b = np.linalg.lstsq(directions, linear, rcond=None)[0]
+    squares = (directions[:, :, None] * directions[:, None, :]).reshape(len(directions), 9)
+    for _ in range(ROUNDS):
+        lit = ((directions @ b > 0) & (linear > DARK)).astype(float)
+        normal = (lit.T @ squares).reshape(-1, 3, 3) + 1e-6 * np.eye(3)
+        b = np.linalg.solve(normal, ((linear * lit).T @ directions)[..., None])[..., 0].T
+    return np.asarray(b)
+
+
+def _spline(places: Array, asked: Array) -> Array:
+    """Weights (M, L) of values at places (L, 2) for the values at asked ones (M, 2)."""
+
+    def bent(a: Array, b: Array) -> Array:
+        r2 = np.sum((a[:, None] - b[None]) ** 2, axis=-1)
+        return np.asarray(0.5 * r2 * np.log(np.maximum(r2, 1e-24)))
+
+    def flat(xy: Array) -> Array:
+        u, v = xy.T
+        return np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=1)
+
+    P = flat(places)
+    system = np.block([[bent(places, places), P], [P.T, np.zeros((6, 6))]])
+    return np.asarray((np.hstack([bent(asked, places), flat(asked)]) @ np.linalg.pinv(system))[:, : len(places)])
+
+
+def _about(direction: Array) -> tuple[Array, Array]:
+    """The four nodes (4, 3) about a direction (3,), and their bilinear weights (4,)."""
+    u, v, _ = direction / np.abs(direction).sum()
+    place = (np.array([u + v, v - u]) + 1) / 2 * (RESOLUTION - 1)
+    corner = np.clip(np.floor(place).astype(int), 0, RESOLUTION - 2)
+    (dx, dy), first = place - corner, int(corner[0] + corner[1] * RESOLUTION)
+    weights = np.array([(1 - dx) * (1 - dy), dx * (1 - dy), (1 - dx) * dy, dx * dy])
+    return nodes(RESOLUTION)[[first, first + 1, first + RESOLUTION, first + RESOLUTION + 1]], weights
+
+
+def _held_out(directions: Array, images: Image, gamma: float) -> Array:
+    """Rms (K,) of images (L, N, 3) that are predicted without themselves."""
+    count, missed = len(directions), []
+    for k in np.unique(np.linspace(0, count - 1, min(count, MOST_HELD_OUT)).astype(int)):
+        others = np.arange(count) != k
+        at, weights = _about(directions[k])
+        told = _Law(directions[others], at, gamma).at_nodes(images[others]).reshape(-1, len(at), 3)
+        missed.append(float(np.sqrt(np.mean((np.einsum("n,pnc->pc", weights, told) - images[k]) ** 2))))
+    return np.array(missed)
