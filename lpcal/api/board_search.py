@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 import numpy as np
 
 from lpcal.detect.board import count_corners, find_board
+from lpcal.detect.board_marked import find_marked
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.corner_cache import Sighting
-from lpcal.geometry.arrays import Image
+from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board, BoardView, BoardViews
 
 COUNTED_IMAGES = 3
@@ -81,12 +82,15 @@ def spread(rows: Sequence[int]) -> list[int]:
     return [rows[k] for k in np.unique(np.linspace(0, len(rows) - 1, COUNTED_IMAGES).round().astype(int))] if rows else []
 
 
-def look_at(shown: Shown, rows: Sequence[int], board: Board, done: Callable[[int], None]) -> dict[int, Sighting]:
-    """The board in some of the images, by their rows."""
+def look_at(
+    shown: Shown, rows: Sequence[int], board: Board, done: Callable[[int], None], marks_px: Mapping[int, Array] | None = None
+) -> dict[int, Sighting]:
+    """The board in some of the images, by their rows; `marks_px` are its outermost corners (4, 2) where a person marked them."""
+    marks_px = marks_px or {}
     found: dict[int, Sighting] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         # threads, not processes: OpenCV gives up the interpreter's lock while it searches
-        tasks = {pool.submit(_look, shown, row, board): row for row in rows}
+        tasks = {pool.submit(_look, shown, row, board, marks_px.get(row)): row for row in rows}
         try:
             for count, task in enumerate(as_completed(tasks), start=1):
                 found[tasks[task]] = task.result()
@@ -118,9 +122,12 @@ def refuse_two_sizes(names: Sequence[str], sizes: Sequence[tuple[int, int]]) -> 
         )
 
 
-def _look(shown: Shown, row: int, board: Board) -> Sighting:
+def _look(shown: Shown, row: int, board: Board, marks_px: Array | None) -> Sighting:
     grey = shown(row)
-    return Sighting((grey.shape[1], grey.shape[0]), find_board(grey, board))
+    view = find_board(grey, board)
+    if view.corners_px is None and marks_px is not None:
+        view = find_marked(grey, board, marks_px)
+    return Sighting((grey.shape[1], grey.shape[0]), view)
 
 
 def grey_of(pixels: Image) -> Image:

@@ -84,14 +84,14 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     """
     if (flat := hardly_any_contrast(image)) is not None:
         return BoardView(name, None, f"no board found: {flat}")
-    grey = _stretched(image)
+    grey = stretched(image)
     if board.kind == "charuco":
         rough = find_charuco(grey, board)
         why = "fewer than eight of its corners have their markers in sight; see marker and dictionary"
-        return _verdict(grey, image, rough, board, name) if rough is not None else BoardView(name, None, f"no board found: {why}")
+        return judged(grey, image, rough, board, name) if rough is not None else BoardView(name, None, f"no board found: {why}")
     if board.kind in OTHERS:
         rough, why = OTHERS[board.kind](grey, board), WHY_NONE[board.kind]
-        return BoardView(name, None, f"no board found: {why}") if rough is None else _verdict(grey, image, rough, board, name)
+        return BoardView(name, None, f"no board found: {why}") if rough is None else judged(grey, image, rough, board, name)
     began = time.thread_time()
     seen = seen_grid(grey, board.corners)
     rough, ended = _as_asked(seen, board.corners), False
@@ -102,14 +102,14 @@ def find_board(image: Image | Labels, board: Board, name: str = "") -> BoardView
     if rough is None:
         cap = f" (the search was ended after {SEARCH_S:.0f} s)" if ended else ""
         return BoardView(name, None, what_is_there(grey, _saturated(image), board.corners, seen) + cap)
-    return _verdict(grey, image, rough, board, name)
+    return judged(grey, image, rough, board, name)
 
 
 def count_corners(image: Image | Labels) -> tuple[int, int] | None:
     """Inner corners along the longer and the shorter side of whatever whole chessboard a grey image (H, W) shows; None: none."""
     if hardly_any_contrast(image) is not None:
         return None
-    grid = seen_grid(_stretched(image))
+    grid = seen_grid(stretched(image))
     if grid is None or np.isfinite(grid).mean() < SEEN_SHARE or cut_sides(grid, image.shape):
         return None
     return grid.shape[1], grid.shape[0]
@@ -128,7 +128,7 @@ def _nearly(seen: Array, corners: tuple[int, int]) -> bool:
     return bool(fits and np.isfinite(seen[..., 0]).sum() >= WORTH_SEARCHING * np.prod(corners))
 
 
-def _stretched(image: Image | Labels) -> Labels:
+def stretched(image: Image | Labels) -> Labels:
     """8 bit, the darkest and brightest half percent clipped."""
     low, high = np.percentile(image[::4, ::4], [0.5, 99.5])
     if image.dtype == np.uint8 and high - low > 60:
@@ -173,8 +173,8 @@ def _sector_based(grey: Labels, corners: tuple[int, int]) -> Array | None:
     return places if found else None
 
 
-def _verdict(grey: Labels, image: Image | Labels, rough: Array, board: Board, name: str) -> BoardView:
-    """The refined corners in order, unless the grid is too fine."""
+def judged(grey: Labels, image: Image | Labels, rough: Array, board: Board, name: str) -> BoardView:
+    """The corners of a rough grid (ny, nx, 2) refined and in order, unless the grid is too fine."""
     spacing = spacing_px(rough)
     if not spacing >= SMALL_SPACING_PX:
         return BoardView(

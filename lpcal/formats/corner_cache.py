@@ -24,11 +24,11 @@ CACHE = Kind("the corners' cache", lambda path: path.parent.name == ".cache")
 """The cache, as an output: what stands in calib/.cache is lpcal's own."""
 
 
-def cache_key(image: Path, board: Board, version: int) -> str:
-    """What a detection depends on, as one digest."""
-    seeds = (
-        f"{sha256(image)} {board.kind} {board.corners} {board.dictionary} {board.corner_fit} {board.marker_m / board.square_m[0]} {version}"
-    )
+def cache_key(image: Path, board: Board, version: int, marks_px: Array | None = None) -> str:
+    """What a detection depends on, as one digest; `marks_px` (4, 2) where a person marked the board's outermost corners."""
+    marked = "" if marks_px is None else f" {np.round(marks_px, 1).tolist()}"
+    pattern = f"{board.kind} {board.corners} {board.dictionary} {board.corner_fit} {board.marker_m / board.square_m[0]}"
+    seeds = f"{sha256(image)} {pattern} {version}{marked}"
     return hashlib.sha256(seeds.encode()).hexdigest()
 
 

@@ -17,7 +17,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import FORMULAS, TABLED
 from lpcal.records import lobes
 from lpcal.records.calibration import Calibration, Light, Lobe
-from lpcal.records.rig import reserved
+from lpcal.records.names import reserved
 
 C_FROM_UP = np.array([1.0, -1.0, -1.0])
 MOST_BYTES = 32_000_000

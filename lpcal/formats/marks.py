@@ -1,4 +1,4 @@
-"""What `lpcal mark` writes: a sphere's hint in panel.yaml, mask.png beside the images, the lights' images in capture.yaml."""
+"""What `lpcal mark` writes: a sphere's hint and a board's corners in panel.yaml, mask.png, the lights' images in capture.yaml."""
 
 from __future__ import annotations
 
@@ -51,6 +51,21 @@ def write_hint(panel: Path, sphere: str, circle_px: Sequence[float]) -> None:
     text = panel.read_bytes().decode("utf-8-sig")
     value = "[" + ", ".join(f"{x:.1f} px" for x in circle_px) + "]"
     write_text(panel, with_value(text, ["spheres", sphere, "hint"], value, str(panel)), edits_of(panel.name))
+
+
+def write_board_marks(panel: Path, image: str, marks_px: Sequence[float]) -> None:
+    """Set ``board.marks.<image>`` of a panel.yaml: x and y of the board's four outermost inner corners (8,), in turn round it.
+
+    Raises
+    ------
+    InputError
+        As `write_hint`.
+    """
+    section = read_rig(panel).rig.board
+    marks = {**({} if section is None else section.marks), image: tuple(marks_px)}
+    text = panel.read_bytes().decode("utf-8-sig")
+    rows = (f"{json.dumps(name, ensure_ascii=False)}: [{', '.join(f'{x:.1f} px' for x in at)}]" for name, at in marks.items())
+    write_text(panel, with_value(text, ["board", "marks"], "{" + ", ".join(rows) + "}", str(panel)), edits_of(panel.name))
 
 
 def write_light_images(folder: Path, images: Mapping[str, str]) -> None:

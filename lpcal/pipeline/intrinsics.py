@@ -325,16 +325,18 @@ def search(
     known = known or {}
     store = workspace.calib(".cache/corners.json")
     kept = read_corner_cache(store)
-    keys = [cache_key(image, board, DETECTOR_VERSION) for image in images]
+    marked = {} if workspace.rig_file.rig.board is None else workspace.rig_file.rig.board.marks
+    marks_px = {row: np.reshape(marked[name], (4, 2)) for row, image in enumerate(images) if (name := workspace.relative(image)) in marked}
+    keys = [cache_key(image, board, DETECTOR_VERSION, marks_px.get(row)) for row, image in enumerate(images)]
     found: dict[str, Sighting] = {key: kept[key] for key in keys if key in kept}
     given = {image: Sighting(read_image(image).size, view) for image, view in known.items()}
     new = [row for row, (key, image) in enumerate(zip(keys, images, strict=True)) if key not in kept and image not in given]
     first, shown = spread(new), shown_in(images)
-    seen = look_at(shown, first, board, lambda done: progress("board", done, len(new)))
+    seen = look_at(shown, first, board, lambda done: progress("board", done, len(new)), marks_px)
     if first and len(new) == len(images) and all(seen[row].view.corners_px is None for row in first):
         refuse_another_count(shown, first, seen[first[0]].named(workspace.relative(images[first[0]])), board)
     rest = [row for row in new if row not in first]
-    seen |= look_at(shown, rest, board, lambda done: progress("board", len(first) + done, len(new)))
+    seen |= look_at(shown, rest, board, lambda done: progress("board", len(first) + done, len(new)), marks_px)
     found |= {keys[row]: sighting for row, sighting in seen.items()}
     if new:
         write_corner_cache(store, found)

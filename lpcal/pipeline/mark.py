@@ -1,4 +1,4 @@
-"""`lpcal mark`: a page on this machine in which a sphere, a mask or the lights of a capture's images are set by mouse.
+"""`lpcal mark`: a page on this machine in which a sphere, a mask, a board's corners or the lights of a capture's images are set by mouse.
 
 The page is served to the loopback address alone and only to who knows the token in its address; a page of elsewhere that a browser is
 looking at cannot ask for it. What it sends is written at once, whole or not at all; it ends when the page says so.
@@ -23,13 +23,13 @@ import numpy as np
 
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.images import read_image
-from lpcal.formats.marks import CAPTURE_FILE, MASK_FILE, write_hint, write_light_images, write_mask
+from lpcal.formats.marks import CAPTURE_FILE, MASK_FILE, write_board_marks, write_hint, write_light_images, write_mask
 from lpcal.formats.named_files import PICTURES
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.pipeline.watch import LOOPBACK
 from lpcal.records.outcome import Outcome
-from lpcal.records.rig import RigFile
+from lpcal.records.rig import BoardSection, RigFile
 from lpcal.report.mark_page import mark_html
 from lpcal.report.pictures import block_sum, png
 
@@ -59,6 +59,19 @@ class Marking:
         return next((name for name, one in spheres.items() if (base / one.images).resolve() == self.folder.resolve()), None)
 
     @property
+    def board(self) -> bool:
+        """Whether these are images of the rig's chessboard: of none of its spheres and objects."""
+        if self.rig is None or self.rig.rig.board is None or self.rig.rig.board.kind != "chessboard":
+            return False
+        others = [*(one.images for one in self.rig.rig.spheres.values()), *self.rig.rig.objects.values()]
+        return all((self.rig.folder / one).resolve() != self.folder.resolve() for one in others)
+
+    def named(self, image: str) -> str:
+        """An image as the rig's stages name it: relative to the rig's folder where it lies in it."""
+        path, home = (self.folder / image).resolve(), Path() if self.rig is None else self.rig.folder.resolve()
+        return path.relative_to(home).as_posix() if path.is_relative_to(home) else path.as_posix()
+
+    @property
     def lights(self) -> tuple[str, ...]:
         """The rig's lights."""
         return () if self.rig is None else tuple(self.rig.rig.lights)
@@ -71,7 +84,9 @@ class Marking:
             "images": list(self.images),
             "sphere": self.sphere,
             "hint": None if section is None or section.hint is None else list(section.hint),
-            "lights": list(self.lights),
+            "board": self.board,
+            "marks": {} if not self.board or self.rig is None or self.rig.rig.board is None else self._marked(self.rig.rig.board),
+            "lights": [] if self.board else list(self.lights),
             "named": read_capture_section(self.folder / CAPTURE_FILE).images,
             "mask": (self.folder / MASK_FILE).is_file(),
         }
@@ -97,6 +112,8 @@ class Marking:
         said: list[str] = []
         if asked.get("circle") is not None:
             said.append(self._hint(asked["circle"]))
+        if asked.get("marks"):
+            said += self._board(asked["marks"])
         if asked.get("mask") is not None:
             mask = self._mask(asked["mask"])
             write_mask(self.folder, mask)
@@ -114,6 +131,23 @@ class Marking:
             raise UsageError(f"a circle of {circle}", needed="x, y and a radius over zero, pixels")
         write_hint(self.rig.file, self.sphere, numbers)
         return f"{self.rig.file}: spheres.{self.sphere}.hint: [{', '.join(f'{x:.1f} px' for x in numbers)}]"
+
+    def _marked(self, section: BoardSection) -> dict[str, list[float]]:
+        return {image: list(section.marks[name]) for image in self.images if (name := self.named(image)) in section.marks}
+
+    def _board(self, marks: Any) -> list[str]:
+        """Write the corners that were marked, by image."""
+        if self.rig is None or not self.board:
+            raise UsageError("a board is marked", where=str(self.folder), needed="a rig with a chessboard, and a folder of its images")
+        found = {str(image): [float(x) for x in np.ravel(at)] for image, at in dict(marks).items()}
+        wrong = [image for image, at in found.items() if image not in self.images or len(at) != 8 or not np.isfinite(at).all()]
+        if wrong:
+            raise UsageError(f"corners of {', '.join(wrong)}", needed="four corners of a board, in an image of this folder")
+        said = []
+        for image, at in found.items():
+            write_board_marks(self.rig.file, self.named(image), at)
+            said.append(f"{self.rig.file}: board.marks of {self.named(image)}")
+        return said
 
     def _mask(self, text: Any) -> Mask:
         """The mask (H, W) in the images' own size."""

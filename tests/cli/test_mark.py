@@ -63,7 +63,11 @@ class Served:
 
         self.outcome: Any = None
         self.thread = threading.Thread(
-            target=lambda: setattr(self, "outcome", mark(folder, read_rig(folder.parents[1] / "panel.yaml"), say))
+            target=lambda: setattr(
+                self,
+                "outcome",
+                mark(folder, read_rig(next(up / "panel.yaml" for up in folder.parents if (up / "panel.yaml").is_file())), say),
+            )
         )
         self.thread.start()
         assert told.wait(20)
@@ -191,6 +195,75 @@ def test_large_pictures_are_shown_smaller(folder: Path, monkeypatch: pytest.Monk
     assert Image.open(io.BytesIO(content)).size == (40, 30)
     at.save({"mask": picture(np.ones((30, 40), bool))})
     assert Image.open(folder / "mask.png").size == (80, 60)
+
+
+def boards(folder: Path) -> Path:
+    """A rig with a chessboard and images of it."""
+    (folder / "panel.yaml").write_text("lpcal: 1\ncamera: {images: stations/*.png}\nboard: {corners: [9, 6], square: 25 mm}  # printed\n")
+    (folder / "stations" / "a").mkdir(parents=True)
+    for k in range(2):
+        Image.fromarray(np.full((60, 80), 100 + k, np.uint8)).save(folder / "stations" / "a" / f"{k}.png")
+    return folder / "stations" / "a"
+
+
+def test_a_boards_corners_are_written_by_image(tmp_path: Path) -> None:
+    folder = boards(tmp_path)
+    at = Marking(folder, read_rig(tmp_path / "panel.yaml"), ("0.png", "1.png"))
+    assert at.document()["board"] is True
+    corners = [10.0, 11, 60, 12, 61, 42.25, 9, 40]
+    assert "board.marks of stations/a/1.png" in at.save({"marks": {"1.png": corners}})[0]
+    at = Marking(folder, read_rig(tmp_path / "panel.yaml"), ("0.png", "1.png"))
+    at.save({"marks": {"0.png": [[1, 2], [3, 4], [5, 6], [7, 8]]}})
+    text = (tmp_path / "panel.yaml").read_text()
+    assert "# printed" in text
+    marks = read_rig(tmp_path / "panel.yaml").rig.board.marks
+    assert marks == {"stations/a/1.png": pytest.approx(corners, abs=0.06), "stations/a/0.png": (1, 2, 3, 4, 5, 6, 7, 8)}
+    assert Marking(folder, read_rig(tmp_path / "panel.yaml"), ("0.png", "1.png")).document()["marks"]["0.png"] == [1, 2, 3, 4, 5, 6, 7, 8]
+    for wrong in ({"2.png": corners}, {"1.png": corners[:6]}, {"1.png": [float("nan")] * 8}):
+        with pytest.raises(UsageError, match="corners of"):
+            at.save({"marks": wrong})
+    assert Marking(tmp_path, None, ("a.png",)).document()["board"] is False
+
+
+def test_a_spheres_images_are_no_boards(folder: Path) -> None:
+    panel = folder.parents[1] / "panel.yaml"
+    panel.write_text(PANEL + "board: {corners: [9, 6], square: 25 mm}\n")
+    at = Marking(folder, read_rig(panel), ("IMG_0.png",))
+    assert at.document()["board"] is False
+    with pytest.raises(UsageError, match="a board is marked"):
+        at.save({"marks": {"IMG_0.png": [1] * 8}})
+
+
+@pytest.mark.slow
+def test_the_page_marks_a_boards_corners(tmp_path: Path) -> None:
+    at = Served(boards(tmp_path))
+    try:
+        with chromium() as browser:
+            page = browser.new_page(viewport={"width": 1000, "height": 700})
+            page.goto(at.address)
+            page.wait_for_function("document.documentElement.dataset.ready", timeout=90_000)
+            place = page.locator("#view").bounding_box()
+            scale, x, y = page.evaluate("[marks.scale, marks.x, marks.y]")
+
+            def on(column: float, row: float) -> tuple[float, float]:
+                return place["x"] + x + scale * (column + 0.5), place["y"] + y + scale * (row + 0.5)
+
+            for corner in ((10, 10), (70, 12), (68, 50), (12, 40)):
+                page.mouse.click(*on(*corner))
+            page.mouse.move(*on(12, 40))
+            page.mouse.down()
+            page.mouse.move(*on(12, 48))
+            page.mouse.up()
+            page.focus("#view")
+            page.keyboard.press("ArrowRight")
+            assert findings(page) == []
+            page.click("#save")
+            page.wait_for_function("document.documentElement.dataset.answer === '200'", timeout=90_000)
+    finally:
+        at.ask("/done", {})
+        at.thread.join(10)
+    marks = read_rig(tmp_path / "panel.yaml").rig.board.marks
+    assert marks == {"stations/a/0.png": pytest.approx((10, 10, 70, 12, 68, 50, 13, 48), abs=0.6)}
 
 
 @pytest.mark.slow

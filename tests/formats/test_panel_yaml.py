@@ -116,7 +116,7 @@ MESSAGES = {
     "misspelled key of two mistakes": (
         "lpcal: 1\nboard:\n  corners: [9, 6]\n  squares: 25 mm\n",
         "panel.yaml:4, board.squares: unknown key (the first of 2 mistakes)\n"
-        "  needed: one of: kind, corners, square, warp, corner_fit, marker, dictionary\n  do: write square",
+        "  needed: one of: kind, corners, square, warp, corner_fit, marker, dictionary, marks\n  do: write square",
     ),
     "unknown key of a light": (
         "lpcal: 1\nlights:\n  L0: {colour: red}\n",

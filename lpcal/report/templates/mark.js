@@ -1,9 +1,9 @@
-// Marks over a picture: a circle, and a mask by box, polygon and brush. Places are the shown picture's pixels; `step` times as many are the image's.
+// Marks over a picture: a circle, a board's corners, and a mask by box, polygon and brush. Places are the shown picture's pixels; `step` times as many are the image's.
 "use strict";
 (function () {
   const find = (id) => document.getElementById(id), data = JSON.parse(find("data").textContent), canvas = find("view"), pen = canvas.getContext("2d");
   const mask = document.createElement("canvas"), ink = mask.getContext("2d", { willReadFrequently: true }), past = [];
-  const state = { tool: data.sphere ? "circle" : "box", circle: null, step: 1, scale: 1, x: 0, y: 0, polygon: [], box: null, painted: false, changed: { circle: false, mask: false } };
+  const state = { tool: data.sphere ? "circle" : data.board ? "corners" : "box", circle: null, corners: {}, image: data.images[0], step: 1, scale: 1, x: 0, y: 0, polygon: [], box: null, painted: false, changed: { circle: false, mask: false, corners: new Set() } };
   let picture = null, held = null, last = null;
   window.marks = state;
 
@@ -15,7 +15,8 @@
     if (!answer.ok) { say(await answer.text(), true); return; }
     const step = Number(answer.headers.get("X-Step"));
     picture = await createImageBitmap(await answer.blob());
-    if (!mask.dataset.made) { mask.width = picture.width; mask.height = picture.height; mask.dataset.made = "yes"; state.step = step; if (data.hint) state.circle = data.hint.map((v, k) => (k < 2 ? (v - (step - 1) / 2) / step : v / step)); whole(); }
+    if (!mask.dataset.made) { mask.width = picture.width; mask.height = picture.height; mask.dataset.made = "yes"; state.step = step; for (const [image, at] of Object.entries(data.marks)) state.corners[image] = [0, 2, 4, 6].map((k) => [(at[k] - (step - 1) / 2) / step, (at[k + 1] - (step - 1) / 2) / step]); if (data.hint) state.circle = data.hint.map((v, k) => (k < 2 ? (v - (step - 1) / 2) / step : v / step)); whole(); }
+    state.image = name;
     draw();
     document.documentElement.dataset.ready = name;
   }
@@ -40,6 +41,9 @@
     pen.globalAlpha = 0.45; pen.drawImage(mask, 0, 0); pen.globalAlpha = 1;
     pen.lineWidth = 2 / state.scale; pen.strokeStyle = "#f0c766"; pen.fillStyle = "#f0c766";
     if (state.circle) { const [x, y, r] = state.circle; pen.beginPath(); pen.arc(x + 0.5, y + 0.5, r, 0, 7); pen.stroke(); pen.beginPath(); pen.arc(x + 0.5, y + 0.5, 3 / state.scale, 0, 7); pen.fill(); }
+    const marked = state.corners[state.image] || [];
+    if (marked.length) { pen.beginPath(); marked.forEach((p, k) => (k ? pen.lineTo(p[0] + 0.5, p[1] + 0.5) : pen.moveTo(p[0] + 0.5, p[1] + 0.5))); if (marked.length === 4) pen.closePath(); pen.stroke(); }
+    for (const p of marked) { pen.beginPath(); pen.arc(p[0] + 0.5, p[1] + 0.5, 4 / state.scale, 0, 7); pen.stroke(); }
     if (state.box) { const [a, b] = state.box; pen.strokeRect(Math.min(a[0], b[0]) + 0.5, Math.min(a[1], b[1]) + 0.5, Math.abs(b[0] - a[0]), Math.abs(b[1] - a[1])); }
     if (state.polygon.length) { pen.beginPath(); state.polygon.forEach((p, k) => (k ? pen.lineTo(p[0] + 0.5, p[1] + 0.5) : pen.moveTo(p[0] + 0.5, p[1] + 0.5))); pen.stroke(); }
   }
@@ -65,6 +69,11 @@
       held = near ? { kind: "shift", by: [at[0] - c[0], at[1] - c[1]] } : { kind: "radius" };
       if (!near && !rim) state.circle = [...at, 1];
       state.changed.circle = true;
+    } else if (state.tool === "corners") {
+      const marked = (state.corners[state.image] = state.corners[state.image] || []), k = marked.findIndex((p) => Math.hypot(p[0] - at[0], p[1] - at[1]) < 9 / state.scale);
+      if (k < 0 && marked.length === 4) { last = at; return; }
+      if (k < 0) marked.push(at);
+      held = { kind: "corner", k: k < 0 ? marked.length - 1 : k }; state.changed.corners.add(state.image);
     } else if (state.tool === "box") { state.box = [at, at]; held = { kind: "box" }; }
     else if (state.tool === "polygon") { state.polygon.push(at); }
     else { remember(); held = { kind: "brush" }; stroke(at, at); }
@@ -78,6 +87,7 @@
     if (held.kind === "move") { state.x = event.clientX - held.x; state.y = event.clientY - held.y; }
     else if (held.kind === "shift") { state.circle[0] = at[0] - held.by[0]; state.circle[1] = at[1] - held.by[1]; }
     else if (held.kind === "radius") state.circle[2] = Math.max(1, Math.hypot(at[0] - state.circle[0], at[1] - state.circle[1]));
+    else if (held.kind === "corner") state.corners[state.image][held.k] = at;
     else if (held.kind === "box") state.box[1] = at;
     else stroke(last, at);
     last = at; shown(); draw();
@@ -96,10 +106,11 @@
 
   async function write() {
     const named = Object.fromEntries([...document.querySelectorAll("[data-of]")].filter((s) => s.value).map((s) => [s.dataset.of, s.value]));
-    const asked = { circle: state.changed.circle && state.circle ? circleInImage() : null, mask: state.changed.mask ? mask.toDataURL("image/png") : null, named };
+    const marks = Object.fromEntries([...state.changed.corners].filter((image) => state.corners[image].length === 4).map((image) => [image, state.corners[image].flatMap(toImage)]));
+    const asked = { marks, circle: state.changed.circle && state.circle ? circleInImage() : null, mask: state.changed.mask ? mask.toDataURL("image/png") : null, named };
     const answer = await fetch(address("/save"), { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(asked) });
     const found = await answer.json();
-    if (found.error) say(found.error, true); else { say(found.said.length ? `written:\n${found.said.join("\n")}` : "nothing to write yet"); state.changed = { circle: false, mask: false }; }
+    if (found.error) say(found.error, true); else { say(found.said.length ? `written:\n${found.said.join("\n")}` : "nothing to write yet"); state.changed = { circle: false, mask: false, corners: new Set() }; }
     document.documentElement.dataset.answer = String(answer.status);
   }
 
@@ -115,7 +126,11 @@
     if ((event.ctrlKey || event.metaKey) && event.key === "z") undo();
     else if (event.key === "Enter" && state.polygon.length && event.target.tagName !== "BUTTON") closePolygon();
     else if (event.key === "Escape") state.polygon = [];
-    else if (move && state.circle && event.target === canvas) { state.circle[0] += move[0]; state.circle[1] += move[1]; state.changed.circle = true; event.preventDefault(); }
+    else if (state.tool === "corners" && (move || event.key === "Backspace") && event.target === canvas && (state.corners[state.image] || []).length) {
+      const marked = state.corners[state.image], end = marked[marked.length - 1];
+      if (move) { end[0] += move[0]; end[1] += move[1]; } else marked.pop();
+      state.changed.corners.add(state.image); event.preventDefault();
+    } else if (move && state.circle && event.target === canvas) { state.circle[0] += move[0]; state.circle[1] += move[1]; state.changed.circle = true; event.preventDefault(); }
     else if ((event.key === "[" || event.key === "]") && state.circle) { state.circle[2] = Math.max(1, state.circle[2] + (event.key === "]" ? 1 : -1)); state.changed.circle = true; }
     else if (event.key === "+" || event.key === "-") zoom(event.key === "+" ? 1.2 : 1 / 1.2, [canvas.clientWidth / 2, canvas.clientHeight / 2]);
     else if (event.key === "0") whole();
