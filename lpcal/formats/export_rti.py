@@ -40,7 +40,7 @@ WHITE_PERCENTILE = 99.8
 SPARE_LIGHTS = 2
 """Lights beyond the number of terms that a fit needs, lest it only repeats its images."""
 COMPONENTS = 42
-"""Of a table, a multiple of three: fourteen pictures of the sixteen that every WebGL takes, and the uniforms of a shader."""
+"""Components of a table, a multiple of three: fourteen pictures of the sixteen that every WebGL takes, and the uniforms of a shader."""
 JPEG_QUALITY = 97
 """At which a plane's errors stay below one step of 8 bit on the mean."""
 

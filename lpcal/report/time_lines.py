@@ -54,7 +54,7 @@ def time_lines(course: BodyCourse, found: HandEye, image_times_s: Mapping[str, f
 
 
 HEIGHT = HEAD + 3 * STRIP + 2 * BETWEEN + FOOT
-"""Of the whole drawing, in its units."""
+"""Height of the whole drawing, in its units."""
 
 
 class _Axis:
