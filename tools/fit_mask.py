@@ -77,15 +77,14 @@ def example(scene: Path) -> list[Example]:
     sensor = settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor
     radiance = to_radiance(raw, sensor)
     lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
-    maps, room = sight.grey(radiance, lights), sight.room(radiance)
+    maps = sight.grey(radiance, lights)
     rays_C = sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    if room is None:
-        light = room_light.found(maps, rays_C, lights, distance_m)
-        maps, room = room_light.taken_away(maps, light), light.A
+    if sight.room(radiance) is None:
+        maps = room_light.taken_away(maps, room_light.found(maps, rays_C, lights, distance_m))
     image = coarse_of(maps, rays_C, factor_of(maps, mask.COARSE_PIXELS))
     lit = np.sum(image.signal > mask.LIT_SIGMAS * image.sigma, axis=0) >= 3
     table = LightTable.of(image, lights, distance_m)
-    view = View(image, table, flats.sweep(image, table, distance_m), joined(room, image.factor))
+    view = View(image, table, flats.sweep(image, table, distance_m))
     true = joined(np.load(scene / "truth/surface.npz")["mask"].astype(float), image.factor) > 0.5
     return of_view(scene.name, view, flats.find(image, table, view.swept, lit, distance_m), lit, distance_m, true)
 

@@ -15,36 +15,38 @@ from typing import Literal
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
-from lpcal.surface import flats, regions
+from lpcal.surface import regions
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
-    "": 1.84,
-    "frame": -3.09,
-    "plane": 3.23,
-    "frame, a plane": -5.14,
-    "spared": -0.166,
-    "off centre": -1.84,
-    "facing down": 1.41,
-    "size": 0.57,
-    "size, of any normal": 4.35,
-    "dark frame": 2.42,
-    "nothing beside": -3.02,
-    "two sides": -1.41,
-    "before": 0.592,
-    "free beside, a plane": 2.19,
-    "edge, a plane": -3.44,
+    "": 5.21,
+    "frame": -3.6,
+    "plane": 1.79,
+    "frame, a plane": -4.0,
+    "spared": -0.122,
+    "begins low": -1.75,
+    "width": -4.65,
+    "height": -4.73,
+    "fills its box": -4.21,
+    "size": 10.2,
+    "size, of any normal": 4.6,
+    "facing down": 1.68,
+    "facing aside": 1.09,
+    "bright": 0.196,
+    "edge in the lights": -2.56,
+    "dark frame": 2.05,
+    "nothing beside": -1.26,
+    "before": 1.66,
 }
 """Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
 BESIDE = {
-    "": 0.513,
-    "itself": 0.365,
-    "about": 0.878,
-    "alike in the room's light": 0.429,
-    "alike in the lights', a plane": 0.344,
-    "frame of the whole plane": -3.09,
-    "facing the camera, a plane": 0.441,
-    "widely about, of any normal": -0.364,
+    "": 0.343,
+    "itself": 0.426,
+    "about": 0.881,
+    "widely about, of any normal": -0.404,
+    "alike in the lights', a plane": 1.31,
+    "frame of the whole plane": -2.36,
+    "frame of the whole, seen through": -1.73,
 }
 """Weights of what the regions about it say, likewise."""
 RIM = 2
@@ -53,12 +55,6 @@ SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
-LEAST_SEEN_THROUGH = 6
-"""Coarse pixels of a piece of a wall from which it is asked whether it is seen through the object."""
-SEEN_THROUGH = 2.5
-"""Cost a light of such a piece at most."""
-NEARER = (0.85, 0.7)
-"""Distances, by that of the wall, from which a plane of the piece's own is looked for."""
 LIKELY = (0.01, 0.99)
 """Odds beyond which a region says no more to its neighbours."""
 CARRIED = 5
@@ -103,41 +99,12 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
     probable = odds_of(pictures, found)
     odds = np.zeros(labels.shape)
     odds[view.window] = probable[found.number]
-    odds[_holes(view, labels, planes, odds)] = 0.0
     for at in view.points:
         shown, _ = ndimage.label(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points))
-
-
-def _holes(view: View, labels: Labels, planes: list[Array], odds: Array) -> Mask:
-    """Pieces (rows, columns) of a wall that are seen through the object: they lie in the hindmost wall there."""
-    from scipy import ndimage
-
-    found = np.zeros(labels.shape, bool)
-    behind = odds <= 0.5
-    walls = [k for k in range(len(planes)) if np.any(behind & (labels == k + 1))]
-    for k in walls:
-        piece, _ = ndimage.label((labels == k + 1) & ~behind)
-        for one in np.setdiff1d(np.flatnonzero(np.bincount(piece.ravel()) >= LEAST_SEEN_THROUGH), [0]):
-            if _seen_through(view, planes[k], (piece == one).ravel(), [planes[wall] for wall in walls]):
-                found |= piece == one
-    return found
-
-
-def _seen_through(view: View, q: Array, inside: Mask, walls: list[Array]) -> bool:
-    """Whether the pixels `inside` (P,) lie in the plane q, the hindmost of the walls there, and not in one of their own before it."""
-    image, table = view.image, view.table
-    own = np.flatnonzero(inside)
-    cost = float(flats.explained(image, table, q, own)[0].mean())
-    if cost > SEEN_THROUGH * len(image.signal) or any(
-        np.median(image.rays_C[own] @ (wall - q)) < 0 < np.median(image.rays_C[own] @ wall) for wall in walls
-    ):
-        return False
-    trials = [flats.fitted(image, table, q / share, inside, rounds=3) for share in (1.0, *NEARER)]
-    return bool(cost - min(float(flats.explained(image, table, one, own)[0].mean()) for one in trials) < flats.CLEARLY_EACH)
 
 
 def odds_of(pictures: Pictures, found: Regions) -> Array:
@@ -161,7 +128,7 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     """A mask (rows, columns) without crumbs and small holes; where points are given it is the pieces that they lie on."""
     from scipy import ndimage
 
-    piece, count = ndimage.label(_opened_but(mask, points))
+    piece, count = ndimage.label(mask)
     if not count:
         return np.zeros(mask.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
@@ -173,16 +140,6 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     area = np.bincount(hole.ravel())
     small = np.flatnonzero(area < HOLE * max(int(found.sum()), 1))
     return np.asarray(found | np.isin(hole, small[small > 0]))
-
-
-def _opened_but(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
-    """A mask without what is one pixel thin, but for places of it that are given."""
-    from scipy import ndimage
-
-    opened = np.asarray(ndimage.binary_opening(mask))
-    for at in points:
-        opened[at] = mask[at]
-    return opened
 
 
 def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, distance_m: float) -> list[Kind]:

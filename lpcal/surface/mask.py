@@ -15,8 +15,8 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import background, cut, flats, layers, planes
-from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of, joined
+from lpcal.surface import background, cut, flats, layers, outline, planes
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
 from lpcal.surface.openings import openings
 from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, Sight, strength
@@ -33,12 +33,6 @@ LIT_SIGMAS = 6.0
 """Standard deviations of its noise over which a sample is lit."""
 FIT_SIGMAS = 3.0
 """Misfit under which a plane explains the rim of an image whose room light is not known."""
-BAND = 2
-"""Pixels of a scale on either side of an outline that the next finer scale asks anew."""
-EVIDENCE = 10.0
-"""Difference of costs that is full evidence for or against a pixel in the outline."""
-STIFFNESS = 0.6
-"""Evidence that a unit of outline must be worth where the picture shows no edge."""
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 HOLE_SHARE = 0.004
@@ -157,7 +151,7 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     if lit.mean() < LEAST_OF_IMAGE:
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
-    view = _view(image, table, flats.sweep(image, table, distance_m), hints, room, shape)
+    view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
     labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
@@ -166,19 +160,20 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
-        every = hints.of(_enlarged(image.image(lit), image.factor, shape))
+        every = hints.of(outline.enlarged(image.image(lit), image.factor, shape))
         return Found(every, "all that is lit lies in one plane: that is the object", walls, layer=every.astype(np.uint8))
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
-    fine = _to_full_size(mask, labels, found, image, table, float(u_free), maps, rays_C)
+    apart = outline.Apart(mask, labels, found, image, table, float(u_free))
+    fine = _tidy(outline.drawn(apart, maps, rays_C, room))
     fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
 
 
-def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, room: Image | None, shape: tuple[int, ...]) -> View:
+def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
     """What labels are judged by, the hints in coarse pixels."""
     rows, columns = image.shape
     allowed = hints.allowed(shape)
@@ -186,7 +181,7 @@ def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, ro
         blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
         allowed = blocks.any(axis=(1, 3))
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
-    return View(image, table, swept, None if room is None else joined(room, image.factor), allowed, points)
+    return View(image, table, swept, allowed, points)
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
@@ -226,55 +221,12 @@ def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.
     return planes.Plane(q, float(np.sqrt(np.median(square))))
 
 
-def _to_full_size(
-    mask: Mask, labels: Labels, found: layers.Layers, image: Coarse, table: LightTable, u_free: float, maps: Grey, rays_C: Array
-) -> Mask:
-    """The outline of a coarse mask drawn anew at every finer scale, by costs of the layers that are near."""
-    factor, size = image.factor, mask.shape
-    every = range(len(found.planes) + 3)
-    of_object, of_rest = (
-        np.stack([_grown(_opened(labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask)
-    )
-    of_object[0], of_rest[0] = True, False
-    while True:
-        finer = max(1, factor // 2)
-        here = coarse_of(maps, rays_C, finer)
-        mask = _enlarged(mask, factor / finer, here.shape)
-        by = int(np.ceil(BAND * factor / finer))
-        band = (_grown(mask, by) & ~cut.shrunk(mask, by)).ravel()
-        row, column = np.indices(here.shape).reshape(2, -1)[:, band]
-        parent = np.minimum(row * finer // image.factor, size[0] - 1) * size[1] + np.minimum(column * finer // image.factor, size[1] - 1)
-        at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
-        cost = layers.costs(found, at, table, np.full(len(parent), u_free))
-        own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
-        said = np.where(cut.shrunk(mask, by), 2.0, -2.0).astype(np.float32).ravel()
-        said[band] = np.clip((rest - own) / EVIDENCE, -1, 1)
-        bright = _log(strength(here.maps))
-        mask = cut.total_variation(said.reshape(here.shape), bright, STIFFNESS)
-        if finer == 1:
-            break
-        factor = finer
-    return _tidy(cut.halfway(mask, maps.signal, maps.sigma))
-
-
 def border_band(shape: tuple[int, ...]) -> Mask:
     """The image's rim (H, W), where the background is looked for."""
     width = max(2, round(BORDER_SHARE * min(shape)))
     border = np.ones(shape, bool)
     border[width:-width, width:-width] = False
     return border
-
-
-def _grown(mask: Mask, by: int) -> Mask:
-    from scipy import ndimage
-
-    return np.asarray(ndimage.binary_dilation(mask, iterations=by))
-
-
-def _opened(mask: Mask) -> Mask:
-    from scipy import ndimage
-
-    return np.asarray(ndimage.binary_opening(mask))
 
 
 def _tidy(mask: Mask) -> Mask:
@@ -301,25 +253,11 @@ def _picture(maps: Grey) -> Image:
     return np.asarray(np.sqrt(np.clip(three / np.maximum(top, 1e-12), 0, 1)), np.float32)
 
 
-def _log(bright: Image) -> Image:
-    return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
-
-
 def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
     """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
     f = factor_of(maps, MEDIUM_PIXELS)
     image = coarse_of(maps, rays_C, f)
     return image.maps, image.image(image.rays_C), f
-
-
-def _enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
-    """A mask of pixels `by` times as large, at a shape."""
-    import cv2
-
-    grid = np.array([[1 / by, 0, 0.5 / by - 0.5], [0, 1 / by, 0.5 / by - 0.5]])
-    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-    large = cv2.warpAffine(mask.astype(np.float32), grid, shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(large > 0.5)
 
 
 def _otsu(values: Image) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface.coarse import Coarse, LightTable
 from lpcal.surface.flats import Sweep
 from lpcal.surface.sight import Indices, strength
@@ -21,8 +21,8 @@ BEFORE = 0.02
 """Natural logarithm of a ratio of depths from which a region stands before the plane that holds most of the frame."""
 FEWEST = 6
 """Coarse pixels from which matter of any normal has a depth of its own: that at which its pixels together cost least."""
-ALIKE_ROOM, ALIKE_BRIGHT = 0.1, 0.15
-"""Natural logarithms of a step of the room's light and of the lights' at which the likeness of two regions falls to 1/e."""
+ALIKE_BRIGHT = 0.15
+"""Natural logarithm of a step of the lights' brightness at which the likeness of two regions falls to 1/e."""
 ABOUT = (0.05, 0.125)
 """Standard deviations, in picture widths, of the neighbourhoods that a region is compared with."""
 
@@ -34,8 +34,6 @@ class View:
     image: Coarse
     table: LightTable
     swept: Sweep
-    room: Image | None = None
-    """(rows, columns) the image without lights; None where there is none."""
     allowed: Mask | None = None
     """(rows, columns) where the object may be: a box."""
     points: tuple[tuple[int, int], ...] = ()
@@ -109,10 +107,13 @@ class Regions:
         edge = np.concatenate([self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1]])
         return np.asarray(np.bincount(edge, minlength=len(self.label)) / len(edge))
 
-    def sides(self) -> Array:
-        """(N,) sides of the image that a region touches, 0..4."""
-        edges = (self.number[0], self.number[-1], self.number[:, 0], self.number[:, -1])
-        return np.sum([np.isin(np.arange(len(self.label)), edge) for edge in edges], axis=0)
+    def boxes(self) -> tuple[Array, Array, Array]:
+        """The first row (N,) of each region, and the height and width (N,) of the box about it."""
+        from scipy import ndimage
+
+        box = [one for one in ndimage.find_objects(self.number + 1) if one is not None]
+        first, height, width = np.array([(y.start, y.stop - y.start, x.stop - x.start) for y, x in box], float).T
+        return first, height, width
 
 
 @dataclass(frozen=True)
@@ -126,8 +127,6 @@ class Pictures:
     """Cost that the label spares a pixel, beside matter of any normal."""
     bright: Array
     """Log of the brightest signal but one."""
-    room: Array | None
-    """Log of the image without lights."""
     normals: Array
     """(rows, columns, 3) the plane's, or those of matter of any normal."""
     rays_C: Array
@@ -143,13 +142,11 @@ class Pictures:
         signal = strength(image.maps)
         facing = np.stack([np.zeros(3), *(-q / np.linalg.norm(q) for q in planes), np.zeros(3), np.zeros(3)])[labels]
         in_plane = (labels > 0) & (labels <= count)
-        room = None if view.room is None else np.log(np.maximum(view.room, 0.02 * np.median(view.room)) + 1e-12)[here]
         return Pictures(
             labels[here],
             planes,
             np.clip(cost[0] - np.take_along_axis(cost, labels[None], axis=0)[0], *SPARED)[here],
             np.log(np.maximum(signal, 1e-3 * np.percentile(signal, 99)))[here],
-            room,
             np.where(in_plane[..., None], facing, view.normals)[here],
             image.image(image.rays_C)[here],
             (view.swept.u, view.swept.cost.reshape(-1, *image.shape)[:, *here]),
@@ -163,23 +160,26 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
     plane = ((regions.label > 0) & (regions.label <= count)).astype(float)
     frame = regions.frame()
     size = np.sqrt(regions.area / regions.number.size)
-    row, column = np.indices(regions.number.shape, float)
-    along = np.ones(len(regions.pairs))
+    first, height, width = regions.boxes()
+    along, all_over = np.ones(len(regions.pairs)), np.ones(len(regions.label))
     return {
         "frame": np.sqrt(frame),
         "plane": plane,
         "frame, a plane": np.sqrt(frame) * plane,
         "spared": regions.mean(pictures.spared),
-        "off centre": np.hypot(2 * regions.mean(row) / rows - 1, 2 * regions.mean(column) / columns - 1),
-        "facing down": regions.mean(pictures.normals[..., 1]),
+        "begins low": first / rows,
+        "width": width / columns,
+        "height": height / rows,
+        "fills its box": regions.area / (width * height),
         "size": size,
         "size, of any normal": size * (regions.label == 0),
+        "facing down": regions.mean(pictures.normals[..., 1]),
+        "facing aside": np.abs(regions.mean(pictures.normals[..., 0])),
+        "bright": regions.mean(pictures.bright) - float(np.median(pictures.bright)),
+        "edge in the lights": regions.outline(np.minimum(_step(pictures.bright, regions), 1.0), all_over),
         "dark frame": np.full(len(plane), frame[regions.label == count + 1].sum()),
         "nothing beside": regions.outline(along, regions.label == count + 1),
-        "two sides": (regions.sides() >= 2).astype(float),
         "before": _before(pictures, regions, frame, plane > 0),
-        "free beside, a plane": plane * regions.outline(along, regions.label == 0),
-        "edge, a plane": plane * regions.outline(_step(pictures.room, regions), np.ones(len(plane))),
     }
 
 
@@ -192,23 +192,21 @@ def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Arra
     near, far = (
         regions.mean(ndimage.gaussian_filter(logit[regions.number], share * regions.number.shape[1], mode="nearest")) for share in ABOUT
     )
-    frame = np.bincount(regions.label, weights=regions.frame(), minlength=count + 3)[regions.label]
+    frame = regions.frame()
+    of_label = np.bincount(regions.label, weights=frame, minlength=count + 3)[regions.label]
     alike = np.exp(-((_step(pictures.bright, regions) / ALIKE_BRIGHT) ** 2))
     return {
         "itself": logit,
         "about": near,
-        "alike in the room's light": regions.outline(np.exp(-((_step(pictures.room, regions) / ALIKE_ROOM) ** 2)), logit),
-        "alike in the lights', a plane": plane * regions.outline(alike, logit),
-        "frame of the whole plane": plane * frame,
-        "facing the camera, a plane": plane * regions.mean(-pictures.normals[..., 2]),
         "widely about, of any normal": free * far,
+        "alike in the lights', a plane": plane * regions.outline(alike, logit),
+        "frame of the whole plane": plane * of_label,
+        "frame of the whole, seen through": (frame == 0) * of_label,
     }
 
 
-def _step(picture: Array | None, regions: Regions) -> Array:
-    """Steps (K,) of a picture (rows, columns) across outlines; none without a picture."""
-    if picture is None:
-        return np.zeros(len(regions.pairs))
+def _step(picture: Array, regions: Regions) -> Array:
+    """Steps (K,) of a picture (rows, columns) across outlines."""
     a, b = picture.ravel()[regions.pixels].T
     return np.asarray(np.abs(a - b))
 
