@@ -146,13 +146,16 @@ def test_labels_are_smooth_and_end_at_edges() -> None:
     assert np.mean(layers.cheapest(cost, *layers.boundary(bright)) == true) > 0.95
 
 
-def view_of(shape: tuple[int, int], allowed: np.ndarray | None = None, points: tuple[tuple[int, int], ...] = ()) -> View:
-    """A view of which nothing is known; matter of any normal slants to the side."""
+def view_of(
+    shape: tuple[int, int], allowed: np.ndarray | None = None, points: tuple[tuple[int, int], ...] = (), bright: np.ndarray | None = None
+) -> View:
+    """A view of which nothing is known but how bright it is; matter of any normal slants to the side."""
     pixels = shape[0] * shape[1]
-    image = Coarse(np.ones((2, pixels)), np.ones((2, pixels)), np.ones((2, pixels), bool), np.tile([0.0, 0.0, 1.0], (pixels, 1)), shape, 1)
+    signal = np.ones((2, pixels)) if bright is None else np.tile(bright.ravel(), (2, 1))
+    image = Coarse(signal, np.ones((2, pixels)), np.ones((2, pixels), bool), np.tile([0.0, 0.0, 1.0], (pixels, 1)), shape, 1)
     no_light = LightTable(0.0, 1.0, np.zeros((pixels, 1, 0, 3)), np.zeros((pixels, 1, 0)))
     slanting = np.tile([0.8, 0.0, -0.6], (1, pixels, 1))
-    return View(image, no_light, Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels))), None, allowed, points)
+    return View(image, no_light, Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels))), allowed, points)
 
 
 def costs(labels: np.ndarray, planes_found: int, apart: float = 20.0) -> np.ndarray:
@@ -173,7 +176,8 @@ def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_b
     assert found.frame()[by[25]] == 0
     assert found.frame()[by[16]] == pytest.approx(4 / 100)
     assert found.frame().sum() == pytest.approx(1)
-    assert found.sides().tolist() == [{25: 0, 16: 1, 30: 2, 529: 4}[int(area)] for area in found.area]
+    first, height, width = found.boxes()
+    assert [(first[by[k]], height[by[k]], width[by[k]]) for k in (25, 16, 30, 529)] == [(5, 5, 5), (12, 4, 4), (0, 3, 10), (0, 20, 30)]
     beside_free = found.outline(np.ones(len(found.pairs)), found.label == 0)
     assert beside_free[by[25]] == 0
     assert beside_free[by[529]] == pytest.approx((20 + 12) / (20 + 12 + 13))
@@ -205,27 +209,36 @@ def test_the_odds_turn_as_a_region_takes_more_of_the_frame() -> None:
         labels = np.full((40, 60), 1)
         labels[8:32, 15:45] = 2
         labels[32:, :wide] = 2
-        judged = background.judged(view_of(labels.shape), labels, [WALL, WALL / 0.8], costs(labels, 2))
+        judged = background.judged(
+            view_of(labels.shape, bright=np.where(labels == 2, 1.0, 0.4)), labels, [WALL, WALL / 0.8], costs(labels, 2)
+        )
         odds.append(float(judged.odds[20, 30]))
     assert odds == sorted(odds, reverse=True)
     assert odds[0] > 0.2 > odds[-1]
 
 
-@pytest.mark.parametrize(("hole", "seen"), [(1.0, True), (0.88, False)])
-def test_a_wall_is_seen_through_a_hole_in_the_object_and_a_patch_like_it_is_not(hole: float, seen: bool) -> None:
-    """A slanting card with a hole, and behind it the wall, or a patch of the wall's direction nearer than the wall is."""
-    parts = scene(card=None)
-    on_card, inside = np.zeros((112, 160), bool), np.zeros((112, 160), bool)
-    on_card[20:92, 30:130], inside[40:72, 60:100] = True, True
-    parts.append((np.array([0.9, 0.3, 1 / 0.36]), np.full(on_card.shape, 0.7), on_card & ~inside))
-    parts.append((WALL / hole, np.full(on_card.shape, 0.35), inside))
-    maps, rays = picture(parts)
-    image = coarse_of(maps, rays, 2)
-    table = LightTable.of(image, calibration().lights, WORKING_M)
-    labels = np.where(on_card, 0, 1)
-    labels[inside] = 1
-    found = object_of(labels[::2, ::2], [WALL], View(image, table, flats.sweep(image, table, WORKING_M)))
-    assert iou(found, (on_card & ~inside if seen else on_card)[::2, ::2]) > 0.99
+def test_the_background_is_seen_through_a_hole_in_the_object() -> None:
+    for behind, level in ((1, 0.4), (2, 0.005)):  # a wall, and a place that no light reaches
+        labels = np.full((40, 60), behind)
+        labels[8:32, 12:46] = 0
+        labels[14:26, 22:36] = behind
+        assert iou(object_of(labels, [WALL], view_of(labels.shape, bright=np.where(labels == 0, 1.0, level))), labels == 0) > 0.99
+
+
+@pytest.mark.parametrize("ambient", [True, False])
+def test_shadows_at_the_outline_are_the_object_where_the_image_without_lights_shows_it(ambient: bool) -> None:
+    """A card before a black room, all lights hidden from two strips along its edge."""
+    row, column = np.indices((112, 160))
+    card = np.zeros(row.shape, bool)
+    card[CARD] = True
+    maps, rays = picture([(WALL * 0.45 / 0.4, np.full(card.shape, 0.7), card)])
+    maps = replace(maps, sigma=np.full_like(maps.sigma, 0.004 * np.median(maps.signal[:, card])))
+    maps.signal[:] += maps.sigma * np.random.default_rng(1).standard_normal(maps.signal.shape).astype(np.float32)
+    dark = card & ((row > 70) | (column > 101))
+    maps.signal[:, dark] = 0.01 * maps.signal[:, dark]
+    room = np.where(card, 0.05, 0.1) * (1 + 0.03 * np.random.default_rng(2).standard_normal(card.shape))
+    found = mask.automatic(maps, rays, calibration().lights, WORKING_M, room=room.astype(np.float32) if ambient else None)
+    assert (iou(found.mask, card) > 0.93) is ambient
 
 
 def test_what_lies_beyond_the_box_is_not_the_object_and_its_edge_is_the_frame() -> None:
