@@ -41,7 +41,7 @@ REPLY_S = 15.0
 """Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
 PRELOADED = (
     *("lpcal.api.surfaces", "lpcal.api.files", "lpcal.formats.surface_files", "scipy.ndimage", "scipy.optimize", "scipy.sparse.linalg"),
-    *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "trimesh", "jinja2"),
+    *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2"),
 )
 """What a worker that reconstructs would import, a second and more of processor time: where processes are forked off a server, the server
 imports it once for all workers and for those that take a lost one's place."""

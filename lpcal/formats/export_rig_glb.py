@@ -8,8 +8,6 @@ the mean of all lights. The lens, whole, stands in the camera's extras. Source: 
 
 from __future__ import annotations
 
-import json
-import struct
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +19,7 @@ from lpcal.formats.documents import plain
 from lpcal.formats.export_cameras import camera_of
 from lpcal.formats.export_lights import rgb
 from lpcal.formats.export_lobe import round_lobe
+from lpcal.formats.mesh_files import packed_glb
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
@@ -29,8 +28,6 @@ from lpcal.records.exchange import ExchangeContent
 HALF_TURN = se3.transform(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
 """Half a turn about x: C to glTF's axes, and a light's or camera's z forward to z backward."""
 LIGHTS = "KHR_lights_punctual"
-MAGIC, VERSION, JSON_CHUNK = 0x46546C67, 2, 0x4E4F534A
-"""What a GLB begins with, by the format: its sign, its version, and the sign of the part that is JSON."""
 WIDEST = np.pi / 2
 """Largest outer angle of a spot, by the format."""
 
@@ -65,7 +62,7 @@ def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
     }
     if spots:
         document |= {"extensionsUsed": [LIGHTS], "extensions": {LIGHTS: {"lights": spots}}}
-    _write_glb(folder / "rig.glb", document)
+    (folder / "rig.glb").write_bytes(packed_glb(plain(document)))
     said = ["the principal point and the distortion stand in the camera's extras: glTF's cameras have neither"]
     said += [f"lobes become cones with a soft edge: up to {100 * worst:.2g} % of the axis's light off"] * (worst > 1e-6)
     return said
@@ -132,9 +129,3 @@ def _camera(content: ExchangeContent) -> dict[str, Any]:
         },
         "extras": plain({**lens, "pixel centres": "whole numbers"}),
     }
-
-
-def _write_glb(path: Path, document: dict[str, Any]) -> None:
-    text = json.dumps(plain(document)).encode()
-    text += b" " * (-len(text) % 4)
-    path.write_bytes(struct.pack("<IIIII", MAGIC, VERSION, 20 + len(text), len(text), JSON_CHUNK) + text)

@@ -26,6 +26,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
+from lpcal.formats.mesh_files import glb_bytes, named, ply_bytes
 from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.placement_document import placement_document, placement_from_document
 from lpcal.formats.reading import reading
@@ -60,8 +61,6 @@ FILES = {*OUTPUTS.values(), SUMMARY}
 
 SURFACE = summarised("the folder of a surface", "surface", SUMMARY, FILES)
 """A surface's folder, as an output: one may replace another."""
-LINEAR = "_COLOR_0"
-"""What trimesh calls an attribute of glTF that it does not know: so colours travel as floats, not in 8 bit, too few for linear ones."""
 
 
 def write_surface(
@@ -236,35 +235,23 @@ def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str], p
 
     With a placement both are in its frame.
     """
-    import trimesh
-
-    def solid(turn: npt.NDArray[np.float32], **colours: Any) -> trimesh.Trimesh:
-        vertices, normals = mesh.vertices_C * turn, mesh.normals_C * turn
-        if placement is not None:
-            vertices = se3.apply(placement.H_AC, mesh.vertices_C.astype(float))
-            normals = se3.rotate(placement.H_AC, mesh.normals_C.astype(float))
-        return trimesh.Trimesh(vertices=vertices, faces=mesh.faces, vertex_normals=normals, process=False, **colours)
-
-    def finished(tree: dict[str, Any]) -> None:
-        tree["asset"]["extras"] = {"frame": f"glTF's axes of C: x right, y up, z to the camera, {unit}", "origin": "the camera"}
-        if placement is not None:
-            tree["asset"]["extras"] = {"frame": f"{placement.frame}, its axes as the tracking has them, {unit}", "origin": placement.frame}
-        tree["materials"] = [{"name": "matte", "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}]
-        for part in tree["meshes"]:
-            for primitive in part["primitives"]:
-                primitive["material"] = 0
-                primitive["attributes"]["COLOR_0"] = primitive["attributes"].pop(LINEAR)
-
+    frame, origin = "glTF's axes of C: x right, y up, z to the camera", "the camera"
+    ply_frame = "C: x right, y down, z forward"
+    vertices, normals, turn = mesh.vertices_C, mesh.normals_C, GLTF_FROM_C
+    if placement is not None:
+        frame, origin = f"{placement.frame}, its axes as the tracking has them", placement.frame
+        ply_frame = f"{placement.name[2]}: {_plain_words(placement.frame)}"
+        vertices = se3.apply(placement.H_AC, mesh.vertices_C.astype(float)).astype(np.float32)
+        normals = se3.rotate(placement.H_AC, mesh.normals_C.astype(float)).astype(np.float32)
+        turn = np.ones(3, np.float32)
     if "ply" in outputs:
         opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
-        ply: bytes = solid(np.ones(3, np.float32), vertex_colors=opaque).export(file_type="ply", vertex_normal=True)
-        frame = "C: x right, y down, z forward" if placement is None else f"{placement.name[2]}: {_plain_words(placement.frame)}"
-        said = f"comment frame {frame}, {unit}\nelement vertex".encode()
-        (draft / OUTPUTS["ply"]).write_bytes(ply.replace(b"element vertex", said, 1))
+        columns = named("x y z", vertices) | named("nx ny nz", normals) | named("red green blue alpha", opaque)
+        (draft / OUTPUTS["ply"]).write_bytes(ply_bytes(columns, mesh.faces, [f"frame {ply_frame}, {unit}"]))
     if "glb" in outputs:
-        linear = ((mesh.colours / 255) ** DISPLAY_GAMMA).astype(np.float32)
-        glb = solid(GLTF_FROM_C, vertex_attributes={LINEAR: linear})
-        (draft / OUTPUTS["glb"]).write_bytes(glb.export(file_type="glb", include_normals=True, tree_postprocessor=finished))
+        linear = (mesh.colours / 255) ** DISPLAY_GAMMA
+        told = {"POSITION": vertices * turn, "NORMAL": normals * turn, "COLOR_0": linear}
+        (draft / OUTPUTS["glb"]).write_bytes(glb_bytes(told, mesh.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
 
 
 def _plain_words(text: str) -> str:

@@ -186,7 +186,7 @@ def summary_document(surface: Surface, task: Task, calibration_path: Path, wishe
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
-        "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy", "trimesh")},
+        "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy")},
         "options": {
             word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word not in {"jobs", "recorded"}
         },

@@ -24,7 +24,7 @@ type Factor = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 class Section(BaseModel):
     """A section of a file that people write: frozen, and an unknown key is an error."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 SAME_AZIMUTH_RAD = math.radians(0.5)

@@ -52,9 +52,12 @@ def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict
         return {}
     B = vectors(light, some)
     miss = np.stack([_misses(signal[:, some], B, b[some], usable[:, some], half) for half in halves])
+    total = miss.sum(axis=0)
+    if np.array_equal(np.argmin(total, axis=1), np.arange(len(total))):
+        return {}  # each fits its own best
     from scipy.optimize import linear_sum_assignment
 
-    _, best = linear_sum_assignment(miss.sum(axis=0))
+    _, best = linear_sum_assignment(total)
     moved = np.flatnonzero(best != np.arange(len(best)))
     if not moved.size:
         return {}

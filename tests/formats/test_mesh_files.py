@@ -1,0 +1,59 @@
+"""Meshes as files, read by trimesh."""
+
+import io
+import json
+import struct
+
+import numpy as np
+import pytest
+import trimesh
+
+from lpcal.formats.mesh_files import glb_bytes, named, packed_glb, ply_bytes
+
+VERTICES = np.random.default_rng(1).standard_normal((7, 3)).astype(np.float32)
+NORMALS = VERTICES / np.linalg.norm(VERTICES, axis=1, keepdims=True)
+COLOURS = np.arange(28, dtype=np.uint8).reshape(7, 4)
+FACES = np.array([[0, 1, 2], [2, 3, 4], [6, 5, 4]])
+
+
+def load(data, kind):
+    return trimesh.load(io.BytesIO(data), file_type=kind, process=False)
+
+
+def test_a_ply_is_read_as_it_was_written():
+    columns = named("x y z", VERTICES) | named("nx ny nz", NORMALS) | named("red green blue alpha", COLOURS)
+    data = ply_bytes(columns, FACES, ["frame C, metres"])
+    assert b"\ncomment frame C, metres\n" in data[:200]
+    found = load(data, "ply")
+    assert np.array_equal(found.vertices, VERTICES)
+    assert np.array_equal(found.faces, FACES)
+    raw = found.metadata["_ply_raw"]["vertex"]["data"]
+    assert np.array_equal(np.stack([raw[name] for name in ("nx", "ny", "nz")], axis=1), NORMALS)
+    assert np.array_equal(found.visual.vertex_colors, COLOURS)
+
+
+@pytest.mark.parametrize("faces", [FACES, FACES[:1]])
+def test_a_glb_is_read_as_it_was_written(faces):
+    shown = {"POSITION": VERTICES, "NORMAL": NORMALS, "COLOR_0": COLOURS[:, :3] / 255}
+    data = glb_bytes(shown, faces, {"frame": "C"})
+    assert struct.unpack("<I", data[8:12])[0] == len(data)
+    assert len(data) % 4 == 0
+    document = json.loads(data[20 : 20 + struct.unpack("<I", data[12:16])[0]])
+    assert document["asset"]["extras"] == {"frame": "C"}
+    lengths = [view["byteLength"] for view in document["bufferViews"]]
+    assert sum(lengths) == document["buffers"][0]["byteLength"]
+    (found,) = load(data, "glb").geometry.values()
+    assert np.array_equal(found.vertices, VERTICES)
+    assert np.array_equal(found.faces, faces)
+    assert np.array_equal(found.vertex_normals, NORMALS)
+
+
+def test_a_glb_without_numbers_is_its_document():
+    data = packed_glb({"asset": {"version": "2.0"}})
+    assert json.loads(data[20:]) == {"asset": {"version": "2.0"}}
+
+
+def test_a_mesh_of_nothing_is_written():
+    nothing = np.zeros((0, 3), np.float32)
+    assert b"element vertex 0\n" in ply_bytes(named("x y z", nothing), np.zeros((0, 3), int))
+    assert glb_bytes({"POSITION": nothing}, np.zeros((0, 3), int), {})[:4] == b"glTF"
