@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -15,6 +14,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.corner_cache import Sighting
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board, BoardView, BoardViews
+from lpcal.surface.bands import workers
 
 COUNTED_IMAGES = 3
 """Number of images without a board that are searched for a board of another count, before the rest is looked at where they come first."""
@@ -61,7 +61,7 @@ def refuse_another_count(shown: Shown, picks: Sequence[int], first: BoardView, b
     """
     if board.kind != "chessboard":
         return
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(max_workers=workers()) as pool:
         others = pool.map(lambda row: count_corners(shown(row)), picks)
         counts = Counter(other for other in others if other is not None)
     counts.pop((max(board.corners), min(board.corners)), None)
@@ -88,7 +88,7 @@ def look_at(
     """The board in some of the images, by their rows; `marks_px` are its outermost corners (4, 2) where a person marked them."""
     marks_px = marks_px or {}
     found: dict[int, Sighting] = {}
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(max_workers=workers()) as pool:
         # threads, not processes: OpenCV gives up the interpreter's lock while it searches
         tasks = {pool.submit(_look, shown, row, board, marks_px.get(row)): row for row in rows}
         try:

@@ -27,6 +27,11 @@ def add_engine_words(parser: argparse.ArgumentParser, items: str) -> None:
     add_on(parser)
 
 
+def add_cores(parser: argparse.ArgumentParser, shared: str) -> None:
+    """Declare ``--jobs`` of a command whose cores share its work, `shared`."""
+    parser.add_argument("--jobs", metavar="N", help=f"cores that share {shared} (default: all); the result is the same with any number")
+
+
 def jobs_of(text: str | None) -> int | None:
     """How many at a time, or how many cores; None where it is not said.
 

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lpcal.cli.engine_words import add_cores, jobs_of
 from lpcal.cli.rig_option import add_rig_option, open_workspace
 from lpcal.errors import InputError, UsageError
 from lpcal.records.outcome import Outcome, Progress
@@ -35,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--corners", metavar="NxM", help="inner corners of a chessboard along x and y: with --square, no panel.yaml is needed"
     )
     parser.add_argument("--square", metavar="LENGTH", help="side of its squares with the unit, such as 25mm")
+    add_cores(parser, "the images")
     add_rig_option(parser)
 
 
@@ -47,13 +49,15 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
         return compare(open_workspace(options), options.compare)
     from lpcal.pipeline import intrinsics
+    from lpcal.surface.bands import cores
 
     absent = [image for image in options.images if not image.is_file()]
     if absent:
         raise InputError("no such image", where=str(absent[0]), needed="image files", todo="correct the name or the pattern")
     images = list(dict.fromkeys(options.images))
     workspace = _of_words(options) if options.corners or options.square else open_workspace(options)
-    return intrinsics.run(workspace, progress, images or None, options.corners_cache)
+    with cores(jobs_of(options.jobs)):
+        return intrinsics.run(workspace, progress, images or None, options.corners_cache)
 
 
 def _of_words(options: argparse.Namespace) -> Workspace:

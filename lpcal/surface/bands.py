@@ -19,12 +19,17 @@ _cores: ContextVar[int | None] = ContextVar("cores", default=None)
 
 @contextmanager
 def cores(count: int | None) -> Iterator[None]:
-    """Within this, bands are shared by so many threads; None stands for one a core."""
-    token = _cores.set(count)
+    """Within this, bands are shared by so many threads; None leaves that as it is around this: one a core, where nothing is said."""
+    token = _cores.set(_cores.get() if count is None else count)
     try:
         yield
     finally:
         _cores.reset(token)
+
+
+def workers() -> int:
+    """How many threads share work here."""
+    return _cores.get() or os.cpu_count() or 1
 
 
 def bands(pixels: int, lights: int) -> list[slice]:
@@ -44,7 +49,7 @@ def shared[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:
     Work that shares its own in turn does that alone.
     """
     items = list(items)
-    count = min(_cores.get() or os.cpu_count() or 1, len(items))
+    count = min(workers(), len(items))
     if count <= 1:
         return [work(item) for item in items]
     with ThreadPoolExecutor(count, initializer=_cores.set, initargs=(1,)) as pool:
