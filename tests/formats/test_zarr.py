@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -63,6 +65,30 @@ def test_a_capture_that_is_too_large_stays_where_it_lies_and_is_read_by_parts(tm
     np.testing.assert_allclose(found.images[1], full_size.blocks(shares[0], factor).mean(axis=(1, 3)), atol=1e-6)
     monkeypatch.undo()
     assert library.read_capture(tmp_path / "c.zarr", ["L2", "L0"]).full is None
+
+
+READ = """
+import resource, sys
+import lpcal
+raw = lpcal.read_capture(sys.argv[1], [f"L{k}" for k in range(12)])
+part, _, _ = raw.full.read(slice(3000, 3256), slice(5000, 5256))
+print(raw.size, part.shape, int(65535 * part.max() + 0.5), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the peak is counted in other units")
+def test_twenty_four_megapixels_under_twelve_lights_are_read_in_half_of_what_holding_them_takes(tmp_path):
+    """Chunks that were never written are zero: the capture takes little disk; what is written allows for the memory of reading."""
+    group = zarr.open_group(tmp_path / "c.zarr", mode="w", zarr_format=3)
+    group.attrs.update({"lpcal": 1, "kind": "capture", "lights": [f"L{k}" for k in range(12)]})
+    images = group.create_array("images", shape=(12, 4000, 6000), chunks=(1, 512, 512), dtype=np.uint16)
+    images[:, :512, :1024] = np.random.default_rng(1).integers(0, 60000, (12, 512, 1024), np.uint16)
+    images[:, 3100:3110, 5100:5110] = np.full((12, 10, 10), 65000, np.uint16)
+    done = subprocess.run([sys.executable, "-c", READ, str(tmp_path / "c.zarr")], capture_output=True, text=True, check=True)
+    said, _, peak_mb = done.stdout.strip().rpartition(" ")
+    assert said == "(6000, 4000) (12, 256, 256) 65000"
+    assert int(peak_mb) < 600  # 12 x 24 million numbers of float32 are 1152 MB
 
 
 def test_tiles_are_the_image_piece_by_piece(tmp_path):
