@@ -19,8 +19,8 @@ ESBUILD = "0.28.2"
 TARGET = Path(__file__).parents[1] / "lpcal" / "report" / "templates" / "three.min.js"
 PARTS = {
     "three": (
-        "BufferAttribute BufferGeometry Color DataTexture DoubleSide FloatType GLSL3 Group HalfFloatType LinearFilter "
-        "LinearMipmapLinearFilter LinearMipmapNearestFilter Matrix4 Mesh MeshBasicMaterial NearestFilter "
+        "BufferAttribute BufferGeometry Color DataTexture DoubleSide FloatType Frustum GLSL3 Group HalfFloatType LinearFilter "
+        "LinearMipmapLinearFilter LinearMipmapNearestFilter Matrix4 Mesh MeshBasicMaterial NearestFilter NearestMipmapNearestFilter "
         "OrthographicCamera PerspectiveCamera Quaternion RawShaderMaterial Raycaster RedFormat RedIntegerFormat "
         "RGBAFormat RGFormat Scene Sphere SphereGeometry UnsignedByteType UnsignedShortType Vector2 Vector3 Vector4 "
         "WebGLRenderer"

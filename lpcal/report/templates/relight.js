@@ -5,8 +5,9 @@ const START = { does: "light", mode: "lit", distance: 0.42, exposure: 0, gloss: 
 const state = { ...START, shadows: true, pointer: null, touched: false };
 const UNIT = data.perspective ? { name: "mm", k: 1000, digits: 1 } : { name: "px", k: 1, digits: 1 };
 // How a moving picture is thinned where frames take longer than 33 ms: shares of the screen's pixels, steps of a shadow, screen pixels a cell.
-const MOVING = [[1, 44, 2.5], [1, 16, 3], [1, 0, 4], [0.75, 0, 5], [0.55, 0, 6], [0.4, 0, 8]], RESTING_MS = 260, LONGEST_MS = 32, SHORTEST_MS = 15;
-let surface, renderer, camera, controls, begun = 0, waiting = false, moved = -1e9, rest = 0, pace = { last: 0, mean: 25, level: 0, frames: 0 }, picked = [], section = null;
+// A processor takes some microseconds a triangle: there the cells are large, and each pixel's own normal carries the relief.
+const MOVING = [[1, 44, 2.5], [1, 16, 3], [1, 0, 4], [0.75, 0, 12], [0.55, 0, 16], [0.4, 0, 16]], RESTING_MS = 260, MOST_RESTING_MS = 1500, LONGEST_MS = 32, SHORTEST_MS = 15;
+let surface, renderer, camera, controls, begun = 0, waiting = false, stirred = false, moved = -1e9, rest = 0, pace = { last: 0, mean: 25, level: 0, frames: 0 }, picked = [], section = null;
 
 const apart = () => surface.radius * 0.12 * Math.pow(66, state.distance);
 const millimetres = (metres, digits = UNIT.digits) => `${(UNIT.k * metres).toFixed(digits)} ${UNIT.name}`;
@@ -104,7 +105,9 @@ function lights() {
 
 function draw(time) {
   waiting = false;
-  const now = performance.now(), moving = now - moved < RESTING_MS, screen = Math.min(window.devicePixelRatio || 1, 2);
+  // What moves is drawn as moving however late its frame comes: a machine that is busy must not be given its longest pictures.
+  const now = performance.now(), resting = clamp(4 * pace.mean, RESTING_MS, MOST_RESTING_MS), moving = stirred || now - moved < resting, screen = Math.min(window.devicePixelRatio || 1, 2);
+  stirred = false;
   if (moving && time && now - pace.last < 10000) {
     pace.mean += 0.2 * (now - pace.last - pace.mean); pace.frames++;
     if (pace.mean > LONGEST_MS && (pace.frames > 4 || pace.mean > 4 * LONGEST_MS) && pace.level < MOVING.length - 1) { pace.level = pace.mean > 4 * LONGEST_MS ? MOVING.length - 1 : pace.level + 1; pace.frames = 0; pace.mean = 25; }
@@ -114,16 +117,19 @@ function draw(time) {
   const [share, steps, cellPx] = moving ? MOVING[pace.level] : [1, renderer.soft ? 12 : 44, renderer.soft ? 4 : 2];
   const width = Math.max(1, canvas.clientWidth), height = Math.max(1, canvas.clientHeight), step = niceStep((data.depth[1] - data.depth[0]) / 24);
   if (renderer.turns) fit();
-  const done = renderer.draw({ ...state, camera, lights: lights(), width, height, ratio: share * screen, shadows: state.shadows ? steps : 0, cellPx, exposure: 2 ** state.exposure, contour: step });
+  const done = renderer.draw({ ...state, camera, lights: lights(), width, height, moving, ratio: share * screen, shadows: state.shadows ? steps : 0, cellPx, exposure: 2 ** state.exposure, contour: step });
   legend(step); overlay();
   viewer.frames++;
   clearTimeout(rest);
-  if (!done) later(); else if (moving) rest = setTimeout(later, RESTING_MS + 20);
+  if (!done) later(); else if (moving) rest = setTimeout(later, resting + 20);
   document.documentElement.dataset.rest = String(done && !moving);
+  return done;
 }
 
 function later() { if (!waiting && renderer) { waiting = true; requestAnimationFrame(draw); } }
-function stir() { moved = performance.now(); document.documentElement.dataset.rest = "false"; later(); }
+function stir() { moved = performance.now(); stirred = true; document.documentElement.dataset.rest = "false"; later(); }
+// The picture as it is at rest, at once.
+function still() { do { moved = -1e9; stirred = false; } while (!draw(0)); }
 function niceStep(raw) { const power = 10 ** Math.floor(Math.log10(raw)); return [1, 2, 5, 10].map((k) => k * power).find((s) => s >= raw * 0.999); }
 
 function legend(step) {
@@ -271,7 +277,7 @@ function controlsOf() {
   find("shadows").addEventListener("change", () => set({ shadows: find("shadows").checked }));
   find("reset").addEventListener("click", reset); find("nearer").addEventListener("click", () => camera && zoom(1.25)); find("further").addEventListener("click", () => camera && zoom(0.8));
   find("clear").addEventListener("click", () => { picked = []; measured(); });
-  find("save").addEventListener("click", () => { moved = -1e9; draw(); saved(canvas.toDataURL("image/png"), `${data.name}.png`); });
+  find("save").addEventListener("click", () => { still(); saved(canvas.toDataURL("image/png"), `${data.name}.png`); });
   find("save-section").addEventListener("click", () => saved(URL.createObjectURL(new Blob([csvOf(section, UNIT)], { type: "text/csv" })), `${data.name}_section.csv`));
   if (data.bend && renderer.turns) {
     find("shapes").hidden = false;
@@ -340,7 +346,7 @@ async function refine() {
   viewer.level = "whole";
 }
 
-const viewer = { frames: 0, level: "coarse", measured: null, state, pace, get drawn() { return renderer.drawn; }, get camera() { return camera; }, get surface() { return surface; }, redraw() { moved = -1e9; draw(0); } };
+const viewer = { frames: 0, level: "coarse", measured: null, state, pace, get drawn() { return renderer.drawn; }, get camera() { return camera; }, get surface() { return surface; }, redraw() { still(); }, frame() { draw(0); } };
 window.viewer = viewer;
 
 async function begin() {
@@ -354,7 +360,7 @@ async function begin() {
   if (!renderer) { renderer = plainRenderer(canvas, surface); message("Drawn without WebGL2: no gloss, no shadows, no turning, no measuring."); for (const box of all(".gl")) box.hidden = true; }
   renderer.span = surface.coarse.depthSigma.reduce((m, x) => Math.max(m, x), 1) - 1;
   pace.level = renderer.soft ? 3 : 0;
-  look(); asked(); controlsOf(); show(); moved = -1e9; draw();
+  look(); asked(); controlsOf(); show(); draw(0);
   find("poster").hidden = true;
   new ResizeObserver(later).observe(canvas);
   requestAnimationFrame(wander);

@@ -1,5 +1,7 @@
 // Drawing in space with three.js: the surface by tiles and levels, the viewer's camera, and what is seen under a pointer.
-const STRIDES = 8, KEPT = 700, BUILD_MS = 7;
+// Largest levels, tiles that are kept, milliseconds a frame for building them (while a processor draws, between pictures), and the screen pixels of a
+// coarse pixel up to which the coarse surface stands in for the whole one while a processor draws what moves.
+const STRIDES = 8, KEPT = 700, BUILD_MS = 7, SLOW_BUILD_MS = 14, COARSE_PX = 3;
 
 function software() {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -92,9 +94,10 @@ class Tiles {
     this.group.add(node.mesh); this.built++;
   }
   drop(node) { this.group.remove(node.mesh); node.mesh.geometry.dispose(); node.mesh = null; node.built = false; this.built--; }
-  // Chooses what is drawn from `eye` (null: parallel rays) with `focal` screen pixels a unit at distance 1; true when all that is wanted is built.
-  choose(eye, focal, cellPx) {
-    const end = performance.now() + BUILD_MS, wanted = [];
+  // Chooses what is drawn from `eye` (null: parallel rays) with `focal` screen pixels a unit at distance 1, of what lies in the frustum `seen`; true when
+  // all that is wanted is built.
+  choose(eye, focal, cellPx, seen, buildMs) {
+    const end = performance.now() + buildMs, wanted = [];
     this.turn++; this.cells = 0;
     for (const node of this.nodes.values()) if (node.mesh) node.mesh.visible = false;
     const ready = (node) => {
@@ -105,7 +108,7 @@ class Tiles {
     const visit = (node) => {
       node.at = this.turn;
       const stride = 2 ** node.level, ball = node.mesh && node.mesh.geometry.boundingSphere;
-      if (!ball) return;
+      if (!ball || (seen && !seen.intersectsSphere(ball))) return;
       const away = eye ? Math.max(ball.center.distanceTo(eye) - ball.radius, this.surface.pixel) : 1;
       if (node.level > 0 && (stride * this.surface.pixel * focal) / away > cellPx) {
         const children = [0, 1, 2, 3].map((q) => this.node(node.level - 1, 2 * node.i + (q & 1), 2 * node.j + (q >> 1))).filter((n) => n.i * TILE * 2 ** n.level < this.surface.w - 1 && n.j * TILE * 2 ** n.level < this.surface.h - 1);
@@ -121,6 +124,38 @@ class Tiles {
   dispose() { for (const node of this.nodes.values()) if (node.mesh) this.drop(node); this.nodes.clear(); }
 }
 
+// A surface on the graphics side: its textures, its material (what all layers share comes as `common`) and its tiles.
+class Layer {
+  constructor(surface, common, bend) {
+    const { w, h, data } = surface, value = (x) => ({ value: x }), found = placing(surface), k = surface.step, b = bend && data.bend;
+    this.surface = surface;
+    this.own = {
+      geometry: value(texture(surface.geometry, w, h, THREE.RGBAFormat, THREE.HalfFloatType, THREE.LinearFilter, true)),
+      paint: value(texture(surface.paint, w, h, THREE.RGBAFormat, THREE.UnsignedByteType, THREE.LinearFilter, true)),
+      quickNormal: value(null), quickPaint: value(null),
+      codes: value(texture(surface.code, w, h, THREE.RedIntegerFormat, THREE.UnsignedShortType, THREE.NearestFilter, false)),
+      size: value(new THREE.Vector2(w, h)), pixel: value(surface.pixel), reach: value(2 * surface.radius), place: value(found.place), rays: value(found.rays),
+      bendPlace: value(b ? new THREE.Vector4((w * k) / (b.step * b.width), (h * k) / (b.step * b.height), -b.offset[0] / (b.step * b.width), -b.offset[1] / (b.step * b.height)) : new THREE.Vector4(1, 1, 0, 0)),
+    };
+    this.own.codes.value.internalFormat = "R16UI";
+    this.material = new THREE.RawShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: { ...common, ...this.own }, side: THREE.DoubleSide });
+    this.tiles = new Tiles(surface, this.material);
+  }
+  // Normals and colours in 8 bit, each pixel's own, for the shader of what moves.
+  quicken() {
+    if (this.own.quickNormal.value) return;
+    const { w, h, code, paint } = this.surface, normals = new Uint8Array(4 * w * h), nearest = (values) => {
+      const made = texture(values, w, h, THREE.RGBAFormat, THREE.UnsignedByteType, THREE.NearestFilter, true);
+      made.minFilter = THREE.NearestMipmapNearestFilter;
+      return { value: made };
+    };
+    for (let k = 0; k < w * h; k++) if (code[k]) { const n = normalAt(this.surface, k); for (let c = 0; c < 3; c++) normals[4 * k + c] = Math.round(127.5 + 127.5 * n[c]); normals[4 * k + 3] = 255; }
+    this.own.quickNormal.value = nearest(normals).value; this.own.quickPaint.value = nearest(paint).value;
+  }
+  define(defines) { if (JSON.stringify(defines) !== JSON.stringify(this.material.defines)) { this.material.defines = defines; this.material.needsUpdate = true; } }
+  dispose() { this.tiles.dispose(); this.material.dispose(); for (const name of ["geometry", "paint", "codes", "quickNormal", "quickPaint"]) this.own[name].value?.dispose(); }
+}
+
 function glRenderer(canvas, first, bend) {
   soft = software();
   if (soft === null) return null;
@@ -128,15 +163,13 @@ function glRenderer(canvas, first, bend) {
   gl.debug.checkShaderErrors = true; gl.setClearColor(0, 0); gl.info.autoReset = true;
   const half = Math.max(data.depth[1] - data.depth[0], 1e-9) / 2, steady = steadyTextures(first);
   const value = (x) => ({ value: x }), blank = () => Array.from({ length: MOST_LIGHTS }, () => new THREE.Vector4());
-  const uniforms = {
-    geometry: value(null), paint: value(null), codes: value(null), doubt: value(steady.doubt), lobes: value(steady.lobes), bend: value(bend),
-    bendPlace: value(new THREE.Vector4(1, 1, 0, 0)), bendStrength: value(bend ? data.bend.strength : 0), bendTurn: value(bend ? data.bend.turn : 0), bent: value(0),
+  const u = {
+    doubt: value(steady.doubt), lobes: value(steady.lobes), bend: value(bend), bendStrength: value(bend ? data.bend.strength : 0), bendTurn: value(bend ? data.bend.turn : 0), bent: value(0),
     count: value(0), steps: value(0), eye: value(new THREE.Vector4()), scale: value(new THREE.Vector3((data.depth[0] + data.depth[1]) / 2, half, 0.5)),
-    size: value(new THREE.Vector2()), source: value(blank()), axis: value(blank()), power: value(Array.from({ length: MOST_LIGHTS }, () => new THREE.Vector3())),
-    exposure: value(1), gloss: value(0), lobeStop: value(data.lobeStop), pixel: value(1), reach: value(1), contour: value(1), depthSigmaSpan: value(steady.depthSigmaSpan), place: value([]), rays: value([]), palette: value([]),
+    source: value(blank()), axis: value(blank()), power: value(Array.from({ length: MOST_LIGHTS }, () => new THREE.Vector3())),
+    exposure: value(1), gloss: value(0), lobeStop: value(data.lobeStop), contour: value(1), depthSigmaSpan: value(steady.depthSigmaSpan), palette: value([]),
   };
-  const material = new THREE.RawShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, side: THREE.DoubleSide });
-  function choose(state) {
+  function definesOf(state) {
     const defines = { MODE: MODES.indexOf(state.mode), SIGMA_SCALE: data.sigmaScale.toFixed(3) }, litMode = defines.MODE < 2;
     if (data.perspective) defines.PERSPECTIVE = 1;
     if (litMode && state.shadows) defines.SHADOWS = 1;
@@ -144,55 +177,54 @@ function glRenderer(canvas, first, bend) {
     if (litMode && state.lights.some((l) => l.axis[3] >= 0)) defines.LOBES = 1;
     if (state.ofDepth && litMode | (state.mode === "normals")) defines.OF_DEPTH = 1;
     if (bend && state.bent > 0) defines.BENT = 1;
-    if (JSON.stringify(defines) !== JSON.stringify(material.defines)) { material.defines = defines; material.needsUpdate = true; }
+    if (soft && state.moving && litMode && !state.shadows && !(defines.OF_DEPTH || defines.BENT)) { defines.QUICK = 1; delete defines.GLOSS; }
+    return defines;
   }
-  const scene = new THREE.Scene(), overlay = new THREE.Scene(), caster = new THREE.Raycaster();
-  let tiles = null, surface = null, size = [0, 0, 0];
-
-  function take(next) {
-    if (tiles) { scene.remove(tiles.group); tiles.dispose(); for (const name of ["geometry", "paint", "codes"]) uniforms[name].value.dispose(); }
-    surface = next;
-    const { w, h } = surface;
-    uniforms.geometry.value = texture(surface.geometry, w, h, THREE.RGBAFormat, THREE.HalfFloatType, THREE.LinearFilter, true);
-    uniforms.paint.value = texture(surface.paint, w, h, THREE.RGBAFormat, THREE.UnsignedByteType, THREE.LinearFilter, true);
-    uniforms.codes.value = texture(surface.code, w, h, THREE.RedIntegerFormat, THREE.UnsignedShortType, THREE.NearestFilter, false);
-    uniforms.codes.value.internalFormat = "R16UI";
-    uniforms.size.value.set(w, h); uniforms.pixel.value = surface.pixel; uniforms.reach.value = 2 * surface.radius;
-    const found = placing(surface);
-    uniforms.place.value = found.place; uniforms.rays.value = found.rays;
-    if (bend) { const b = data.bend, k = surface.step; uniforms.bendPlace.value.set((w * k) / (b.step * b.width), (h * k) / (b.step * b.height), -b.offset[0] / (b.step * b.width), -b.offset[1] / (b.step * b.height)); }
-    tiles = new Tiles(surface, material); scene.add(tiles.group);
-  }
-  take(first);
+  const scene = new THREE.Scene(), overlay = new THREE.Scene(), caster = new THREE.Raycaster(), coarseLayer = new Layer(first, u, bend), seen = new THREE.Frustum(), along = new THREE.Matrix4();
+  let whole = null, shown = coarseLayer, size = [0, 0, 0], drawnOnce = null;
+  scene.add(coarseLayer.tiles.group);
 
   return {
-    turns: true, soft, overlay, take,
-    get drawn() { return { tiles: tiles.built, triangles: gl.info.render.triangles, calls: gl.info.render.calls, textures: gl.info.memory.textures }; },
+    turns: true, soft, overlay,
+    // The surface at full size; the coarse one stays, for what moves where the processor draws.
+    take(surface) { whole = new Layer(surface, u, bend); scene.add(whole.tiles.group); },
+    get drawn() { return { tiles: shown.tiles.built, triangles: gl.info.render.triangles, calls: gl.info.render.calls, textures: gl.info.memory.textures, level: shown === whole ? "whole" : "coarse" }; },
     // True where all is drawn as finely as asked; else there is more to build, and another frame is due.
     draw(state) {
-      const { camera, lights, width, height, ratio } = state;
+      const { camera, lights, width, height, ratio } = state, perspective = camera.isPerspectiveCamera;
+      const focal = perspective ? (height * ratio * camera.zoom) / (2 * Math.tan((camera.fov * Math.PI) / 360)) : (height * ratio * camera.zoom) / (camera.top - camera.bottom);
+      const away = perspective ? Math.max(camera.position.distanceTo(new THREE.Vector3(...first.centre)) - first.size, 0.05 * first.size) : 1;
+      const layer = whole && !(soft && state.moving && (first.pixel * focal) / away < COARSE_PX) ? whole : coarseLayer;
+      camera.updateMatrixWorld();
+      seen.setFromProjectionMatrix(along.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+      const done = layer.tiles.choose(perspective ? camera.position : null, focal, state.cellPx, state.bent > 0 ? null : seen, soft && !state.moving ? SLOW_BUILD_MS : BUILD_MS);
+      // A picture that a processor draws takes longer than many tiles: it waits until they are all there.
+      if (soft && !done && !state.moving && drawnOnce) return false;
+      drawnOnce = true;
       if (width !== size[0] || height !== size[1] || ratio !== size[2]) { size = [width, height, ratio]; gl.setPixelRatio(ratio); gl.setSize(width, height, false); }
-      const u = uniforms;
-      choose(state);
+      shown = layer;
+      for (const one of [coarseLayer, whole]) if (one) one.tiles.group.visible = one === layer;
+      const defines = definesOf(state);
+      if (defines.QUICK) { if (layer === coarseLayer) layer.quicken(); else delete defines.QUICK; }
+      layer.define(defines);
       u.steps.value = state.shadows; u.exposure.value = state.exposure; u.gloss.value = state.gloss; u.contour.value = state.contour; u.bent.value = state.bent;
       u.palette.value = (PALETTES[state.mode] || PALETTES.depth).map((hex) => new THREE.Vector3(...rgb(hex)));
       u.count.value = lights.length;
       lights.forEach((l, k) => { u.source.value[k].set(...l.source); u.axis.value[k].set(...l.axis); u.power.value[k].set(...l.power); });
-      if (camera.isPerspectiveCamera) u.eye.value.set(...camera.position.toArray(), 1);
+      if (perspective) u.eye.value.set(...camera.position.toArray(), 1);
       else u.eye.value.set(...camera.getWorldDirection(new THREE.Vector3()).negate().toArray(), 0);
-      const focal = camera.isPerspectiveCamera ? (height * ratio * camera.zoom) / (2 * Math.tan((camera.fov * Math.PI) / 360)) : (height * ratio * camera.zoom) / (camera.top - camera.bottom);
-      const done = tiles.choose(camera.isPerspectiveCamera ? camera.position : null, focal, state.cellPx);
       gl.autoClear = true; gl.render(scene, camera);
       if (overlay.children.length) { gl.autoClear = false; gl.clearDepth(); gl.render(overlay, camera); }
       return done;
     },
-    // The pixel of the maps that a place of the canvas (from -1 to 1, upwards) shows; null beside the surface.
+    // The pixel of the finest maps that a place of the canvas (from -1 to 1, upwards) shows; null beside the surface.
     under(x, y, camera) {
       caster.setFromCamera(new THREE.Vector2(x, y), camera);
-      for (const hit of caster.intersectObjects(tiles.group.children.filter((m) => m.visible), false)) {
+      const fine = (whole || coarseLayer).surface, scale = shown.surface.step / fine.step;
+      for (const hit of caster.intersectObjects(shown.tiles.group.children.filter((m) => m.visible), false)) {
         const cell = hit.object.geometry.attributes.cell, { a, b, c } = hit.face, t = hit.barycoord;
-        const px = [0, 1].map((k) => Math.round(t.x * cell.getComponent(a, k) + t.y * cell.getComponent(b, k) + t.z * cell.getComponent(c, k)));
-        if (surface.code[px[1] * surface.w + px[0]]) return px;
+        const px = [fine.w, fine.h].map((most, k) => Math.min(most - 1, Math.round((t.x * cell.getComponent(a, k) + t.y * cell.getComponent(b, k) + t.z * cell.getComponent(c, k) + 0.5) * scale - 0.5)));
+        if (fine.code[px[1] * fine.w + px[0]]) return px;
       }
       return null;
     },

@@ -25,7 +25,7 @@ void main() {
 
 const FRAGMENT = `precision highp float; precision highp int; precision highp usampler2D;
 in vec2 uv; in vec3 p; in float depth; out vec4 painted;
-uniform sampler2D geometry, paint, doubt, lobes, bend; uniform usampler2D codes;
+uniform sampler2D geometry, paint, doubt, lobes, bend, quickNormal, quickPaint; uniform usampler2D codes;
 uniform int count, steps; uniform vec4 eye; uniform vec3 scale; uniform vec2 size; uniform vec4 bendPlace;
 uniform vec4 source[${MOST_LIGHTS}]; uniform vec4 axis[${MOST_LIGHTS}]; uniform vec3 power[${MOST_LIGHTS}];
 uniform float exposure, gloss, lobeStop, pixel, reach, contour, bent, bendTurn, depthSigmaSpan; uniform vec2 place[5]; uniform vec2 rays[10]; uniform vec3 palette[5];
@@ -101,6 +101,30 @@ float ggx(vec3 n, vec3 d, vec3 v, float alpha) {
   float G = 2.0 / (nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl));
   return D * G * (0.04 + 0.96 * pow(1.0 - max(dot(d, h), 0.0), 5.0)) / 4.0;
 }
+#ifdef QUICK
+// What moves where a processor draws: the nearest normal and colour in 8 bit, the lights without gloss and shadows, no power and no exponential.
+void main() {
+  vec4 g = texture(quickNormal, uv);
+  if (g.w < 0.5) discard;
+  vec3 n = g.xyz * 2.0 - 1.0;
+#if MODE == 1
+  vec3 base = vec3(0.62);
+#else
+  vec3 base = texture(quickPaint, uv).rgb; base *= 0.85 * base;
+#endif
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < count; k++) {
+    vec3 to = source[k].xyz - source[k].w * p; float one = inversesqrt(dot(to, to)), fall = source[k].w > 0.0 ? one * one * one : one;
+#ifdef LOBES
+    if (axis[k].w >= 0.0) fall *= lobeAt(acos(clamp(-one * dot(to, axis[k].xyz), -1.0, 1.0)), axis[k].w);
+#endif
+    sum += power[k] * (fall * max(dot(n, to), 0.0));
+  }
+  sum = (exposure * sum + 0.012) * base;
+  vec3 root = sqrt(min(sum, vec3(1.0))), rest = 1.0 - root;
+  painted = vec4(root * (1.0 + rest * (0.1 + 0.13 * rest * rest * rest)), 1.0);
+}
+#else
 void main() {
   vec4 g = texture(geometry, uv);
   if (g.w < 0.5) discard;
@@ -164,4 +188,5 @@ void main() {
   shown = pow(sum, vec3(1.0 / 2.2));
 #endif
   painted = vec4(gl_FrontFacing ? shown : vec3(0.09, 0.1, 0.11), 1.0);
-}`;
+}
+#endif`;
