@@ -6,8 +6,9 @@ cost of its samples there::
 
     cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
 
-The cheapest is where the full solve begins. The odds of another basin are exp(-INDEPENDENT (cost - least) / 2) in units of the least
-cost a light, as what the model lacks is common to many pixels.
+The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the least cost a light, as what the model lacks is common to
+many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
+which decides where the light hardly does. The full solve begins in the likeliest.
 """
 
 from __future__ import annotations
@@ -39,8 +40,10 @@ MOST = 50.0
 """Cost of a pixel at most: one that nothing explains does not decide."""
 APART = 0.03
 """Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
-INDEPENDENT = 25.0
-"""Pixels that an object's are worth: errors of the model are common to whole regions."""
+INDEPENDENT = 3.1
+"""Pixels that an object's are worth: errors of the model are common to whole regions. By tools/fit_basin_odds.py on drawn scenes."""
+WORKING = 0.3
+"""Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
 STATED = 0.02
 """Odds under which another basin is not worth a word."""
 
@@ -56,16 +59,18 @@ class Basin:
 
 @dataclass(frozen=True)
 class Basins:
-    """Ends of the rounds, the cheapest first."""
+    """Ends of the rounds, the likeliest first."""
 
     ends: tuple[Basin, ...]
     mask: Mask
     """(rows, columns) of the coarse pixels."""
     factor: int
     lights: int
+    about_m: float
+    """The working distance."""
 
     def start(self, mask: Mask) -> Array:
-        """Log depth (Q,) of the cheapest end at the pixels of a full-size mask (H, W)."""
+        """Log depth (Q,) of the likeliest end at the pixels of a full-size mask (H, W)."""
         import cv2
         from scipy import ndimage
 
@@ -79,15 +84,20 @@ class Basins:
         return np.asarray(large[mask])
 
     def others(self) -> list[tuple[float, float]]:
-        """Basins beside the cheapest that the images allow: their distance over that of the cheapest, and their odds."""
+        """Basins beside the likeliest that the images allow: their distance over its, and their odds."""
+        odds = odds_of(self.ends, self.lights, self.about_m)
         best = self.ends[0]
-        unit = max(best.cost / self.lights, 1.0)
-        found = [
-            (float(np.exp(np.median(one.u - best.u))), float(np.exp(-INDEPENDENT * (one.cost - best.cost) / 2 / unit)))
-            for one in self.ends[1:]
-        ]
-        total = 1 + sum(odds for _, odds in found)
-        return [(ratio, odds / total) for ratio, odds in found if odds / total > STATED]
+        return [(float(np.exp(np.median(one.u - best.u))), float(p)) for one, p in zip(self.ends[1:], odds[1:], strict=True) if p > STATED]
+
+
+def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
+    """The odds (N,) of ends, of sum 1, where objects stand about `about_m`."""
+    cost = np.array([one.cost for one in ends])
+    away = np.array([np.median(one.u) for one in ends]) - np.log(about_m)
+    unit = max(float(cost.min()) / lights, 1.0)
+    log_odds = -INDEPENDENT * (cost - cost.min()) / 2 / unit - np.log1p((away / WORKING) ** 2)
+    odds = np.exp(log_odds - log_odds.max())
+    return np.asarray(odds / odds.sum())
 
 
 def search(
@@ -115,7 +125,8 @@ def search(
         elif end.cost < ends[twin].cost:
             ends[twin] = end
     progress(f"{name}: distance", len(STARTS), len(STARTS))
-    return Basins(tuple(sorted(ends, key=lambda one: one.cost)), inside, factor, len(lights))
+    odds = odds_of(ends, len(lights), about_m)
+    return Basins(tuple(ends[k] for k in np.argsort(-odds)), inside, factor, len(lights), about_m)
 
 
 def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:

@@ -25,7 +25,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
 from lpcal.records.surface import Alternative, Component, Surface
-from lpcal.surface.basins import INDEPENDENT, Basins
+from lpcal.surface.basins import INDEPENDENT, Basins, odds_of
 
 HITS = 0.9
 """Odds that a beam that would meet the object is read there: specks of gloss and edges take the rest."""
@@ -121,7 +121,7 @@ def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
 
 
 def weighed(found: Basins | None, read: Reading | None, camera: Camera | None) -> Basins | None:
-    """The ends of a search for the distance, what the reading says of each counted in its cost, the cheapest first."""
+    """The ends of a search for the distance, what the reading says of each counted in its cost, the likeliest first."""
     if found is None or read is None or camera is None:
         return found
     costs = np.array([end.cost for end in found.ends])
@@ -133,7 +133,8 @@ def weighed(found: Basins | None, read: Reading | None, camera: Camera | None) -
         said.append(word(read, DepthMap(depth, camera, found.factor), COARSE_STD).log_evidence)
     less = 2 * unit * (max(said) - np.array(said))
     ends = [replace(end, cost=float(end.cost + more)) for end, more in zip(found.ends, less, strict=True)]
-    return replace(found, ends=tuple(sorted(ends, key=lambda end: end.cost)))
+    odds = odds_of(ends, found.lights, found.about_m)
+    return replace(found, ends=tuple(ends[k] for k in np.argsort(-odds)))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import pytest
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.observations import Radiance
 from lpcal.surface import sight
-from lpcal.surface.basins import Basin, Basins, search
+from lpcal.surface.basins import Basin, Basins, odds_of, search
 
 
 @pytest.mark.parametrize("about", [*(pytest.param(one, marks=pytest.mark.slow) for one in (0.6, 1.0)), 1.9])
@@ -24,20 +24,32 @@ def test_the_object_is_found_from_afar(about: float) -> None:
     found = search(sight.grey(radiance, given.lights), sight.ray_map(mask.shape, given.camera), mask, given.lights, about * 0.35)
     assert found is not None
     assert abs(np.median(found.start(mask) - np.log(depth[mask]))) < 0.03
-    assert found.ends == tuple(sorted(found.ends, key=lambda one: one.cost))
+    odds = odds_of(found.ends, found.lights, found.about_m)
+    assert list(odds) == sorted(odds, reverse=True)
 
 
 def ends(*costs: float) -> Basins:
     flat = np.zeros(4)
-    return Basins(tuple(Basin(flat + 0.2 * k, cost) for k, cost in enumerate(costs)), np.ones((2, 2), bool), 1, 6)
+    return Basins(tuple(Basin(flat + 0.2 * k, cost) for k, cost in enumerate(costs)), np.ones((2, 2), bool), 1, 6, 1.0)
 
 
 def test_a_basin_of_like_cost_is_stated_with_its_odds_and_a_dear_one_is_not() -> None:
-    (ratio, odds), *rest = ends(2.0, 2.02, 9.0).others()
+    (ratio, odds), *rest = ends(2.0, 2.1, 9.0).others()
     assert ratio == pytest.approx(np.exp(0.2))
     assert 0.3 < odds < 0.5
     assert not rest
-    assert not ends(2.0, 4.0).others()
+    assert not ends(2.0, 5.0).others()
+
+
+def test_of_distances_that_the_light_allows_alike_the_working_distance_is_the_likeliest_and_no_more_than_that() -> None:
+    flat = np.zeros(4)
+    at = {ratio: Basin(flat + np.log(ratio * 0.4), 2.0) for ratio in (0.4, 1.0, 2.5)}
+    odds = odds_of(list(at.values()), 6, 0.4)
+    assert odds[1] > 0.6
+    assert min(odds) > 0.05, "a broad prior"
+    assert odds.sum() == pytest.approx(1)
+    dear = odds_of([at[0.4], replace(at[1.0], cost=6.0)], 6, 0.4)
+    assert dear[0] > 0.95, "the light decides where it tells them apart"
 
 
 def test_what_the_model_lacks_makes_basins_more_alike() -> None:

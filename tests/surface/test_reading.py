@@ -54,7 +54,7 @@ def test_two_distances_that_the_light_allows_are_told_apart():
     """Two ends of nearly one cost, 0.30 and 0.41 m: the reading decides, and one of the wall leaves the order as it is."""
     mask = np.ones((SIZE[1] // 4, SIZE[0] // 4), bool)
     ends = tuple(Basin(np.full(mask.sum(), np.log(z)), cost) for z, cost in ((0.30, 6.0), (0.41, 6.1)))
-    both = Basins(ends, mask, 4, 6)
+    both = Basins(ends, mask, 4, 6, 0.35)
     assert both.others()
     first = [float(np.exp(weighed(both, read, CAMERA).ends[0].u[0])) for read in (reading_of(0.305), reading_of(0.405), reading_of(0.8))]
     assert np.allclose(first, [0.30, 0.41, 0.30])
