@@ -28,6 +28,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +44,7 @@ from lpcal.chain.h_pc_handeye.likelihood import Sigmas, Views, estimate
 from lpcal.errors import LpcalError
 from lpcal.geometry import park, se3
 from lpcal.geometry.pose_track import poses_at
+from lpcal.records.calibration import HandEye
 
 SCENARIOS = {
     "30 static, +-25 deg": lambda rng: static_session(rng, 30, 25.0),
@@ -55,7 +57,7 @@ SCENARIOS = {
 }
 
 
-def solve(session: Session):
+def solve(session: Session) -> HandEye:
     """Lpcal's own."""
     if session.stream is None:
         return solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions()).handeye
@@ -126,7 +128,7 @@ def nees(H_PC: np.ndarray, covariance: np.ndarray, session: Session) -> float:
     return float(xi @ np.linalg.solve(covariance, xi))
 
 
-def row(name: str, make, trials: int) -> str:
+def row(name: str, make: Callable[[np.random.Generator], Session], trials: int) -> str:
     """One scenario."""
     closed, weak, ours, bounds, honest, known, offsets, failed, seconds = [], [], [], [], [], [], [], 0, 0.0
     for seed in range(trials):

@@ -19,11 +19,12 @@ from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry import se3
 from lpcal.pipeline.handeye_inputs import HandEyeInputs, gather
 from lpcal.pipeline.workspace import Workspace
+from lpcal.records.calibration import HandEye
 
 STRETCHES = 14
 
 
-def solved(given: HandEyeInputs, rows: np.ndarray):
+def solved(given: HandEyeInputs, rows: np.ndarray) -> HandEye:
     """The hand-eye of some of the views."""
     boards = given.boards.of(rows)
     if given.stream is not None:

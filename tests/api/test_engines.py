@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -28,7 +28,7 @@ def captures(tmp_path: Path) -> list[Path]:
 
 
 @DASK
-def test_dask_gives_the_bytes_of_the_loop(lpcal, captures, tmp_path):
+def test_dask_gives_the_bytes_of_the_loop(lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path) -> None:
     words = ["reconstruct", *captures, "-c", "dome.yaml", "-o"]
     (captures[1] / "L2.png").unlink()
     assert lpcal(*words, "loop", cwd=tmp_path)[0] == 6
@@ -37,7 +37,9 @@ def test_dask_gives_the_bytes_of_the_loop(lpcal, captures, tmp_path):
     assert all(same_bytes(tmp_path / "loop" / one.name, tmp_path / "dask" / one.name) for one in captures if one != captures[1])
 
 
-def test_slurms_jobs_without_slurm_give_the_bytes_of_the_loop(lpcal, captures, tmp_path):
+def test_slurms_jobs_without_slurm_give_the_bytes_of_the_loop(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path
+) -> None:
     pytest.importorskip("submitit")
     words = ["reconstruct", *captures[:2], "-c", "dome.yaml", "-o"]
     assert lpcal(*words, "loop", cwd=tmp_path)[0] == 0
@@ -74,7 +76,7 @@ def slow_square(item: tuple[int, float]) -> tuple[int, int]:
 
 
 @DASK
-def test_a_dask_worker_that_is_killed_costs_a_retry(scheduler):
+def test_a_dask_worker_that_is_killed_costs_a_retry(scheduler: tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]) -> None:
     address, _, workers = scheduler
     found = {}
     for number, one in each(slow_square, [(k, 0.2) for k in range(16)], engine_of(f"dask://{address}", 2)):
@@ -85,7 +87,9 @@ def test_a_dask_worker_that_is_killed_costs_a_retry(scheduler):
 
 
 @DASK
-def test_where_the_dask_scheduler_is_killed_what_is_not_done_is_named(scheduler):
+def test_where_the_dask_scheduler_is_killed_what_is_not_done_is_named(
+    scheduler: tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]],
+) -> None:
     address, head, _ = scheduler
     found = {}
     for number, one in each(slow_square, [(k, 0.2) for k in range(12)], engine_of(f"dask://{address}", 2)):
@@ -110,7 +114,12 @@ def with_small_disk(address: str, folder: Path, size: str) -> subprocess.Popen[s
     shutil.which("unshare") is None or subprocess.run(["unshare", "-m", "true"], capture_output=True, check=False).returncode != 0,
     reason="a disk of its own for one process needs Linux's mount namespaces",
 )
-def test_a_full_disk_on_one_worker_costs_the_captures_that_it_had_and_the_next_run_makes_them_good(lpcal, scheduler, captures, tmp_path):
+def test_a_full_disk_on_one_worker_costs_the_captures_that_it_had_and_the_next_run_makes_them_good(
+    lpcal: Callable[..., tuple[int, str, str]],
+    scheduler: tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]],
+    captures: list[Path],
+    tmp_path: Path,
+) -> None:
     """Of three workers one has a disk of 16 kB where the surfaces go."""
     address, _, workers = scheduler
     (tmp_path / "out").mkdir()

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -12,6 +14,7 @@ import pytest
 
 import lpcal
 from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.geometry.arrays import Array
 from lpcal.records.observations import BoardViews, RawCapture, SphereView
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.4, 0.4, -1]])
@@ -77,7 +80,7 @@ def test_a_gamma_is_stated_by_the_caller() -> None:
         ({"lights": ["L0", "L1", "L2", "L3", "L9"]}, DisagreementError, "L9"),
     ],
 )
-def test_images_that_cannot_be_are_refused(change: dict, error: type, words: str) -> None:
+def test_images_that_cannot_be_are_refused(change: dict[str, Any], error: type[Exception], words: str) -> None:
     given = {"images": IMAGES, "ambient": ROOM, "mask": BALL} | change
     with pytest.raises(error, match=words):
         lpcal.reconstruct(given.pop("images"), DOME, **given)
@@ -104,7 +107,9 @@ def changed(poses: np.ndarray, row: int, place: tuple[int, int], value: float) -
         (lambda P, B: {"H_OP": P[:2], "H_CB": B[:2]}, DegenerateError, "views"),
     ],
 )
-def test_poses_that_cannot_be_are_refused(robot, change, error: type, words: str) -> None:
+def test_poses_that_cannot_be_are_refused(
+    robot: tuple[np.ndarray, np.ndarray], change: Callable[..., Any], error: type, words: str
+) -> None:
     given = {"H_OP": robot[0], "H_CB": robot[1]} | change(*robot)
     with pytest.raises(error, match=words):
         lpcal.solve_handeye(given.pop("H_OP"), given.pop("H_CB"), **given)
@@ -131,7 +136,7 @@ def test_normals_come_back_from_their_own_depth() -> None:
 @pytest.mark.parametrize(
     ("normals", "words"), [(NORMALS[..., :2], r"\(48, 48, 2\)"), ([["a"]], "no numbers"), (np.zeros((5, 5)), r"needed: \(H, W, 3\)")]
 )
-def test_maps_that_are_no_normals_are_refused(normals, words: str) -> None:
+def test_maps_that_are_no_normals_are_refused(normals: Array | list[list[str]], words: str) -> None:
     with pytest.raises(InputError, match=words):
         lpcal.integrate(normals)
 
@@ -150,7 +155,7 @@ def test_evaluate_says_how_far_off_a_surface_is() -> None:
         lpcal.evaluate(surface, NORMALS, mask=~BALL)
 
 
-def test_a_surface_comes_back_from_its_folder(tmp_path) -> None:
+def test_a_surface_comes_back_from_its_folder(tmp_path: Path) -> None:
     surface = lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=BALL)
     lpcal.write_surface(tmp_path / "ball", surface, DOME)
     again = lpcal.read_surface(str(tmp_path / "ball"))
@@ -163,7 +168,7 @@ def test_a_surface_comes_back_from_its_folder(tmp_path) -> None:
         lpcal.write_calibration(tmp_path / "mine", DOME)
 
 
-def test_a_calibration_comes_back_from_its_file(tmp_path) -> None:
+def test_a_calibration_comes_back_from_its_file(tmp_path: Path) -> None:
     wings = lpcal.design_lights(lpcal.read_rig("lightpanel-12"))
     rig = lpcal.assemble_calibration(wings, lpcal.simulate_rig(lpcal.read_rig("lightpanel-12")).camera, H_PC=np.eye(4), name="twelve")
     lpcal.write_calibration(str(tmp_path / "c.yaml"), rig)
@@ -184,7 +189,7 @@ def test_the_truth_of_a_simulation_is_its_own_light_field() -> None:
         np.testing.assert_allclose(field.direction_C[k], vectors / np.linalg.norm(vectors, axis=1, keepdims=True), atol=1e-3)
 
 
-def test_progress_is_a_callback_and_the_log_is_named_lpcal(caplog, capsys) -> None:
+def test_progress_is_a_callback_and_the_log_is_named_lpcal(caplog: pytest.LogCaptureFixture, capsys: pytest.CaptureFixture[str]) -> None:
     told = []
     with caplog.at_level(logging.DEBUG, logger="lpcal"):
         surface = lpcal.integrate(NORMALS, green="as-is")
@@ -293,7 +298,7 @@ VIEW = SphereView("ball", "chrome", np.nan, OUTLINE, 0.05, {"L9": np.array([120.
         (lambda: lpcal.read_surface("nothing"), InputError, "nothing"),
     ],
 )
-def test_what_cannot_be_is_an_error_of_the_library(call, error: type, words: str) -> None:
+def test_what_cannot_be_is_an_error_of_the_library(call: Callable[..., Any], error: type, words: str) -> None:
     with pytest.raises(error, match=words):
         call()
 

@@ -6,8 +6,10 @@ The truth is made with scipy's rotations and plain matrices, not with lpcal's ow
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -23,6 +25,7 @@ from lpcal.formats.calibration_yaml import read_calibration, write_calibration
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import placement_document, placement_from_document, stated_place_of
 from lpcal.formats.surface_files import read_surface
+from lpcal.records.observations import PoseStream
 from lpcal.records.placement import RoomTracking
 from lpcal.records.provenance import Provenance
 
@@ -56,7 +59,7 @@ def table(t: float | np.ndarray) -> np.ndarray:
     return matrix(np.array([0, 0.0, 0.6]) * np.asarray(t)[..., None], np.array([0.1, 0.2, 0.3]))
 
 
-def recording(name: str, motion, begin: float = 0.0, end: float = 4.0, rate: float = 100.0) -> library.PoseStream:
+def recording(name: str, motion: Callable[..., Any], begin: float = 0.0, end: float = 4.0, rate: float = 100.0) -> library.PoseStream:
     t = np.arange(begin, end, 1 / rate)
     return library.PoseStream(name, t, motion(t), np.full(t.size, np.nan), rate_hz=rate)
 
@@ -72,25 +75,25 @@ def moved(xi: np.ndarray) -> np.ndarray:
     return expm(np.block([[np.array([[0, -c, b], [c, 0, -a], [-b, a, 0]]), xi[3:, None]], [np.zeros((1, 4))]]))
 
 
-def test_the_camera_is_where_the_tracked_body_carried_it():
+def test_the_camera_is_where_the_tracked_body_carried_it() -> None:
     found = library.place(TRACKED, recording("panel", panel), 2.25)
     assert (found.name, found.body, found.t_camera_s) == ("H_OC", None, 2.25)
     assert "moving" in found.source
     assert np.allclose(found.H_AC, panel(2.0) @ H_PC, atol=1e-5)
 
 
-def test_a_clock_that_drifts_is_followed():
+def test_a_clock_that_drifts_is_followed() -> None:
     drifting = replace(TRACKED, tracking=replace(TRACKING, clock_drift_ppm=1000.0, clock_middle_s=10.0))
     found = library.place(drifting, recording("panel", panel), 2.25)
     assert np.allclose(found.H_AC, panel(2.25 - 1e-3 * (2.25 - 10.0) - 0.25) @ H_PC, atol=1e-5)
 
 
-def test_another_recording_has_its_own_clock():
+def test_another_recording_has_its_own_clock() -> None:
     found = library.place(TRACKED, recording("panel", panel), 2.25, clock_offset_s=-0.5)
     assert np.allclose(found.H_AC, panel(2.75) @ H_PC, atol=1e-5)
 
 
-def test_a_point_of_the_object_stays_where_it_is_in_the_body_that_it_rides_on():
+def test_a_point_of_the_object_stays_where_it_is_in_the_body_that_it_rides_on() -> None:
     x_M = np.array([0.02, -0.01, 0.03, 1.0])
     for t in (1.0, 1.5, 2.0):
         found = library.place(TRACKED, recording("panel", panel), t + 0.25, object_poses=recording("table", table))
@@ -99,14 +102,14 @@ def test_a_point_of_the_object_stays_where_it_is_in_the_body_that_it_rides_on():
         assert np.allclose(found.H_AC @ x_C, x_M, atol=1e-5)
 
 
-def test_a_camera_that_stands_still_sees_the_table_turn():
+def test_a_camera_that_stands_still_sees_the_table_turn() -> None:
     fixed = replace(TRACKED, carries="board")
     assert np.allclose(library.place(fixed, t_camera_s=1.0).H_AC, H_PC)
     found = library.place(fixed, t_camera_s=1.75, object_poses=recording("table", table))
     assert np.allclose(found.H_AC, np.linalg.inv(table(1.5)) @ H_PC, atol=1e-5)
 
 
-def test_a_stated_pose_needs_no_recording():
+def test_a_stated_pose_needs_no_recording() -> None:
     H_OP = panel(1.0)
     assert np.allclose(library.place(TRACKED, H_OP=H_OP).H_AC, H_OP @ H_PC)
     found = library.place(library.Calibration("none", ()), H_OC=H_OP, tolerance=(1e-3, 2e-3))
@@ -115,14 +118,14 @@ def test_a_stated_pose_needs_no_recording():
 
 
 @pytest.mark.parametrize("rides", [False, True])
-def test_the_covariance_is_the_spread_of_what_is_found(rides):
+def test_the_covariance_is_the_spread_of_what_is_found(rides: bool) -> None:
     """Poses, H_PC and the clock off by what the calibration says of them, 300 times: NEES of 6 numbers between 5.2 and 6.8."""
     rng = np.random.default_rng(5)
     t, sigma_rad = 2.0, np.radians(TRACKING.mocap_sigma_deg)
     right = np.linalg.inv(table(t)) @ panel(t) @ H_PC if rides else panel(t) @ H_PC
     spread = np.linalg.cholesky(TRACKING.H_PC_covariance)
 
-    def seen(motion, late: float):
+    def seen(motion: Callable[..., Any], late: float) -> PoseStream:
         turn = Rotation.from_rotvec(sigma_rad * rng.standard_normal(3)).as_matrix()
         shift = TRACKING.mocap_sigma_m * rng.standard_normal(3)
 
@@ -144,7 +147,7 @@ def test_the_covariance_is_the_spread_of_what_is_found(rides):
     assert 5.2 < np.mean(nees) < 6.8
 
 
-def test_what_captures_share_and_what_is_their_own_make_the_whole():
+def test_what_captures_share_and_what_is_their_own_make_the_whole() -> None:
     found = library.place(TRACKED, recording("panel", panel), 2.25, object_poses=recording("table", table))
     shared = found.by_handeye @ TRACKING.H_PC_covariance @ found.by_handeye.T + 0.002**2 * np.outer(found.by_clock, found.by_clock)
     assert np.allclose(found.covariance, found.noise_covariance + shared)
@@ -168,13 +171,13 @@ def test_what_captures_share_and_what_is_their_own_make_the_whole():
         ({"calibration": library.Calibration("bare", ())}, InputError, "H_PC"),
     ],
 )
-def test_what_cannot_be_placed_says_why(change, error, words):
+def test_what_cannot_be_placed_says_why(change: Any, error: type[Exception], words: str) -> None:
     given = {"calibration": TRACKED, "poses": recording("panel", panel), "t_camera_s": 2.0} | change
     with pytest.raises(error, match=words):
         library.place(**given)
 
 
-def test_capture_yaml_states_a_pose_with_its_units(tmp_path):
+def test_capture_yaml_states_a_pose_with_its_units(tmp_path: Path) -> None:
     (tmp_path / "capture.yaml").write_text(
         "time: 12.5 s\npose:\n  H_OP: {position: [812.5 mm, -3 cm, 0.4 m], rotation_vector: [0 deg, 90 deg, 0 deg]}\n"
         "  tolerance: [0.2 mm, 0.1 deg]\n"
@@ -198,14 +201,14 @@ def test_capture_yaml_states_a_pose_with_its_units(tmp_path):
         ("position: [1 m, 2 m, 3 m]\n", "unknown key"),
     ],
 )
-def test_what_is_written_wrong_is_named_with_its_line(tmp_path, text, words):
+def test_what_is_written_wrong_is_named_with_its_line(tmp_path: Path, text: str, words: str) -> None:
     (tmp_path / "capture.yaml").write_text(text)
     with pytest.raises(InputError, match=words) as found:
         read_capture_section(tmp_path / "capture.yaml")
     assert "capture.yaml" in str(found.value)
 
 
-def test_a_calibration_keeps_what_it_knows_of_the_tracking(tmp_path):
+def test_a_calibration_keeps_what_it_knows_of_the_tracking(tmp_path: Path) -> None:
     whole = replace(calibration(), H_PC=H_PC, tracking=TRACKING)
     write_calibration(tmp_path / "calibration.yaml", whole, Provenance())
     again = read_calibration(tmp_path / "calibration.yaml").tracking
@@ -222,7 +225,7 @@ def csv_of(stream: library.PoseStream) -> str:
 
 
 @pytest.fixture
-def rig(tmp_path) -> Path:
+def rig(tmp_path: Path) -> Path:
     """A rig whose one object was taken at 2.25 s of the camera's clock, with a mask that spares the search for it."""
     raw = draw(Scene(), calibration())
     (tmp_path / "panel.yaml").write_text(
@@ -239,7 +242,9 @@ def rig(tmp_path) -> Path:
     return tmp_path
 
 
-def test_a_surface_lies_in_the_room_and_is_made_anew_when_its_recording_is_another(lpcal, rig):
+def test_a_surface_lies_in_the_room_and_is_made_anew_when_its_recording_is_another(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path
+) -> None:
     words = ("reconstruct", "--outputs", "maps,ply,glb", "--mesh-frame", "placed")
     code, told, said = lpcal(*words, cwd=rig)
     assert code == 0, said
@@ -261,7 +266,7 @@ def test_a_surface_lies_in_the_room_and_is_made_anew_when_its_recording_is_anoth
     assert np.allclose(read_surface(rig / "surfaces/ball").placement.H_AC, panel(2.1) @ H_PC, atol=1e-5)
 
 
-def test_a_capture_outside_its_recording_is_a_surface_all_the_same(lpcal, rig):
+def test_a_capture_outside_its_recording_is_a_surface_all_the_same(lpcal: Callable[..., tuple[int, str, str]], rig: Path) -> None:
     (rig / "ball/capture.yaml").write_text("time: 200 s\n")
     code, _, said = lpcal("reconstruct", "--outputs", "maps", cwd=rig)
     assert code == 0, said
@@ -269,7 +274,7 @@ def test_a_capture_outside_its_recording_is_a_surface_all_the_same(lpcal, rig):
     assert read_surface(rig / "surfaces/ball").placement is None
 
 
-def test_a_body_without_its_time_is_an_error_before_anything_is_computed(lpcal, rig):
+def test_a_body_without_its_time_is_an_error_before_anything_is_computed(lpcal: Callable[..., tuple[int, str, str]], rig: Path) -> None:
     (rig / "ball/capture.yaml").write_text("body: turntable\n")
     code, _, said = lpcal("reconstruct", "--outputs", "maps", cwd=rig)
     assert code == InputError.exit_code

@@ -5,7 +5,9 @@ The readings are made here, by a ray against a plane and scipy's rotations.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from lpcal.chain.distance_beam.fit import drawn_in_camera, solve
 from lpcal.chain.distance_beam.through_room import boards_through_room, room_covariance
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.distance_document import beam_document, beam_from_document
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye
 from lpcal.records.distance import BeamDrawn, BoardReadings
 
@@ -35,7 +38,16 @@ def truth(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, float, floa
     return o, u / np.linalg.norm(u), 0.01 * rng.standard_normal(), 1 + 0.02 * rng.standard_normal()
 
 
-def boards(rng, o, u, count=30, tilt_deg=30.0, near=0.25, far=0.6, about=0.05) -> np.ndarray:
+def boards(
+    rng: np.random.Generator,
+    o: Array,
+    u: Array,
+    count: int = 30,
+    tilt_deg: float = 30.0,
+    near: float = 0.25,
+    far: float = 0.6,
+    about: float = 0.05,
+) -> np.ndarray:
     """H_CB with the spot within some centimetres of the board's middle."""
     H = np.tile(np.eye(4), (count, 1, 1))
     H[:, :3, :3] = Rotation.from_rotvec(np.radians(tilt_deg) * rng.uniform(-1, 1, (count, 3)) * [1, 1, 0.3]).as_matrix()
@@ -44,25 +56,25 @@ def boards(rng, o, u, count=30, tilt_deg=30.0, near=0.25, far=0.6, about=0.05) -
     return H
 
 
-def distances(H, o, u) -> np.ndarray:
+def distances(H: Array, o: Array, u: Array) -> np.ndarray:
     n, p = H[:, :3, 2], H[:, :3, 3]
     return np.sum(n * (p - o), axis=1) / (n @ u)
 
 
-def readings(rng, H, beam) -> BoardReadings:
+def readings(rng: np.random.Generator, H: Array, beam: tuple[Array, Array, float, float]) -> BoardReadings:
     o, u, bias, scale = beam
     r = bias + scale * distances(H, o, u) + NOISE * rng.standard_normal(len(H))
     names = [f"{k:02d}.png" for k in range(len(H))]
     return BoardReadings.of_images(names, r, H, np.tile(1e-12 * np.eye(6), (len(H), 1, 1)), POINTS_B, SQUARE)
 
 
-def session(seed: int, **how) -> tuple[tuple, BoardReadings]:
+def session(seed: int, **how: Any) -> tuple[tuple[Any, ...], BoardReadings]:
     rng = np.random.default_rng(seed)
     beam = truth(rng)
     return beam, readings(rng, boards(rng, *beam[:2], **how), beam)
 
 
-def test_beams_lie_within_their_sigma():
+def test_beams_lie_within_their_sigma() -> None:
     """Forty rigs: NEES of seven numbers within its band."""
     nees = []
     for seed in range(40):
@@ -74,7 +86,7 @@ def test_beams_lie_within_their_sigma():
     assert 6.0 < np.mean(nees) < 8.0
 
 
-def test_the_point_that_a_reading_means_is_known_better_than_where_the_beam_begins():
+def test_the_point_that_a_reading_means_is_known_better_than_where_the_beam_begins() -> None:
     (o, u, bias, scale), given = session(3)
     sensor = calibrate(given, START, PRIOR, NOISE).sensor
     reading = bias + scale * 0.35
@@ -89,7 +101,7 @@ def test_the_point_that_a_reading_means_is_known_better_than_where_the_beam_begi
     assert np.allclose(again.hit(0.4), sensor.hit(0.4))
 
 
-def test_readings_beside_the_board_on_its_rim_and_of_a_hand_are_left_out_and_said():
+def test_readings_beside_the_board_on_its_rim_and_of_a_hand_are_left_out_and_said() -> None:
     rng = np.random.default_rng(8)
     beam = truth(rng)
     H = boards(rng, *beam[:2], count=40)
@@ -113,7 +125,7 @@ def test_readings_beside_the_board_on_its_rim_and_of_a_hand_are_left_out_and_sai
     assert np.linalg.norm(found.sensor.hit(bias + scale * 0.4) - (o + 0.4 * u)) < 4 * found.sensor.across_std_m(0.4)
 
 
-def test_boards_that_are_not_tilted_and_stand_at_one_distance_are_said_to_be():
+def test_boards_that_are_not_tilted_and_stand_at_one_distance_are_said_to_be() -> None:
     _, flat = session(5, tilt_deg=4.0)
     said = " ".join(calibrate(flat, START, PRIOR, NOISE).warnings)
     assert "tilt the board by 20 to 30 deg" in said
@@ -133,14 +145,14 @@ def test_boards_that_are_not_tilted_and_stand_at_one_distance_are_said_to_be():
         (lambda r: np.roll(r, 7), "follow no beam"),
     ],
 )
-def test_planted_mistakes_are_named(change, words):
+def test_planted_mistakes_are_named(change: Callable[..., Any], words: str) -> None:
     _, given = session(11)
     with pytest.raises(DisagreementError, match=words) as found:
         calibrate(replace(given, distance_m=change(given.distance_m)), START, PRIOR, NOISE)
     assert len(str(found.value)) < 400
 
 
-def test_a_beam_five_degrees_off_its_drawing_is_found_and_said():
+def test_a_beam_five_degrees_off_its_drawing_is_found_and_said() -> None:
     rng = np.random.default_rng(12)
     u = np.array([0.0, np.tan(np.radians(5.0)), 1.0])
     beam = (DRAWN.position_D, u / np.linalg.norm(u), 0.0, 1.0)
@@ -151,13 +163,13 @@ def test_a_beam_five_degrees_off_its_drawing_is_found_and_said():
     assert abs(found.evidence.off_drawing_deg - 5.0) < 1.5
 
 
-def test_too_few_readings_are_refused():
+def test_too_few_readings_are_refused() -> None:
     _, given = session(1, count=6)
     with pytest.raises(DegenerateError, match="6 readings"):
         calibrate(given, START, PRIOR, NOISE)
 
 
-def test_boards_known_through_the_room_serve_and_their_shared_errors_are_counted():
+def test_boards_known_through_the_room_serve_and_their_shared_errors_are_counted() -> None:
     """The board as hand-eye and mocap have it, both off within their sigma; the clock off too, with the panel moving."""
     nees = []
     for seed in range(16):

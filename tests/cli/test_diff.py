@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -74,7 +76,7 @@ def measured(true: Calibration, seed: int) -> Calibration:
 
 
 @pytest.mark.parametrize("count", [6, 12])
-def test_an_unmoved_rig_is_silent(count):
+def test_an_unmoved_rig_is_silent(count: int) -> None:
     true = rig(count)
     said = [library.compare_calibrations(measured(true, 2 * k), measured(true, 2 * k + 1)).changed for k in range(20)]
     assert said == [()] * 20
@@ -82,7 +84,7 @@ def test_an_unmoved_rig_is_silent(count):
 
 @pytest.mark.parametrize("count", [6, 12])
 @pytest.mark.parametrize(("by_mm", "turn_deg", "power", "word"), [(3.0, 0, 1, "moved"), (0, 4.0, 1, "turned"), (0, 0, 1.04, "power")])
-def test_the_one_that_changed_is_named_and_no_other(count, by_mm, turn_deg, power, word):
+def test_the_one_that_changed_is_named_and_no_other(count: int, by_mm: float, turn_deg: float, power: float, word: str) -> None:
     true = rig(count)
     for seed in range(6):
         k = seed % count
@@ -96,7 +98,7 @@ def test_the_one_that_changed_is_named_and_no_other(count, by_mm, turn_deg, powe
             assert abs(found.lights[k].moved - 1e-3 * by_mm) < 4 * found.lights[k].moved_std
 
 
-def test_the_stated_scatter_is_what_unmoved_lights_show():
+def test_the_stated_scatter_is_what_unmoved_lights_show() -> None:
     ratios = []
     for seed in range(40):
         true = rig(8)
@@ -126,7 +128,7 @@ def seen_on_two_days(before: Calibration, after: Calibration, seed: int) -> Cali
     return library.compare_calibrations(measured(before, 2 * seed), measured(after, 2 * seed + 1), solutions=both)
 
 
-def test_with_the_spheres_of_both_days_an_unmoved_rig_is_silent_and_the_sigmas_are_those_of_the_moves():
+def test_with_the_spheres_of_both_days_an_unmoved_rig_is_silent_and_the_sigmas_are_those_of_the_moves() -> None:
     true, ratios = rig(6), []
     for seed in range(3):
         found = seen_on_two_days(true, true, seed)
@@ -137,7 +139,7 @@ def test_with_the_spheres_of_both_days_an_unmoved_rig_is_silent_and_the_sigmas_a
 
 
 @pytest.mark.parametrize("axis", [0, 1])
-def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(axis):
+def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(axis: int) -> None:
     true = rig(6)
     for k in range(2):
         by = 3e-4 * true.lights[k].H_CL[:3, axis]
@@ -148,7 +150,7 @@ def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(ax
         assert found.lights[k].moved_L_std[axis] < 1e-4
 
 
-def test_with_the_spheres_of_both_days_what_all_lights_share_is_named_as_such_and_no_single_light():
+def test_with_the_spheres_of_both_days_what_all_lights_share_is_named_as_such_and_no_single_light() -> None:
     true = rig(6)
     knocked = replace(true, lights=tuple(moved(light, np.array([0.0, 3e-3, 0.0])) for light in true.lights))
     found = seen_on_two_days(true, knocked, 4)
@@ -158,7 +160,7 @@ def test_with_the_spheres_of_both_days_what_all_lights_share_is_named_as_such_an
     assert still.together.chance > 0.01
 
 
-def test_with_four_spheres_a_day_half_a_millimetre_is_named_of_one_light_and_no_other_is_doubted():
+def test_with_four_spheres_a_day_half_a_millimetre_is_named_of_one_light_and_no_other_is_doubted() -> None:
     true = rig(6)
     changed = moved(true.lights[3], 5e-4 * true.lights[3].H_CL[:3, 1])
     after = replace(true, lights=(*true.lights[:3], changed, *true.lights[4:]))
@@ -168,7 +170,7 @@ def test_with_four_spheres_a_day_half_a_millimetre_is_named_of_one_light_and_no_
     assert found.lights[3].moved_L_std[1] < 1.1e-4
 
 
-def test_lights_that_were_exchanged_or_are_missing_are_named():
+def test_lights_that_were_exchanged_or_are_missing_are_named() -> None:
     true = rig(8)
     one, two = (replace(true.lights[a], name=true.lights[b].name) for a, b in ((1, 5), (5, 1)))
     after = replace(true, lights=(true.lights[0], one, *true.lights[2:5], two, *true.lights[6:7]))
@@ -177,7 +179,7 @@ def test_lights_that_were_exchanged_or_are_missing_are_named():
     assert "L7 is in one of the two only" in found.changed
 
 
-def test_hand_eye_and_camera_are_held_against_both_covariances():
+def test_hand_eye_and_camera_are_held_against_both_covariances() -> None:
     true = rig()
     covariance = np.diag([2e-4] * 3 + [2e-4] * 3) ** 2
     same = replace(true, H_PC=se3.exp(1e-4 * np.array([1.0, -1, 1, 1, 1, -1])))
@@ -193,7 +195,7 @@ def test_hand_eye_and_camera_are_held_against_both_covariances():
 GRID = np.stack(np.meshgrid(np.linspace(0, 639, 40), np.linspace(0, 479, 30)), axis=-1).reshape(-1, 2)
 
 
-def test_what_cannot_be_compared():
+def test_what_cannot_be_compared() -> None:
     true = rig()
     with pytest.raises(DegenerateError, match="3 lights in common"):
         library.compare_calibrations(true, replace(true, lights=true.lights[:3]))
@@ -202,7 +204,7 @@ def test_what_cannot_be_compared():
         library.compare_calibrations(true, far)
 
 
-def test_distant_lights_are_compared_by_their_directions():
+def test_distant_lights_are_compared_by_their_directions() -> None:
     far = replace(rig(), camera=None, lights=tuple(replace(light, source_C=None, axis_C=None, H_CL=None) for light in rig().lights))
     turn = se3.rotation(np.radians([0.0, 0.0, 2.0]))
     lights = [replace(light, direction_C=turn @ light.direction_C) for light in far.lights]
@@ -210,7 +212,7 @@ def test_distant_lights_are_compared_by_their_directions():
     assert library.compare_calibrations(far, replace(far, lights=tuple(lights))).changed == ("L3: moved",)
 
 
-def test_the_command_says_it_and_draws_it(lpcal, tmp_path):
+def test_the_command_says_it_and_draws_it(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     true = rig()
     after = replace(true, lights=(*true.lights[:2], moved(true.lights[2], np.array([0.004, 0, 0])), *true.lights[3:]))
     for name, one in (("old.yaml", measured(true, 0)), ("new/calib/calibration.yaml", measured(after, 1))):

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 import yaml
 
 from handeye_rigs import image_rig, moving_rig
-from handeye_scene import moving_session, static_session
+from handeye_scene import Session, moving_session, static_session
 from lpcal.formats.h_op_yaml import read_h_op
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
 
 
 @pytest.fixture
-def session():
+def session() -> Session:
     return moving_session(np.random.default_rng(11), 60)
 
 
-def test_both_streams(tmp_path, session, lpcal):
+def test_both_streams(tmp_path: Path, session: Session, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     folder = tmp_path
     moving_rig(folder, session)
     code, out, err = lpcal("handeye", cwd=folder)
@@ -39,7 +42,7 @@ def test_both_streams(tmp_path, session, lpcal):
     assert (code, "nothing wrong found" in out) == (0, True)
 
 
-def test_one_pose_an_image(tmp_path, lpcal):
+def test_one_pose_an_image(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     session = static_session(np.random.default_rng(1), 24, flips=0.1)
     folder = tmp_path
     image_rig(folder, session, session.H_OP)
@@ -56,7 +59,9 @@ def test_one_pose_an_image(tmp_path, lpcal):
 
 
 @pytest.mark.parametrize("lost", ["handeye.easy_handeye.yaml", "H_OP.yaml", "handeye.yaml"])
-def test_what_a_killed_run_did_not_write_is_written_by_the_next(tmp_path, session, lpcal, lost):
+def test_what_a_killed_run_did_not_write_is_written_by_the_next(
+    tmp_path: Path, session: Session, lpcal: Callable[..., tuple[int, str, str]], lost: str
+) -> None:
     moving_rig(tmp_path, session)
     assert lpcal("run", cwd=tmp_path)[0] == 0
     before = {path.name for path in (tmp_path / "calib").glob("*.yaml")}
@@ -65,7 +70,7 @@ def test_what_a_killed_run_did_not_write_is_written_by_the_next(tmp_path, sessio
     assert {path.name for path in (tmp_path / "calib").glob("*.yaml")} == before
 
 
-def test_missing_pieces(tmp_path, session, lpcal):
+def test_missing_pieces(tmp_path: Path, session: Session, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     (tmp_path / "panel.yaml").write_text("lpcal: 1\nname: nothing\n")
     assert lpcal("handeye", cwd=tmp_path)[0] == 3
     (tmp_path / "panel.yaml").write_text("lpcal: 1\nmocap: {file: absent.csv, board_poses: {file: absent.csv}}\n")
@@ -78,7 +83,7 @@ def test_missing_pieces(tmp_path, session, lpcal):
 
 
 @pytest.mark.slow
-def test_rig_a(data, tmp_path, lpcal):
+def test_rig_a(data: Callable[[str], Path], tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     """Every board found, the camera and the hand-eye within the contract's figures of the truth."""
     import shutil
 
@@ -111,7 +116,7 @@ def test_rig_a(data, tmp_path, lpcal):
     assert not used & {f"stations/station_{k:02d}.png" for k in (6, 9, 22, 31)}
 
 
-def test_eth_vicon(data, tmp_path, lpcal):
+def test_eth_vicon(data: Callable[[str], Path], tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     folder = data("handeye/eth_vicon_1")
     mocap, boards = (next(folder.glob(f"*_{name}*.csv")) for name in ("vicon", "W_camera"))
     lines = boards.read_text().splitlines()

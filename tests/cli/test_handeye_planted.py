@@ -9,6 +9,7 @@ import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,34 +20,35 @@ from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.chain.h_pc_handeye.ends import with_turned
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from mocap_files import motive
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 
 
 @functools.cache
-def moving(views=60, seed=11) -> Session:
+def moving(views: int = 60, seed: int = 11) -> Session:
     return moving_session(np.random.default_rng(seed), views)
 
 
 @functools.cache
-def static(views=24, seed=2, **kwargs) -> Session:
+def static(views: int = 24, seed: int = 2, **kwargs: Any) -> Session:
     return static_session(np.random.default_rng(seed), views, **kwargs)
 
 
-def reordered(H):
+def reordered(H: Array) -> Array:
     H = H.copy()
     H[:, :3, :3] = se3.rotation_from_quaternion(se3.quaternion(H[:, :3, :3])[:, [3, 0, 1, 2]])
     return H
 
 
-def mirrored(H):
+def mirrored(H: Array) -> Array:
     H = H.copy()
     H[:, 1, 3] *= -1
     return H
 
 
-def scaled(H, by):
+def scaled(H: Array, by: float) -> Array:
     H = H.copy()
     H[:, :3, 3] *= by
     return H
@@ -154,7 +156,7 @@ def by_turns(cases: Iterable[object]) -> list[object]:
 
 
 @pytest.mark.parametrize(("command", "name"), by_turns(REFUSED))
-def test_refused(tmp_path, lpcal, name, command):
+def test_refused(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], name: str, command: str) -> None:
     case = REFUSED[name]
     case.plant(tmp_path)
     code, out, err = lpcal(command, cwd=tmp_path)
@@ -210,7 +212,7 @@ REPAIRED = {
 
 
 @pytest.mark.parametrize("name", REPAIRED)
-def test_repaired_and_said(tmp_path, lpcal, name):
+def test_repaired_and_said(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], name: str) -> None:
     plant, first, second = REPAIRED[name]
     session = plant(tmp_path)
     for command in ("check", "handeye"):
@@ -246,7 +248,7 @@ WARNED = {
 
 
 @pytest.mark.parametrize(("command", "name"), by_turns(WARNED))
-def test_solved_but_warned_of(tmp_path, lpcal, name, command):
+def test_solved_but_warned_of(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], name: str, command: str) -> None:
     plant, words = WARNED[name]
     plant(tmp_path)
     code, out, err = lpcal(command, cwd=tmp_path)
@@ -262,7 +264,7 @@ def test_solved_but_warned_of(tmp_path, lpcal, name, command):
         pytest.param(slice(0, 24, 4), id="every fourth"),
     ],
 )
-def test_check_turns_boards_back_as_handeye_does(tmp_path, lpcal, wrong):
+def test_check_turns_boards_back_as_handeye_does(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], wrong: Any) -> None:
     session = static()
     turned, other = turned_by_half(session.boards), np.zeros(24, dtype=bool)
     other[wrong] = True
@@ -275,7 +277,9 @@ def test_check_turns_boards_back_as_handeye_does(tmp_path, lpcal, wrong):
 
 
 @pytest.mark.parametrize(("command", "off_ms"), by_turns([-300, 200, 400]))
-def test_a_misstated_clock_is_named_by_its_key(tmp_path, lpcal, command, off_ms):
+def test_a_misstated_clock_is_named_by_its_key(
+    tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], command: str, off_ms: int
+) -> None:
     session = moving()
     moving_rig(tmp_path, session, mocap=f"  clock_offset: {1e3 * session.offset_s + off_ms:.1f} ms\n")
     code, out, err = lpcal(command, cwd=tmp_path)
@@ -284,7 +288,7 @@ def test_a_misstated_clock_is_named_by_its_key(tmp_path, lpcal, command, off_ms)
     assert "clock_offset: estimate" in out + err
 
 
-def test_what_mends_it_mends_it(tmp_path, lpcal):
+def test_what_mends_it_mends_it(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     session = moving()
     for keys, planted in (
         ("  direction: H_PO\n", {"H_OP": se3.inv(session.stream.H_OP)}),

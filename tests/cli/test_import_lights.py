@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -12,12 +16,13 @@ from lpcal.errors import DisagreementError, InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
 from lpcal.formats.surface_files import read_surface
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
 from lpcal.surface import gains
 from lpcal.surface.sight import Sight
 
 
-def test_lp_is_turned_into_the_cameras_axes(tmp_path):
+def test_lp_is_turned_into_the_cameras_axes(tmp_path: Path) -> None:
     path = tmp_path / "dome.lp"
     path.write_text("2\nmy stone 01.jpg 0.6 0.0 0.8\nC:\\photos\\img_2.tif 0 0.6 0.8\n")
     name, found = read_lights(path)
@@ -29,7 +34,7 @@ def test_lp_is_turned_into_the_cameras_axes(tmp_path):
     assert all(light.source_C is None for light in found.lights)
 
 
-def diligent(folder, count=3):
+def diligent(folder: Path, count: int = 3) -> Path:
     folder.mkdir()
     (folder / "filenames.txt").write_text("".join(f"{k + 1:03d}.png\n" for k in range(count)))
     (folder / "light_directions.txt").write_text("0 0.6 0.8\n0.6 0 0.8\n-0.6 0 0.8\n")
@@ -37,7 +42,7 @@ def diligent(folder, count=3):
     return folder
 
 
-def test_a_diligent_folder(tmp_path):
+def test_a_diligent_folder(tmp_path: Path) -> None:
     _, found = read_lights(diligent(tmp_path / "ball"))
     assert [light.name for light in found.lights] == ["001", "002", "003"]
     assert np.mean([light.intensity for light in found.lights]) == pytest.approx(1)
@@ -47,7 +52,7 @@ def test_a_diligent_folder(tmp_path):
 
 
 @pytest.mark.parametrize("order", ["2048 1536", "1536 2048"])
-def test_luces_led_params(tmp_path, order):
+def test_luces_led_params(tmp_path: Path, order: str) -> None:
     path = tmp_path / "led_params.txt"
     rows = ["N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]", f"3 {order} 2300 1020.5 770.1 300"]
     rows += [f"{x} {y} -20 {-x / 100} {-y / 100} 3 1.0 0.9 0.8 0.6 0" for x, y in ((100, 0), (0, 100), (-100, 0))]
@@ -63,7 +68,7 @@ def test_luces_led_params(tmp_path, order):
     assert irradiance[0, 0] == pytest.approx(expected, rel=1e-6)
 
 
-def test_near_ps_mat_with_a_transposed_camera_and_the_images_size(tmp_path):
+def test_near_ps_mat_with_a_transposed_camera_and_the_images_size(tmp_path: Path) -> None:
     S = np.array([[100.0, 0, 400], [0, 100, 400], [-100, 0, 400]])
     Dir = np.array([[-0.2, 0, 1.0], [0, -0.2, 1], [0.2, 0, 1]])
     savemat(tmp_path / "light.mat", {"S": S, "Dir": Dir, "Phi": np.full((3, 1), 3e7), "mu": np.ones((3, 1))})
@@ -77,7 +82,7 @@ def test_near_ps_mat_with_a_transposed_camera_and_the_images_size(tmp_path):
     assert found.focus_C == pytest.approx([0, 0, 0.9])  # where the axes meet
 
 
-def write_luces(folder):
+def write_luces(folder: Path) -> list[str]:
     rows = ["N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]", f"6 112 160 {K[0, 0]} {K[0, 2]} {K[1, 2]} 350"]
     for light in calibration().lights:
         numbers = [*(1e3 * light.source_C), *light.axis_C, *3 * [7.5 * light.intensity[0]], EXPONENT, 0]
@@ -86,7 +91,7 @@ def write_luces(folder):
     return [f"{k + 1:02d}" for k in range(6)]
 
 
-def write_near_ps(folder):
+def write_near_ps(folder: Path) -> list[str]:
     lights = calibration().lights
     S, Dir = (np.stack([getattr(light, name) for light in lights]) for name in ("source_C", "axis_C"))
     Phi = np.stack([light.intensity for light in lights])
@@ -96,7 +101,7 @@ def write_near_ps(folder):
 
 
 @pytest.mark.parametrize("write", [write_luces, write_near_ps])
-def test_near_lights_are_read_as_they_are(tmp_path, write):
+def test_near_lights_are_read_as_they_are(tmp_path: Path, write: Callable[..., Any]) -> None:
     names = write(tmp_path)
     cv2.imwrite(str(tmp_path / f"{names[0]}.png"), np.zeros((112, 160), np.uint16))
     _, found = read_lights(tmp_path)
@@ -110,7 +115,7 @@ def test_near_lights_are_read_as_they_are(tmp_path, write):
         assert one.lobe.exponent == pytest.approx(EXPONENT)
 
 
-def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path, lpcal):
+def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     names = write_near_ps(tmp_path)
     raw = draw(Scene(), calibration())
     mask, depth, _ = truth(Scene())
@@ -126,7 +131,7 @@ def test_images_beside_imported_near_lights_become_a_surface_in_metres(tmp_path,
     assert abs(np.nanmedian(read_surface(tmp_path / "out").depth - depth)) < 0.004
 
 
-def test_images_of_a_light_file_become_a_surface_in_pixels(tmp_path, lpcal):
+def test_images_of_a_light_file_become_a_surface_in_pixels(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     """A ball under lights of an .lp, by parallel rays: its normals, and a depth that is a ball's."""
     row, column = np.indices((80, 80))
     x, y = (column - 39.5) / 32, (row - 39.5) / 32
@@ -148,7 +153,7 @@ def test_images_of_a_light_file_become_a_surface_in_pixels(tmp_path, lpcal):
     assert np.std((surface.depth - 32 * n[..., 2])[mask]) < 0.5
 
 
-def test_intensities_that_nobody_measured_are_found_under_many_lights():
+def test_intensities_that_nobody_measured_are_found_under_many_lights() -> None:
     """A dome of 24 lights, of which hardly a pixel sees all."""
     rng = np.random.default_rng(0)
     row, column = np.indices((60, 60))
@@ -164,7 +169,7 @@ def test_intensities_that_nobody_measured_are_found_under_many_lights():
     assert found / found.mean() == pytest.approx(power / power.mean(), rel=0.03)
 
 
-def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
+def test_a_table_in_columns_named_after_images(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     path = tmp_path / "light_directions.txt"
     path.write_text("0.6 0 -0.6\n0 0.6 0\n0.8 0.8 0.8\n")
     images = tmp_path / "photos"
@@ -192,7 +197,7 @@ def test_a_table_in_columns_named_after_images(tmp_path, lpcal):
         ("a.xyz", "?", "no format that lpcal imports"),
     ],
 )
-def test_what_is_wrong_is_said(tmp_path, lpcal, name, text, words):
+def test_what_is_wrong_is_said(tmp_path: Path, lpcal: Callable[..., Any], name: str, text: str, words: str) -> None:
     path = tmp_path / name
     path.write_text(text)
     code, _, told = lpcal("import", path, "-o", tmp_path / "out.yaml")
@@ -201,7 +206,7 @@ def test_what_is_wrong_is_said(tmp_path, lpcal, name, text, words):
     assert not (tmp_path / "out.yaml").exists()
 
 
-def test_a_file_that_is_not_there(tmp_path):
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         read_lights(tmp_path / "none.lp")
 
@@ -215,7 +220,9 @@ def test_a_file_that_is_not_there(tmp_path):
         ("2\none.jpg 0 0 -1\ntwo.jpg 0 0.6 -0.8\n", "every light stands behind the object"),
     ],
 )
-def test_parts_of_an_lp_that_contradict_each_other_are_said(tmp_path, lpcal, text, words):
+def test_parts_of_an_lp_that_contradict_each_other_are_said(
+    tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], text: str, words: str
+) -> None:
     (tmp_path / "a.lp").write_text(text)
     code, _, told = lpcal("import", tmp_path / "a.lp", "-o", tmp_path / "out.yaml")
     assert code == 6, told
@@ -233,14 +240,14 @@ def test_parts_of_an_lp_that_contradict_each_other_are_said(tmp_path, lpcal, tex
         (("M\u00fcnze 1.png,0.6,0,0.8", "M\u00fcnze 2.png,0,0.6,0.8"), "utf-8"),
     ],
 )
-def test_an_lp_of_any_encoding_and_delimiter(tmp_path, rows, encoding):
+def test_an_lp_of_any_encoding_and_delimiter(tmp_path: Path, rows: tuple[str, str], encoding: str) -> None:
     (tmp_path / "dome.lp").write_bytes("\r\n".join(["2", *rows, ""]).encode(encoding))
     _, found = read_lights(tmp_path / "dome.lp")
     assert [light.name for light in found.lights] == ["M\u00fcnze 1", "M\u00fcnze 2"]
     assert np.allclose([light.direction_C for light in found.lights], [[0.6, 0, -0.8], [0, -0.6, -0.8]])
 
 
-def test_vectors_that_are_positions_are_said(tmp_path, lpcal):
+def test_vectors_that_are_positions_are_said(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     path = tmp_path / "dome.lp"
     path.write_text("2\none.jpg 240 0 320\ntwo.jpg 0 240 320\n")
     code, _, told = lpcal("import", path, "-o", tmp_path / "c.yaml")
@@ -268,27 +275,27 @@ RING = np.array([[60.0 * np.cos(t), 60.0 * np.sin(t), 0.0] for t in np.linspace(
     ],
     ids=["parallel", "apart", "no axes", "parallel but for workmanship"],
 )
-def test_axes_that_do_not_meet_give_no_working_point(tmp_path, more):
+def test_axes_that_do_not_meet_give_no_working_point(tmp_path: Path, more: dict[str, Array]) -> None:
     savemat(tmp_path / "light.mat", {"S": RING, "Phi": np.ones((8, 1)), **more})
     _, found = read_lights(tmp_path / "light.mat")
     assert found.d_object_m is None
     assert found.focus_C is None
 
 
-def test_aimed_axes_with_some_error_meet(tmp_path):
+def test_aimed_axes_with_some_error_meet(tmp_path: Path) -> None:
     Dir = np.array([0, 0, 200.0]) - RING + np.random.default_rng(0).standard_normal((8, 3)) * 3
     savemat(tmp_path / "light.mat", {"S": RING, "Dir": Dir, "mu": np.ones((8, 1))}, do_compression=True)
     _, found = read_lights(tmp_path / "light.mat")
     assert found.d_object_m == pytest.approx(0.2, rel=0.05)
 
 
-def test_axes_are_needed_where_a_lobe_has_one(tmp_path):
+def test_axes_are_needed_where_a_lobe_has_one(tmp_path: Path) -> None:
     savemat(tmp_path / "light.mat", {"S": RING, "mu": np.ones((8, 1))})
     with pytest.raises(InputError, match="holds no Dir"):
         read_lights(tmp_path / "light.mat")
 
 
-def test_a_guessed_image_size_gives_way_to_the_captures(tmp_path):
+def test_a_guessed_image_size_gives_way_to_the_captures(tmp_path: Path) -> None:
     savemat(tmp_path / "light.mat", {"S": RING})
     savemat(tmp_path / "camera.mat", {"K": np.array([[300.0, 0, 121.7], [0, 300, 87.2], [0, 0, 1]])})
     _, found = read_lights(tmp_path / "light.mat")
@@ -308,13 +315,13 @@ def test_a_guessed_image_size_gives_way_to_the_captures(tmp_path):
         ({"mu": np.ones((5, 1))}, "8, 8, 8 and 5 rows"),
     ],
 )
-def test_nonsense_in_a_mat_is_refused(tmp_path, change, words):
+def test_nonsense_in_a_mat_is_refused(tmp_path: Path, change: dict[str, Array], words: str) -> None:
     savemat(tmp_path / "light.mat", {"S": RING, "Dir": np.tile([0.0, 0, 1], (8, 1)), "mu": np.ones((8, 1)), **change})
     with pytest.raises(LpcalError, match=words):
         read_lights(tmp_path / "light.mat")
 
 
-def test_a_damaged_mat_is_an_error_of_the_contract(tmp_path):
+def test_a_damaged_mat_is_an_error_of_the_contract(tmp_path: Path) -> None:
     """Each byte in turn set to other values: an error of the contract, or lights."""
     savemat(tmp_path / "whole.mat", {"S": RING[:3], "Dir": np.tile([0.0, 0, 1], (3, 1)), "mu": np.ones((3, 1))})
     whole, path = (tmp_path / "whole.mat").read_bytes(), tmp_path / "light.mat"
@@ -329,7 +336,7 @@ def test_a_damaged_mat_is_an_error_of_the_contract(tmp_path):
     assert refused > 100
 
 
-def test_a_mat_of_version_7_3_is_named(tmp_path):
+def test_a_mat_of_version_7_3_is_named(tmp_path: Path) -> None:
     (tmp_path / "light.mat").write_bytes(b"MATLAB 7.3 MAT-file".ljust(512) + b"\x89HDF\r\n\x1a\n")
     with pytest.raises(InputError, match="save it with -v7"):
         read_lights(tmp_path / "light.mat")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -35,7 +37,7 @@ def error_mm(found: np.ndarray, depth: np.ndarray, mask: np.ndarray) -> float:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "published_mm"), [("bear", 0.334), ("pot2", 0.220), ("goblet", 9.018)])
-def test_depth_from_true_normals_beats_what_is_published(data, name, published_mm):
+def test_depth_from_true_normals_beats_what_is_published(data: Callable[[str], Path], name: str, published_mm: float) -> None:
     K_file, mask, n, depth = diligent(data(f"surface/diligent_depth/{name}"))
     camera = Camera((612, 512), "opencv4", K_file, np.zeros(4))
     assert error_mm(surface_of_normals(name, n, mask, camera, 1.5).depth, depth, mask) <= published_mm
@@ -43,7 +45,7 @@ def test_depth_from_true_normals_beats_what_is_published(data, name, published_m
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["buddha", "pot2"])
-def test_depth_from_true_normals_beats_the_twin(data, name):
+def test_depth_from_true_normals_beats_the_twin(data: Callable[[str], Path], name: str) -> None:
     K_file, mask, n, depth = diligent(data(f"surface/diligent_depth/{name}"))
     camera = Camera((612, 512), "opencv4", K_file, np.zeros(4))
     own = error_mm(surface_of_normals(name, n, mask, camera, 1.5).depth, depth, mask)
@@ -73,7 +75,7 @@ def write(path: Path, n: np.ndarray) -> Path:
 
 
 @pytest.mark.parametrize("name", ["ball.npz", "ball.npy", "ball.png", "ball.tif"])
-def test_every_form_gives_the_same_surface(lpcal, tmp_path, name):
+def test_every_form_gives_the_same_surface(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, name: str) -> None:
     mask, depth, n = sphere_normals()
     write_calibration(tmp_path / "calibration.yaml", calibration(), Provenance())
     code, told, wrong = lpcal("integrate", write(tmp_path / name, n), "-c", "calibration.yaml", "--distance", "330mm", cwd=tmp_path)
@@ -89,7 +91,7 @@ def test_every_form_gives_the_same_surface(lpcal, tmp_path, name):
         assert (tmp_path / "surfaces/ball" / file).is_file()
 
 
-def test_without_a_camera_depth_is_in_pixels_and_up_is_up(lpcal, tmp_path):
+def test_without_a_camera_depth_is_in_pixels_and_up_is_up(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     row, column = np.indices((60, 80), dtype=float)
     z = 0.3 * column - 0.2 * row
     n = np.tile(np.array([0.3, -0.2, -1.0]) / np.sqrt(1.13), (60, 80, 1))
@@ -100,7 +102,7 @@ def test_without_a_camera_depth_is_in_pixels_and_up_is_up(lpcal, tmp_path):
     assert np.std((surface.depth - z)[surface.mask]) < 0.01
 
 
-def test_a_jump_is_kept_and_cuts_the_mesh():
+def test_a_jump_is_kept_and_cuts_the_mesh() -> None:
     camera = replace(calibration().camera, distortion=np.zeros(4))
     row, column = np.indices(SIZE[::-1], dtype=float)
     rays = np.stack([(column - K[0, 2]) / K[0, 0], (row - K[1, 2]) / K[1, 1], np.ones_like(row)], axis=-1)
@@ -144,7 +146,9 @@ def spoil_size(folder: Path) -> Path:
         (lambda folder: folder / "nowhere.npz", 3, "nowhere.npz"),
     ],
 )
-def test_what_is_wrong_is_said_and_nothing_written(lpcal, tmp_path, spoil, code, words):
+def test_what_is_wrong_is_said_and_nothing_written(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, spoil: Callable[..., Any], code: int, words: str
+) -> None:
     write_calibration(tmp_path / "calibration.yaml", calibration(), Provenance())
     found, _, told = lpcal("integrate", spoil(tmp_path), "-c", "calibration.yaml", "-o", "out", cwd=tmp_path)
     assert found == code, told

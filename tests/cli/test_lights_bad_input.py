@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -201,7 +202,7 @@ def test_far_lights_are_said_to_be_distant(tmp_path: Path, lpcal: Run) -> None:
     from lpcal.simulate.built import Built
 
     def away(rig_: Built) -> Built:
-        def moved(one):
+        def moved(one: Any) -> Any:
             shift = 60.0 * (one.source_C - rig_.focus_C)
             return replace(one, position_C=one.position_C + shift, power=one.power * 60**2, exponent=0.0, source_C=one.source_C + shift)
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 
 from lpcal.formats.bundled import rig_names
@@ -9,7 +12,7 @@ from lpcal.formats.panel_yaml import read_rig
 
 
 @pytest.mark.parametrize("name", ["dome", "lightpanel-12", "lightpanel-6", "robot-camera"])
-def test_a_rig_is_copied_with_its_folders(lpcal, tmp_path, name):
+def test_a_rig_is_copied_with_its_folders(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, name: str) -> None:
     assert name in rig_names()
     code, out, _ = lpcal("new", tmp_path / "mine", "--from", name)
     assert code == 0
@@ -23,12 +26,12 @@ def test_a_rig_is_copied_with_its_folders(lpcal, tmp_path, name):
     assert "next: cd" in out
 
 
-def test_the_default_is_the_papers_panel(lpcal, tmp_path):
+def test_the_default_is_the_papers_panel(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     assert lpcal("new", tmp_path / "mine")[0] == 0
     assert read_rig(tmp_path / "mine" / "panel.yaml").rig.name == "lightpanel-6"
 
 
-def test_a_panel_that_is_there_is_kept(lpcal, tmp_path):
+def test_a_panel_that_is_there_is_kept(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "panel.yaml").write_text("lpcal: 1\n")
     code, _, err = lpcal("new", tmp_path)
     assert code == 3
@@ -36,19 +39,19 @@ def test_a_panel_that_is_there_is_kept(lpcal, tmp_path):
     assert (tmp_path / "panel.yaml").read_text() == "lpcal: 1\n"
 
 
-def test_an_empty_or_unrelated_folder_is_welcome(lpcal, tmp_path):
+def test_an_empty_or_unrelated_folder_is_welcome(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("x")
     assert lpcal("new", tmp_path, "--from", "dome")[0] == 0
     assert (tmp_path / "notes.txt").read_text() == "x"
 
 
-def test_a_file_in_the_folders_place_is_an_error(lpcal, tmp_path):
+def test_a_file_in_the_folders_place_is_an_error(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "mine").write_text("x")
     code, _, err = lpcal("new", tmp_path / "mine")
     assert (code, "is a file" in err) == (3, True)
 
 
-def test_from_another_rig_of_ones_own(lpcal, tmp_path):
+def test_from_another_rig_of_ones_own(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "old").mkdir()
     (tmp_path / "old" / "panel.yaml").write_text("lpcal: 1\nname: own\nobjects: {a: objects/a, far: ../elsewhere, b: /somewhere}\n")
     code, _, _ = lpcal("new", tmp_path / "mine", "--from", tmp_path / "old")
@@ -58,7 +61,7 @@ def test_from_another_rig_of_ones_own(lpcal, tmp_path):
     assert not (tmp_path / "elsewhere").exists()
 
 
-def test_an_unknown_rig_and_a_broken_one(lpcal, tmp_path):
+def test_an_unknown_rig_and_a_broken_one(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, _, err = lpcal("new", tmp_path / "mine", "--from", "lightpanel-7")
     assert code == 3
     assert "lightpanel-12" in err
@@ -69,7 +72,7 @@ def test_an_unknown_rig_and_a_broken_one(lpcal, tmp_path):
     assert not (tmp_path / "mine").exists()
 
 
-def test_an_rti_folder_takes_numbered_photographs(lpcal, tmp_path):
+def test_an_rti_folder_takes_numbered_photographs(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, _, err = lpcal("new", tmp_path / "mine", "--from", "rti")
     assert code == 0, err
     rig = read_rig(tmp_path / "mine" / "panel.yaml").rig
@@ -82,7 +85,7 @@ def test_an_rti_folder_takes_numbered_photographs(lpcal, tmp_path):
     assert "24, one a light" in err
 
 
-def test_a_mocap_folder_says_what_it_lacks(lpcal, tmp_path):
+def test_a_mocap_folder_says_what_it_lacks(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, out, err = lpcal("new", tmp_path / "mine", "--from", "mocap")
     assert code == 0, err
     assert "mocap" in out
@@ -92,7 +95,7 @@ def test_a_mocap_folder_says_what_it_lacks(lpcal, tmp_path):
     assert "Traceback" not in err
 
 
-def test_a_robots_table_has_a_sample(lpcal, tmp_path):
+def test_a_robots_table_has_a_sample(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     from lpcal.formats.robot_poses import read_robot_poses
 
     assert lpcal("new", tmp_path / "mine", "--from", "robot-camera")[0] == 0

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -15,7 +17,7 @@ from lpcal.formats.capture import read_capture
 BOARD_ONLY = "lpcal: 1\ncamera: {images: stations/*.png}\nboard: {kind: chessboard, corners: [9, 6], square: 25 mm}\n"
 
 
-def test_export_of_a_rig_without_lights_lacks_a_section(lpcal, tmp_path):
+def test_export_of_a_rig_without_lights_lacks_a_section(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "panel.yaml").write_text(BOARD_ONLY)
     shutil.copytree(bundled_folder("calib_data") / "demo_rig" / "stations", tmp_path / "stations")
     code, out, err = lpcal("export", cwd=tmp_path)
@@ -26,7 +28,7 @@ def test_export_of_a_rig_without_lights_lacks_a_section(lpcal, tmp_path):
     assert not (tmp_path / "calib").exists()
 
 
-def test_a_rig_that_is_not_bundled_is_named_by_what_was_typed(lpcal, tmp_path):
+def test_a_rig_that_is_not_bundled_is_named_by_what_was_typed(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, _, err = lpcal("new", tmp_path / "mine", "--from", "lightpanel-7")
     assert code == 3
     assert err.startswith("lpcal: lightpanel-7: no bundled rig")
@@ -35,25 +37,27 @@ def test_a_rig_that_is_not_bundled_is_named_by_what_was_typed(lpcal, tmp_path):
 
 
 @pytest.fixture
-def capture(tmp_path):
+def capture(tmp_path: Path) -> Path:
     for light in ("L0", "L1", "L2"):
         cv2.imwrite(str(tmp_path / f"{light}.png"), np.full((20, 30), 90, np.uint8))
     return tmp_path
 
 
-def test_two_images_of_one_light_are_not_chosen_from(capture):
+def test_two_images_of_one_light_are_not_chosen_from(capture: Path) -> None:
     cv2.imwrite(str(capture / "L1.tif"), np.full((20, 30), 40, np.uint8))
     with pytest.raises(DisagreementError, match=r"L1\.png and L1\.tif: two images of one name"):
         read_capture(capture, ["L0", "L1", "L2"])
 
 
 @pytest.mark.parametrize("text", ["", "# exposure: 20 ms\n"])
-def test_a_capture_yaml_of_comments_alone_states_nothing(capture, text):
+def test_a_capture_yaml_of_comments_alone_states_nothing(capture: Path, text: str) -> None:
     (capture / "capture.yaml").write_text(text)
     assert read_capture(capture, ["L0", "L1", "L2"]).exposure_s == pytest.approx([1, 1, 1])
 
 
-def test_refine_names_an_image_that_is_no_lights_and_counts_a_dark_sphere(lpcal, tmp_path):
+def test_refine_names_an_image_that_is_no_lights_and_counts_a_dark_sphere(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
     spheres = bundled_folder("calib_data") / "demo_rig" / "spheres"
     for name in ("bright", "dark"):
         shutil.copytree(spheres / "chrome_0", tmp_path / name)

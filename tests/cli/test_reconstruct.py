@@ -6,8 +6,10 @@ import json
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -40,7 +42,7 @@ def drawn() -> RawCapture:
 
 
 @pytest.fixture
-def rig(tmp_path, drawn) -> Path:
+def rig(tmp_path: Path, drawn: RawCapture) -> Path:
     (tmp_path / "panel.yaml").write_text(PANEL)
     write_calibration(tmp_path / "calib/calibration.yaml", calibration(), Provenance())
     write_capture(tmp_path / "objects/first", drawn)
@@ -48,14 +50,14 @@ def rig(tmp_path, drawn) -> Path:
 
 
 @pytest.fixture
-def quick(tmp_path) -> Path:
+def quick(tmp_path: Path) -> Path:
     """A mask of the ball, which spares the search for it."""
     path = tmp_path / "ball_mask.png"
     cv2.imwrite(str(path), 255 * truth(Scene())[0].astype(np.uint8))
     return path
 
 
-def test_every_file_of_the_contract(lpcal, rig):
+def test_every_file_of_the_contract(lpcal: Callable[..., tuple[int, str, str]], rig: Path) -> None:
     code, told, _ = lpcal("reconstruct", cwd=rig)
     assert code == 0, told
     assert "ball: " in told
@@ -86,7 +88,7 @@ def test_every_file_of_the_contract(lpcal, rig):
 
 
 @pytest.mark.slow
-def test_it_imports_only_what_it_uses(rig, quick):
+def test_it_imports_only_what_it_uses(rig: Path, quick: Path) -> None:
     words = ["reconstruct", "--mask", str(quick)]
     program = (
         f"import sys\nfrom lpcal.cli.main import main\nassert main({words!r}) == 0\nprint('imported:', *{{name for name in sys.modules}})"
@@ -98,7 +100,9 @@ def test_it_imports_only_what_it_uses(rig, quick):
 
 
 @pytest.mark.slow
-def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, rig, drawn, quick):
+def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, drawn: RawCapture, quick: Path
+) -> None:
     write_capture(rig / "elsewhere", drawn)
     code, _, told = lpcal("reconstruct", "objects/first", "elsewhere", "--mask", quick, "--lights", "distant", cwd=rig)
     assert code == 0, told
@@ -106,7 +110,9 @@ def test_a_capture_by_its_folder_takes_the_objects_key_or_its_own_name(lpcal, ri
     assert (rig / "surfaces/elsewhere/surface.npz").is_file()
 
 
-def test_without_a_rig_a_calibration_will_do_and_an_image_that_is_no_lights_is_named(lpcal, rig, quick, tmp_path_factory):
+def test_without_a_rig_a_calibration_will_do_and_an_image_that_is_no_lights_is_named(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, quick: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     away = tmp_path_factory.mktemp("away")
     cv2.imwrite(str(rig / "objects/first/lamp9.png"), np.full((SIZE[1], SIZE[0]), 90, np.uint8))
     code, told, warned = lpcal(
@@ -118,7 +124,9 @@ def test_without_a_rig_a_calibration_will_do_and_an_image_that_is_no_lights_is_n
     assert "left out: lamp9.png is no light's" in told + warned
 
 
-def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, quick):
+def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, quick: Path
+) -> None:
     quick.rename(rig / "objects/first/mask.png")
     code, _, told = lpcal("reconstruct", "--use", "L0,L2,L4,L5", "--box", "0,0,160,60", cwd=rig)
     assert code == 0, told
@@ -130,7 +138,9 @@ def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(lpcal, rig, 
 
 
 @pytest.mark.slow
-def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
+def test_one_bad_capture_does_not_stop_the_other(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, drawn: RawCapture, quick: Path
+) -> None:
     dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
     write_capture(rig / "objects/dark", dark)
     (rig / "panel.yaml").write_text(PANEL.replace("{ball: objects/first}", "{dark: objects/dark, ball: objects/first}"))
@@ -142,7 +152,9 @@ def test_one_bad_capture_does_not_stop_the_other(lpcal, rig, drawn, quick):
 
 
 @pytest.mark.slow
-def test_without_an_ambient_image_the_rooms_light_is_estimated_and_said(lpcal, rig, quick):
+def test_without_an_ambient_image_the_rooms_light_is_estimated_and_said(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, quick: Path
+) -> None:
     lit = draw(Scene(room=0.25), calibration())
     write_capture(rig / "objects/lit", lit)
     (rig / "objects/lit/ambient.png").unlink()
@@ -238,7 +250,9 @@ def spoil_lights_in_a_row(rig: Path) -> None:
         (spoil_lights_in_a_row, 4, "one plane"),
     ],
 )
-def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, words):
+def test_what_is_wrong_is_said_and_nothing_written(
+    lpcal: Callable[..., Any], rig: Path, spoil: Callable[..., Any], code: int, words: str
+) -> None:
     spoil(rig)
     found, _, told = lpcal("reconstruct", cwd=rig)
     assert found == code, told
@@ -256,7 +270,9 @@ def test_what_is_wrong_is_said_and_nothing_written(lpcal, rig, spoil, code, word
         (("--outputs", "page,glb,mask,albedo"), {"relight.html", "mesh.glb", "mask.png", "albedo.png"}),
     ],
 )
-def test_only_the_files_that_are_asked_for_are_written(lpcal, rig, quick, words, files):
+def test_only_the_files_that_are_asked_for_are_written(
+    lpcal: Callable[..., tuple[int, str, str]], rig: Path, quick: Path, words: tuple[Any, ...], files: set[str]
+) -> None:
     code, told, _ = lpcal("reconstruct", "--mask", str(quick), "--lights", "distant", "--jobs", "2", *words, cwd=rig)
     assert code == 0, told
     assert {path.name for path in (rig / "surfaces/ball").iterdir()} == files | {"summary.json"}
@@ -285,7 +301,7 @@ def test_only_the_files_that_are_asked_for_are_written(lpcal, rig, quick, words,
         (("--jobs", "-3"), 2, "is no number of cores"),
     ],
 )
-def test_words_that_are_off(lpcal, rig, words, code, message):
+def test_words_that_are_off(lpcal: Callable[..., tuple[int, str, str]], rig: Path, words: tuple[Any, ...], code: int, message: str) -> None:
     found, _, told = lpcal("reconstruct", *words, cwd=rig)
     assert found == code, told
     assert message in told

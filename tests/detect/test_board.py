@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import cv2
 import numpy as np
 import pytest
@@ -152,7 +155,7 @@ def test_a_charuco_board_cut_off_at_the_side() -> None:
         ("intrinsics/boofcv_bumblebee2", "left*.jpg", (6, 4), 11),
     ],
 )
-def test_real_boards_are_found(data, name: str, pattern: str, corners: tuple[int, int], least: int) -> None:
+def test_real_boards_are_found(data: Callable[[str], Path], name: str, pattern: str, corners: tuple[int, int], least: int) -> None:
     images = sorted(data(name).glob(pattern))
     views = [find_board(cv2.imread(str(path), cv2.IMREAD_GRAYSCALE), Board(corners, (0.03, 0.03))) for path in images]
     assert sum(view.corners_px is not None for view in views) >= least

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ def ramp(low: float, high: float) -> np.ndarray:
     return np.linspace(low, high, SHAPE[1])[None, :] * np.ones((SHAPE[0], 1))
 
 
-def capture(images: np.ndarray, ambient: np.ndarray | None = None, step: float = 1 / 255, **more) -> RawCapture:
+def capture(images: np.ndarray, ambient: np.ndarray | None = None, step: float = 1 / 255, **more: Any) -> RawCapture:
     names = tuple(f"L{k}" for k in range(len(images)))
     many = 0 if ambient is None else len(ambient)
     return RawCapture(
@@ -33,7 +34,7 @@ def capture(images: np.ndarray, ambient: np.ndarray | None = None, step: float =
     )
 
 
-def test_black_level_gamma_and_white_level_are_undone():
+def test_black_level_gamma_and_white_level_are_undone() -> None:
     linear = np.stack([ramp(0.1, 0.6), ramp(0.6, 0.2)])
     black, white, gamma = 0.05, 0.8, 2.2
     low, high = black**gamma, white**gamma
@@ -43,7 +44,7 @@ def test_black_level_gamma_and_white_level_are_undone():
     assert not found.saturated.any()
 
 
-def test_twelve_bits_low_in_sixteen_saturate_at_their_own_white():
+def test_twelve_bits_low_in_sixteen_saturate_at_their_own_white() -> None:
     stored = np.stack([ramp(0.01, 0.0625), ramp(0.05, 0.01)])
     found = to_radiance(capture(stored, step=1 / 65535), Sensor(white_level=4095 / 65535))
     assert found.saturated[0, :, -1].all()
@@ -51,7 +52,7 @@ def test_twelve_bits_low_in_sixteen_saturate_at_their_own_white():
     assert found.signal[0, 0, -2] == pytest.approx(1.0, abs=0.02)
 
 
-def test_exposures_and_the_ambient_of_another_exposure():
+def test_exposures_and_the_ambient_of_another_exposure() -> None:
     light, room = np.stack([ramp(2.0, 6.0), ramp(6.0, 2.0)]), 1.5
     exposure = np.array([0.05, 0.1])
     stored = (light + room) * exposure[:, None, None]
@@ -61,7 +62,7 @@ def test_exposures_and_the_ambient_of_another_exposure():
     assert np.allclose(found.ambient, room, atol=1e-4)
 
 
-def test_without_ambient_it_is_said():
+def test_without_ambient_it_is_said() -> None:
     found = to_radiance(capture(np.stack([ramp(0.1, 0.5)] * 3)), Sensor())
     assert any("no ambient image" in note for note in found.notes)
     assert np.all(found.ambient == 0)
@@ -73,7 +74,7 @@ def vignette() -> np.ndarray:
     return 1 / (1 + 0.5 * r2) ** 2
 
 
-def test_the_flat_field_is_smooth_and_divides_out():
+def test_the_flat_field_is_smooth_and_divides_out() -> None:
     rng = np.random.default_rng(0)
     flat = 0.5 * vignette() + 0.01 * rng.standard_normal(SHAPE)
     flat[10:14, 20:24] = 0.1  # dust
@@ -88,13 +89,13 @@ def test_the_flat_field_is_smooth_and_divides_out():
 
 
 @pytest.mark.parametrize("level", [0.005, 0.99])
-def test_a_flat_field_that_is_dark_or_saturated_is_refused(level):
+def test_a_flat_field_that_is_dark_or_saturated_is_refused(level: float) -> None:
     with pytest.raises(DegenerateError, match="flat_field"):
         fit_flat_field(np.full(SHAPE, level, np.float32), Sensor(white_level=0.95))
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_the_noise_is_read_off_the_images(seed):
+def test_the_noise_is_read_off_the_images(seed: int) -> None:
     rng = np.random.default_rng(seed)
     read, shot = 2e-3**2, 1 / 8000
     shape = (6, 240, 320)
@@ -106,7 +107,7 @@ def test_the_noise_is_read_off_the_images(seed):
         assert np.sqrt(a + c * at) == pytest.approx(np.sqrt(read + shot * at), rel=0.15)
 
 
-def test_the_sigma_of_a_signal_is_its_scatter_and_the_ambients_noise_counts():
+def test_the_sigma_of_a_signal_is_its_scatter_and_the_ambients_noise_counts() -> None:
     rng = np.random.default_rng(5)
     light, room, shape = 0.3, 0.2, (6, 240, 320)
     noise = 0.01
@@ -122,7 +123,7 @@ def test_the_sigma_of_a_signal_is_its_scatter_and_the_ambients_noise_counts():
     assert np.median(four.sigma) == pytest.approx(noise * np.sqrt(1.25), rel=0.1)
 
 
-def test_colour_saturates_where_any_channel_does():
+def test_colour_saturates_where_any_channel_does() -> None:
     images = np.full((3, *SHAPE, 3), 0.4)
     images[0, 5, 7, 1] = 1.0
     found = to_radiance(capture(images), Sensor())
@@ -130,7 +131,7 @@ def test_colour_saturates_where_any_channel_does():
     assert found.saturated.sum() == 1
 
 
-def test_a_short_exposure_is_put_on_the_long_ones_scale_where_it_is_stated():
+def test_a_short_exposure_is_put_on_the_long_ones_scale_where_it_is_stated() -> None:
     long = np.stack([ramp(0.1, 0.5), ramp(0.5, 0.1)])
     raw = capture(long, exposure_s=np.array([0.02, 0.02]), short={"L0": (long[0] / 40).astype(np.float32)}, step=1e-5)
     stated = to_radiance(replace(raw, short_exposure_s={"L0": 0.0005}), Sensor())
@@ -140,7 +141,7 @@ def test_a_short_exposure_is_put_on_the_long_ones_scale_where_it_is_stated():
 
 
 @pytest.mark.parametrize(("level", "words"), [(0.0, "all dark"), (1.0, "saturated")])
-def test_all_dark_and_all_saturated_are_refused(level, words):
+def test_all_dark_and_all_saturated_are_refused(level: float, words: str) -> None:
     rng = np.random.default_rng(1)
     images = np.clip(level + 0.002 * rng.standard_normal((6, *SHAPE)) * (level < 1), 0, 1)
     with pytest.raises(DegenerateError, match=words):

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -12,12 +16,12 @@ from lpcal.formats.capture import read_capture
 LIGHTS = ["L0", "L1", "L2"]
 
 
-def image(path, level=100, shape=(20, 30), dtype=np.uint8):
+def image(path: Path, level: int = 100, shape: tuple[Any, ...] = (20, 30), dtype: type[Any] = np.uint8) -> None:
     cv2.imwrite(str(path), np.full(shape, level, dtype))
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path: Path) -> Path:
     made = tmp_path / "jug"
     made.mkdir()
     for k, light in enumerate(LIGHTS):
@@ -25,7 +29,7 @@ def folder(tmp_path):
     return made
 
 
-def test_lights_ambient_short_mask_and_exposures(folder):
+def test_lights_ambient_short_mask_and_exposures(folder: Path) -> None:
     for name, level in (("ambient_0", 10), ("ambient_1", 12), ("short_L1", 7), ("mask", 1), ("ref", 50)):
         image(folder / f"{name}.png", level)
     (folder / "capture.yaml").write_text("exposure: 20 ms\ngain: 2.0\nexposures: {L2: 40 ms, short_L1: 0.5 ms}\ngains: {L2: 1.0}\n")
@@ -41,13 +45,13 @@ def test_lights_ambient_short_mask_and_exposures(folder):
     assert found.name == "jug"
 
 
-def test_a_short_exposure_that_is_not_stated(folder):
+def test_a_short_exposure_that_is_not_stated(folder: Path) -> None:
     image(folder / "short_L0.png", 3)
     (folder / "capture.yaml").write_text("exposure: 20 ms\n")
     assert read_capture(folder, LIGHTS).short_exposure_s == {"L0": None}
 
 
-def test_sixteen_bits_and_colour_in_their_order(folder):
+def test_sixteen_bits_and_colour_in_their_order(folder: Path) -> None:
     for light in LIGHTS:
         pixels = np.zeros((20, 30, 3), np.uint16)
         pixels[..., 2] = 65535  # OpenCV writes BGR: red
@@ -58,7 +62,7 @@ def test_sixteen_bits_and_colour_in_their_order(folder):
     assert found.step == pytest.approx(1 / 65535)
 
 
-def test_a_subset_by_capture_yaml_and_by_use(folder):
+def test_a_subset_by_capture_yaml_and_by_use(folder: Path) -> None:
     (folder / "L1.png").unlink()
     (folder / "capture.yaml").write_text("lights: [L0, L2]\n")
     assert read_capture(folder, LIGHTS).lights == ("L0", "L2")
@@ -78,12 +82,12 @@ def test_a_subset_by_capture_yaml_and_by_use(folder):
         (lambda f: (f / "capture.yaml").write_text("lights: [L0, L7]\n"), DisagreementError, "L7"),
     ],
 )
-def test_what_is_wrong_is_said(folder, spoil, error, words):
+def test_what_is_wrong_is_said(folder: Path, spoil: Callable[..., Any], error: type[Exception], words: str) -> None:
     spoil(folder)
     with pytest.raises(error, match=words):
         read_capture(folder, LIGHTS)
 
 
-def test_no_such_folder(tmp_path):
+def test_no_such_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such folder"):
         read_capture(tmp_path / "nothing", LIGHTS)

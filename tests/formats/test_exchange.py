@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import cv2
@@ -16,21 +19,23 @@ from scipy.spatial.transform import Rotation
 
 import lpcal
 from exchange_readers import FOCUS_C, H_PC, LENSES, calibration, camera, grid, lights, only, reader, same_lens
+from lpcal.api.exchange import Exported
 from lpcal.errors import InputError, UsageError
 from lpcal.formats.exchange import ADDED, known_formats
 from lpcal.records.calibration import Calibration, Lobe
+from lpcal.records.exchange import ExchangeContent
 
 EXACT = 1e-9
 """By how much a number may differ after it went through a text with all its digits."""
 
 
-def export(folder, name, content=None, **more):
+def export(folder: Path, name: str, content: Calibration | None = None, **more: Any) -> Exported:
     (one,) = lpcal.export_calibration(folder, content or calibration(), [name], **more)
     return one
 
 
 @pytest.mark.parametrize("model", LENSES)
-def test_opencv_reads_its_own(tmp_path, model):
+def test_opencv_reads_its_own(tmp_path: Path, model: str) -> None:
     export(tmp_path, "opencv", calibration(model))
     stored = cv2.FileStorage(str(tmp_path / "camera.opencv.yml"), cv2.FILE_STORAGE_READ)
     K, lens = stored.getNode("camera_matrix").mat(), stored.getNode("distortion_coefficients").mat()
@@ -44,7 +49,7 @@ def test_opencv_reads_its_own(tmp_path, model):
 
 
 @pytest.mark.parametrize("model", LENSES)
-def test_ros_has_the_projection_that_image_proc_needs(tmp_path, model):
+def test_ros_has_the_projection_that_image_proc_needs(tmp_path: Path, model: str) -> None:
     export(tmp_path, "ros", calibration(model))
     stored = yaml.safe_load((tmp_path / "camera.ros.yaml").read_text())
     wanted = camera(model)
@@ -61,7 +66,7 @@ def test_ros_has_the_projection_that_image_proc_needs(tmp_path, model):
     same_lens(lpcal.read_calibration(tmp_path / "camera.ros.yaml").camera, wanted)
 
 
-def test_mrcal_reads_the_ros_camera(tmp_path):
+def test_mrcal_reads_the_ros_camera(tmp_path: Path) -> None:
     mrcal = reader("mrcal")
     export(tmp_path, "ros")
     model = mrcal.cameramodel(str(tmp_path / "camera.ros.yaml"))
@@ -70,7 +75,7 @@ def test_mrcal_reads_the_ros_camera(tmp_path):
 
 
 @pytest.mark.parametrize("model", LENSES)
-def test_mrcal_reads_its_own_and_the_pose(tmp_path, model):
+def test_mrcal_reads_its_own_and_the_pose(tmp_path: Path, model: str) -> None:
     mrcal = reader("mrcal")
     export(tmp_path, "mrcal", calibration(model))
     found = mrcal.cameramodel(str(tmp_path / "camera.cameramodel"))
@@ -83,7 +88,7 @@ def test_mrcal_reads_its_own_and_the_pose(tmp_path, model):
     assert np.abs(back.H_PC - H_PC).max() < EXACT
 
 
-def test_kalibr_has_no_k3_so_the_lens_is_fitted(tmp_path):
+def test_kalibr_has_no_k3_so_the_lens_is_fitted(tmp_path: Path) -> None:
     one = export(tmp_path / "five", "kalibr")
     assert re.search(r"no place for k3: .* fitted anew .* ([0-9.e-]+) px at most", one.notes[0])
     stored = yaml.safe_load((tmp_path / "five" / "camchain.yaml").read_text())["cam0"]
@@ -99,7 +104,7 @@ def test_kalibr_has_no_k3_so_the_lens_is_fitted(tmp_path):
 
 
 @pytest.mark.parametrize("model", LENSES)
-def test_colmap_counts_pixels_half_a_pixel_on(tmp_path, model):
+def test_colmap_counts_pixels_half_a_pixel_on(tmp_path: Path, model: str) -> None:
     from lpcal.geometry.colmap import load_pycolmap
 
     pycolmap = load_pycolmap()
@@ -114,7 +119,7 @@ def test_colmap_counts_pixels_half_a_pixel_on(tmp_path, model):
     same_lens(lpcal.read_calibration(tmp_path / "colmap").camera, camera(model))
 
 
-def test_metashape_by_its_own_equations(tmp_path):
+def test_metashape_by_its_own_equations(tmp_path: Path) -> None:
     """Metashape's manual, appendix: its reader is no package; so the equations that it states are evaluated here."""
     export(tmp_path, "metashape")
     root = ET.parse(tmp_path / "camera.metashape.xml").getroot()
@@ -131,7 +136,7 @@ def test_metashape_by_its_own_equations(tmp_path):
     same_lens(lpcal.read_calibration(tmp_path / "camera.metashape.xml").camera, camera())
 
 
-def test_meshroom_by_its_own_equations(tmp_path):
+def test_meshroom_by_its_own_equations(tmp_path: Path) -> None:
     """AliceVision's jsonIO and DistortionBrown: its reader is no package, so what they compute is computed here."""
     export(tmp_path, "meshroom")
     document = json.loads((tmp_path / "meshroom.sfm").read_text())
@@ -153,7 +158,7 @@ def test_meshroom_by_its_own_equations(tmp_path):
     same_lens(lpcal.read_calibration(tmp_path / "meshroom.sfm").camera, camera())
 
 
-def test_tf_is_the_camera_in_the_body(tmp_path):
+def test_tf_is_the_camera_in_the_body(tmp_path: Path) -> None:
     export(tmp_path, "tf", body="light panel")
     words = (tmp_path / "tf_static.sh").read_text().split()
     stated = {word: words[k + 1] for k, word in enumerate(words) if word.startswith("--")}
@@ -163,7 +168,7 @@ def test_tf_is_the_camera_in_the_body(tmp_path):
     assert (stated["--frame-id"], stated["--child-frame-id"]) == ("light_panel", "camera_optical_frame")
 
 
-def test_ros_takes_the_transform_as_a_message(tmp_path):
+def test_ros_takes_the_transform_as_a_message(tmp_path: Path) -> None:
     rosbags = reader("rosbags.typesys")
     export(tmp_path, "tf")
     store = rosbags.get_typestore(rosbags.Stores.ROS2_HUMBLE)
@@ -184,7 +189,7 @@ def test_ros_takes_the_transform_as_a_message(tmp_path):
     assert np.abs(lpcal.read_calibration(tmp_path / "tf_static.yaml").H_PC - H_PC).max() < EXACT
 
 
-def test_urdf_places_camera_and_lights(tmp_path):
+def test_urdf_places_camera_and_lights(tmp_path: Path) -> None:
     urdf = reader("pytransform3d.urdf")
     export(tmp_path, "urdf")
     manager = urdf.UrdfTransformManager()
@@ -196,7 +201,7 @@ def test_urdf_places_camera_and_lights(tmp_path):
     assert np.abs(lpcal.read_calibration(tmp_path / "rig.urdf").H_PC - H_PC).max() < EXACT
 
 
-def test_easy_handeye_as_its_publisher_reads_it(tmp_path):
+def test_easy_handeye_as_its_publisher_reads_it(tmp_path: Path) -> None:
     export(tmp_path, "easy_handeye", body="tool0")
     stored = yaml.safe_load((tmp_path / "easy_handeye.yaml").read_text())
     held = stored["transformation"]
@@ -207,7 +212,7 @@ def test_easy_handeye_as_its_publisher_reads_it(tmp_path):
     assert np.abs(lpcal.read_calibration(tmp_path / "easy_handeye.yaml").H_PC - H_PC).max() < EXACT
 
 
-def test_a_camera_that_stands_still_has_its_place_in_the_room(tmp_path):
+def test_a_camera_that_stands_still_has_its_place_in_the_room(tmp_path: Path) -> None:
     fixed = Calibration("cell", (), None, H_PC, carries="board")
     for name in ("tf", "urdf", "easy_handeye", "matlab"):
         one = export(tmp_path / name, name, fixed)
@@ -220,7 +225,7 @@ def test_a_camera_that_stands_still_has_its_place_in_the_room(tmp_path):
     assert "H_OC:" in (tmp_path / "calibration.yaml").read_text()
 
 
-def test_lp_directions_are_those_at_the_working_point(tmp_path):
+def test_lp_directions_are_those_at_the_working_point(tmp_path: Path) -> None:
     one = export(tmp_path, "lp")
     lines = (tmp_path / "lights.lp").read_text().splitlines()
     assert lines[0] == "6"
@@ -233,14 +238,14 @@ def test_lp_directions_are_those_at_the_working_point(tmp_path):
     assert "near lights become directions" in one.notes[0]
 
 
-def test_lp_positions_are_millimetres_about_the_working_point(tmp_path):
+def test_lp_positions_are_millimetres_about_the_working_point(tmp_path: Path) -> None:
     export(tmp_path, "lp-positions")
     rows = np.array([line.split()[1:] for line in (tmp_path / "lights_positions.lp").read_text().splitlines()[1:]], float)
     wanted = 1e3 * (np.array([light.source_C for light in lights()]) - FOCUS_C) * [1, -1, -1]
     assert np.abs(rows - wanted).max() < EXACT
 
 
-def test_relightlabs_dome(tmp_path):
+def test_relightlabs_dome(tmp_path: Path) -> None:
     export(tmp_path, "dome")
     dome = json.loads((tmp_path / "rig.dome").read_text())
     assert dome["lightConfiguration"] == "lights3d"
@@ -253,7 +258,7 @@ def test_relightlabs_dome(tmp_path):
         assert np.abs(found.direction_C - towards).max() < EXACT
 
 
-def test_diligent_has_the_light_that_arrives(tmp_path):
+def test_diligent_has_the_light_that_arrives(tmp_path: Path) -> None:
     export(tmp_path, "diligent")
     folder = tmp_path / "diligent"
     directions, power = (np.loadtxt(folder / f"light_{name}.txt") for name in ("directions", "intensities"))
@@ -264,7 +269,7 @@ def test_diligent_has_the_light_that_arrives(tmp_path):
     assert np.abs(np.array([light.direction_C for light in back.lights]) * [1, -1, -1] - directions).max() < EXACT
 
 
-def test_luces_holds_the_near_lights(tmp_path):
+def test_luces_holds_the_near_lights(tmp_path: Path) -> None:
     export(tmp_path, "luces")
     rows = (tmp_path / "luces" / "led_params.txt").read_text().splitlines()
     count, width, height, f, x0, y0, distance = map(float, rows[1].split())
@@ -278,7 +283,7 @@ def test_luces_holds_the_near_lights(tmp_path):
         assert np.abs(found.field(x_C)[1] / light.field(x_C)[1] - 1).max() < EXACT
 
 
-def test_near_ps_is_read_by_scipy_as_by_matlab(tmp_path):
+def test_near_ps_is_read_by_scipy_as_by_matlab(tmp_path: Path) -> None:
     export(tmp_path, "near_ps")
     light, eye = (loadmat(tmp_path / "near_ps" / f"{name}.mat") for name in ("light", "camera"))
     assert np.abs(light["S"] - 1e3 * np.array([one.source_C for one in lights()])).max() < EXACT
@@ -290,7 +295,7 @@ def test_near_ps_is_read_by_scipy_as_by_matlab(tmp_path):
         assert np.abs(found.field(x_C)[1] / one.field(x_C)[1] - 1).max() < EXACT
 
 
-def test_meshrooms_lights(tmp_path):
+def test_meshrooms_lights(tmp_path: Path) -> None:
     export(tmp_path, "meshroom-lights")
     stored = json.loads((tmp_path / "meshroom_lights.json").read_text())["lights"]
     for k, (one, light) in enumerate(zip(stored, lights(), strict=True)):
@@ -301,7 +306,7 @@ def test_meshrooms_lights(tmp_path):
     assert len(back.lights) == 6
 
 
-def test_matlab_holds_all_of_it(tmp_path):
+def test_matlab_holds_all_of_it(tmp_path: Path) -> None:
     pymatreader = reader("pymatreader")
     export(tmp_path, "matlab", calibration("opencv8"))
     stored = pymatreader.read_mat(str(tmp_path / "calibration.mat"))
@@ -316,7 +321,7 @@ def test_matlab_holds_all_of_it(tmp_path):
         assert np.abs(found.field(x_C)[1] / light.field(x_C)[1] - 1).max() < 1e-4  # the lobe is a table, every half a degree
 
 
-def test_a_lobe_that_is_no_cosine_is_fitted_and_said(tmp_path):
+def test_a_lobe_that_is_no_cosine_is_fitted_and_said(tmp_path: Path) -> None:
     angle = np.radians(np.arange(0, 61, 3.0))
     flat_topped = Lobe("table", angle_rad=angle, value=np.exp(-((angle / 0.5) ** 4)))
     changed = replace(calibration(), lights=tuple(replace(light, lobe=flat_topped) for light in lights()))
@@ -328,7 +333,7 @@ def test_a_lobe_that_is_no_cosine_is_fitted_and_said(tmp_path):
     assert 3 < worst < 30
 
 
-def test_a_splined_lens_is_fitted_and_how_far_is_said(tmp_path):
+def test_a_splined_lens_is_fitted_and_how_far_is_said(tmp_path: Path) -> None:
     mrcal = reader("mrcal")
     lens = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=10_Ny=8_fov_x_deg=70"
     rng = np.random.default_rng(3)
@@ -344,7 +349,7 @@ def test_a_splined_lens_is_fitted_and_how_far_is_said(tmp_path):
     same_lens(lpcal.read_calibration(tmp_path / "b" / "camera.cameramodel").camera, splined)
 
 
-def test_a_format_says_what_it_lacks(tmp_path):
+def test_a_format_says_what_it_lacks(tmp_path: Path) -> None:
     alone = Calibration("lens", (), camera())
     with pytest.raises(InputError, match="no hand-eye"):
         lpcal.export_calibration(tmp_path, alone, ["tf"])
@@ -357,7 +362,7 @@ def test_a_format_says_what_it_lacks(tmp_path):
     assert "no lights" in found["lp"]
 
 
-def test_what_somebody_changed_is_not_written_over(tmp_path):
+def test_what_somebody_changed_is_not_written_over(tmp_path: Path) -> None:
     export(tmp_path, "opencv")
     export(tmp_path, "opencv", calibration("opencv8"))  # its own may be replaced
     path = tmp_path / "camera.opencv.yml"
@@ -369,8 +374,8 @@ def test_what_somebody_changed_is_not_written_over(tmp_path):
     assert set(json.loads((tmp_path / "lpcal-export.json").read_text())["files"]) == {"camera.opencv.yml", "camera.ros.yaml"}
 
 
-def test_a_program_adds_a_format(tmp_path):
-    def write(content, folder):
+def test_a_program_adds_a_format(tmp_path: Path) -> None:
+    def write(content: ExchangeContent, folder: Path) -> list[str]:
         (folder / "count.txt").write_text(str(len(content.calibration.lights)))
         return ["a count alone"]
 
@@ -385,7 +390,7 @@ def test_a_program_adds_a_format(tmp_path):
         lpcal.register_format("count")
 
 
-def test_the_command(tmp_path, lpcal):
+def test_the_command(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     from lpcal import write_calibration
 
     write_calibration(tmp_path / "calibration.yaml", calibration())
@@ -415,7 +420,7 @@ def test_the_command(tmp_path, lpcal):
     assert done["lp"] == "no lights"
 
 
-def test_the_table_in_the_docs_is_that_of_the_formats():
+def test_the_table_in_the_docs_is_that_of_the_formats() -> None:
     from make_formats_table import PAGE, page
 
     assert page(PAGE.read_text(encoding="utf-8")) == PAGE.read_text(encoding="utf-8"), "python tools/make_formats_table.py --write"

@@ -51,7 +51,7 @@ def lit(direction: np.ndarray) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def exported(tmp_path_factory):
+def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, tuple[str]], float]:
     directions = dome(48)
     lights = tuple(Light(f"L{k:02d}", d * [1, -1, -1], np.ones(1)) for k, d in enumerate(directions))
     images = np.stack([lit(d) for d in directions]).astype(np.float32)
@@ -123,7 +123,7 @@ READERS = {
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_relit_from_directions_that_it_was_not_made_from(exported, name):
+def test_relit_from_directions_that_it_was_not_made_from(exported: tuple[Path, dict[str, tuple[str]], float], name: str) -> None:
     folder, notes, white = exported
     decode, on_relief, on_ball = READERS[name]
     _, ball = scene()
@@ -140,7 +140,7 @@ def test_relit_from_directions_that_it_was_not_made_from(exported, name):
     assert 0.3 * said < np.sqrt(np.mean(np.array(off) ** 2)) < 1.3 * said, "what is said of it holds for other directions too"
 
 
-def test_few_lights_are_harmonics(tmp_path):
+def test_few_lights_are_harmonics(tmp_path: Path) -> None:
     directions = dome(11)
     lights = tuple(Light(f"L{k:02d}", d * [1, -1, -1], np.ones(1)) for k, d in enumerate(directions))
     images = np.stack([lit(d) for d in directions]).astype(np.float32)
@@ -151,7 +151,7 @@ def test_few_lights_are_harmonics(tmp_path):
     assert np.sqrt(np.mean((np.clip(decoded_harmonics(tmp_path / "relight", directions[4]), 0, 1) - shown) ** 2)) < 0.04
 
 
-def test_the_table_keeps_what_lies_between_its_lights():
+def test_the_table_keeps_what_lies_between_its_lights() -> None:
     directions = dome(30)
     images = np.stack([lit(d) for d in directions]).astype(np.float32) ** (1 / GAMMA)
     found = relight_table.table(directions, images, GAMMA, 42)
@@ -167,7 +167,7 @@ def test_the_table_keeps_what_lies_between_its_lights():
     assert found.cut_off < 0.017
 
 
-def test_up_is_up_and_right_is_right(exported):
+def test_up_is_up_and_right_is_right(exported: tuple[Path, dict[str, tuple[str]], float]) -> None:
     folder, _, _ = exported
     for decode, *_ in READERS.values():
         for direction, brighter, darker in (
@@ -178,7 +178,7 @@ def test_up_is_up_and_right_is_right(exported):
             assert shown[brighter].mean() > 1.3 * shown[darker].mean()
 
 
-def test_too_few_lights_are_refused(tmp_path):
+def test_too_few_lights_are_refused(tmp_path: Path) -> None:
     lights = tuple(Light(f"L{k}", d * [1, -1, -1], np.ones(1)) for k, d in enumerate(dome(5)))
     images = np.stack([lit(d) for d in dome(5)]).astype(np.float32)
     content = ExchangeContent(Calibration("few", lights), None, LinearImages("few", tuple(one.name for one in lights), images))

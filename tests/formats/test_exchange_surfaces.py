@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -16,13 +17,15 @@ import trimesh
 import lpcal
 from exchange_readers import H_PC, calibration, lights, reader
 from lpcal.formats.export_rig_glb import spot_of
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.surface import Surface
 
 SIZE = (48, 36)
 
 
 @pytest.fixture(scope="module")
-def surface():
+def surface() -> Surface:
     """A bump under a perspective camera, 48 x 36 pixels, its albedo a ramp of colours."""
     from dataclasses import replace
 
@@ -35,21 +38,21 @@ def surface():
 
 
 @pytest.fixture(scope="module")
-def folder(surface, tmp_path_factory):
+def folder(surface: Surface, tmp_path_factory: pytest.TempPathFactory) -> Path:
     target = tmp_path_factory.mktemp("surface")
     names = ["ply", "glb", "obj", "stl", "depth-tiff", "points", "normals"]
     lpcal.export_calibration(target, Calibration("bump", ()), names, surface=surface)
     return target
 
 
-def points(surface):
+def points(surface: Surface) -> Array:
     return (surface.rays_C * surface.depth[..., None])[surface.mask]
 
 
 @pytest.mark.parametrize(
     ("name", "turn", "unit"), [("mesh.ply", 1, 1.0), ("mesh.glb", -1, 1.0), ("obj/mesh.obj", -1, 1.0), ("mesh.stl", -1, 1e3)]
 )
-def test_trimesh_reads_the_meshes(folder, surface, name, turn, unit):
+def test_trimesh_reads_the_meshes(folder: Path, surface: Surface, name: str, turn: int, unit: float) -> None:
     found = trimesh.load(folder / name, process=False, force="mesh")
     wanted = points(surface) * [1, turn, turn] * unit
     assert np.abs(found.bounds - [wanted.min(axis=0), wanted.max(axis=0)]).max() < 1e-6 * unit
@@ -58,7 +61,7 @@ def test_trimesh_reads_the_meshes(folder, surface, name, turn, unit):
     assert (found.face_normals[:, 2] * towards > 0).all(), "every face looks at the camera"
 
 
-def test_the_texture_lies_on_its_pixels(folder, surface):
+def test_the_texture_lies_on_its_pixels(folder: Path, surface: Surface) -> None:
     found = trimesh.load(folder / "obj" / "mesh.obj", process=False, force="mesh")
     image = cv2.imread(str(folder / "obj" / "albedo.png"))[..., ::-1]
     column = np.rint(found.visual.uv[:, 0] * SIZE[0] - 0.5).astype(int)
@@ -69,7 +72,7 @@ def test_the_texture_lies_on_its_pixels(folder, surface):
     assert found.visual.material.image.size == SIZE
 
 
-def test_numpy_stl_reads_the_stl_in_millimetres(folder, surface):
+def test_numpy_stl_reads_the_stl_in_millimetres(folder: Path, surface: Surface) -> None:
     stl = reader("stl.mesh")
     found = stl.Mesh.from_file(str(folder / "mesh.stl"))
     size = np.ptp(points(surface), axis=0) * 1e3
@@ -78,7 +81,7 @@ def test_numpy_stl_reads_the_stl_in_millimetres(folder, surface):
     assert not (folder / "mesh.stl").read_bytes().startswith(b"solid"), "it would be read as text"
 
 
-def test_plyfile_reads_points_with_their_sigma(folder, surface):
+def test_plyfile_reads_points_with_their_sigma(folder: Path, surface: Surface) -> None:
     plyfile = reader("plyfile")
     found = plyfile.PlyData.read(str(folder / "points.ply"))
     vertex = found["vertex"]
@@ -88,7 +91,7 @@ def test_plyfile_reads_points_with_their_sigma(folder, surface):
     assert any("metres" in comment for comment in found.comments)
 
 
-def test_the_depth_says_its_unit(folder, surface):
+def test_the_depth_says_its_unit(folder: Path, surface: Surface) -> None:
     with tifffile.TiffFile(folder / "depth_m.tif") as stored:
         pages = [page.asarray() for page in stored.pages]
         said = json.loads(stored.pages[0].description)
@@ -98,7 +101,7 @@ def test_the_depth_says_its_unit(folder, surface):
     assert np.array_equal(cv2.imread(str(folder / "depth_m.tif"), cv2.IMREAD_UNCHANGED), pages[0], equal_nan=True)
 
 
-def test_openexr_reads_the_depth(surface, tmp_path):
+def test_openexr_reads_the_depth(surface: Surface, tmp_path: Path) -> None:
     OpenEXR = reader("OpenEXR")
     lpcal.export_calibration(tmp_path, Calibration("bump", ()), ["depth-exr"], surface=surface)
     with OpenEXR.File(str(tmp_path / "depth_m.exr"), separate_channels=True) as stored:
@@ -110,7 +113,7 @@ def test_openexr_reads_the_depth(surface, tmp_path):
     assert said["unit"] == "m"
 
 
-def test_normal_maps_of_both_greens(folder, surface):
+def test_normal_maps_of_both_greens(folder: Path, surface: Surface) -> None:
     gl, dx = (cv2.imread(str(folder / f"normals_{way}.png"), cv2.IMREAD_UNCHANGED)[..., ::-1] for way in ("gl", "dx"))
     up = gl[surface.mask][:, 1] / 65535 * 2 - 1
     assert np.abs(up + surface.normals[surface.mask][:, 1]).max() < 1e-4
@@ -118,7 +121,7 @@ def test_normal_maps_of_both_greens(folder, surface):
     assert (gl[..., [0, 2]] == dx[..., [0, 2]]).all()
 
 
-def test_a_surface_folder_is_a_source(surface, tmp_path, lpcal):
+def test_a_surface_folder_is_a_source(surface: Surface, tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     from lpcal import write_surface
 
     write_surface(tmp_path / "bump", surface)
@@ -129,13 +132,13 @@ def test_a_surface_folder_is_a_source(surface, tmp_path, lpcal):
 
 
 @pytest.fixture(scope="module")
-def rig(tmp_path_factory):
+def rig(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, tuple[str, str]]:
     target = tmp_path_factory.mktemp("rig")
     (one,) = lpcal.export_calibration(target, calibration(), ["rig-glb"])
     return one.files[0], one.notes
 
 
-def test_pygltflib_finds_lights_and_camera_where_they_are(rig):
+def test_pygltflib_finds_lights_and_camera_where_they_are(rig: tuple[Path, tuple[str, str]]) -> None:
     gltf = reader("pygltflib")
     found = gltf.GLTF2().load(str(rig[0]))
     spots = found.extensions["KHR_lights_punctual"]["lights"]
@@ -157,14 +160,14 @@ def test_pygltflib_finds_lights_and_camera_where_they_are(rig):
     assert root @ root == pytest.approx(np.eye(3))
 
 
-def test_a_cone_is_as_near_to_the_lobe_as_it_says(rig):
+def test_a_cone_is_as_near_to_the_lobe_as_it_says(rig: tuple[Path, tuple[str, str]]) -> None:
     said = next(note for note in rig[1] if "cones" in note)
     worst = max(spot_of(light)[1] for light in lights())
     assert f"up to {100 * worst:.2g} %" in said
     assert 0.005 < worst < 0.1
 
 
-def test_the_validator_of_khronos_finds_nothing(rig, folder):
+def test_the_validator_of_khronos_finds_nothing(rig: tuple[Path, tuple[str, str]], folder: Path) -> None:
     """npm install gltf-validator in a folder that NODE_PATH names."""
     if shutil.which("node") is None:
         pytest.skip("node is not installed")
@@ -180,7 +183,7 @@ def test_the_validator_of_khronos_finds_nothing(rig, folder):
         assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
 
 
-def test_images_go_with_the_lights(tmp_path):
+def test_images_go_with_the_lights(tmp_path: Path) -> None:
     """A drawn capture through a bent lens: LUCES' images are those of the pinhole camera, linear, in one scale."""
     from dataclasses import replace
 

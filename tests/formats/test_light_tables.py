@@ -30,7 +30,7 @@ def table(*value: float) -> Lobe:
         (table(1.0, np.nan, 0.1), "no number", "0 and more"),
     ],
 )
-def test_a_lobe_that_cannot_be_is_named_with_what_it_should_be(lobe, found, needed):
+def test_a_lobe_that_cannot_be_is_named_with_what_it_should_be(lobe: Lobe, found: str, needed: str) -> None:
     with pytest.raises(InputError) as raised:
         sane_lights(lit_by(lobe), "calibration.yaml")
     told = str(raised.value)
@@ -39,5 +39,5 @@ def test_a_lobe_that_cannot_be_is_named_with_what_it_should_be(lobe, found, need
     assert needed in told
 
 
-def test_a_lobe_that_can_be_is_taken():
+def test_a_lobe_that_can_be_is_taken() -> None:
     assert sane_lights(lit_by(table(1.0, 0.7, 0.0)), "calibration.yaml").lights[0].lobe.kind == "table"

@@ -1,8 +1,11 @@
 """Meshes as files, read by trimesh."""
 
+from __future__ import annotations
+
 import io
 import json
 import struct
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,11 +19,11 @@ COLOURS = np.arange(28, dtype=np.uint8).reshape(7, 4)
 FACES = np.array([[0, 1, 2], [2, 3, 4], [6, 5, 4]])
 
 
-def load(data, kind):
+def load(data: Any, kind: Any) -> Any:
     return trimesh.load(io.BytesIO(data), file_type=kind, process=False)
 
 
-def test_a_ply_is_read_as_it_was_written():
+def test_a_ply_is_read_as_it_was_written() -> None:
     columns = named("x y z", VERTICES) | named("nx ny nz", NORMALS) | named("red green blue alpha", COLOURS)
     data = ply_bytes(columns, FACES, ["frame C, metres"])
     assert b"\ncomment frame C, metres\n" in data[:200]
@@ -33,7 +36,7 @@ def test_a_ply_is_read_as_it_was_written():
 
 
 @pytest.mark.parametrize("faces", [FACES, FACES[:1]])
-def test_a_glb_is_read_as_it_was_written(faces):
+def test_a_glb_is_read_as_it_was_written(faces: Any) -> None:
     shown = {"POSITION": VERTICES, "NORMAL": NORMALS, "COLOR_0": COLOURS[:, :3] / 255}
     data = glb_bytes(shown, faces, {"frame": "C"})
     assert struct.unpack("<I", data[8:12])[0] == len(data)
@@ -48,12 +51,12 @@ def test_a_glb_is_read_as_it_was_written(faces):
     assert np.array_equal(found.vertex_normals, NORMALS)
 
 
-def test_a_glb_without_numbers_is_its_document():
+def test_a_glb_without_numbers_is_its_document() -> None:
     data = packed_glb({"asset": {"version": "2.0"}})
     assert json.loads(data[20:]) == {"asset": {"version": "2.0"}}
 
 
-def test_a_mesh_of_nothing_is_written():
+def test_a_mesh_of_nothing_is_written() -> None:
     nothing = np.zeros((0, 3), np.float32)
     assert b"element vertex 0\n" in ply_bytes(named("x y z", nothing), np.zeros((0, 3), int))
     assert glb_bytes({"POSITION": nothing}, np.zeros((0, 3), int), {})[:4] == b"glTF"

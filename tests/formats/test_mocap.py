@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,13 +13,14 @@ from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap
 from lpcal.formats.robot_poses import Stated, read_robot_poses
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from mocap_files import motive
 
 RATE = 120.0
 
 
 @pytest.fixture
-def truth():
+def truth() -> tuple[Array, Array]:
     rng = np.random.default_rng(0)
     H_OP = se3.exp(np.concatenate([rng.normal(0, 0.5, (40, 3)), rng.normal(0, 1, (40, 3))], axis=1))
     return np.arange(40) / RATE, H_OP
@@ -33,7 +37,7 @@ LAYOUTS = [
 
 
 @pytest.mark.parametrize("layout", LAYOUTS, ids=lambda layout: "-".join(map(str, layout.values())))
-def test_motive_layouts(tmp_path, truth, layout):
+def test_motive_layouts(tmp_path: Path, truth: tuple[Array, Array], layout: dict[str, str] | dict[str, bool | str]) -> None:
     t, H_OP = truth
     found = read_mocap(motive(tmp_path / "take.csv", t, H_OP, lost=(3, 4, 20), **layout), "Panel")
     seen = np.setdiff1d(np.arange(40), [3, 4, 20])
@@ -45,7 +49,7 @@ def test_motive_layouts(tmp_path, truth, layout):
     assert np.abs(marker_P - [0.08, 0.01, 0.0]).max() < 1e-6
 
 
-def test_motive_body_is_chosen_or_refused(tmp_path, truth):
+def test_motive_body_is_chosen_or_refused(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     path = motive(tmp_path / "take.csv", *truth, bodies=("Panel", "Wand"))
     assert read_mocap(path, "panel").body == "Panel"
     with pytest.raises(DisagreementError, match=r"no body Lamp(.|\n)*Panel, Wand") as refusal:
@@ -55,7 +59,7 @@ def test_motive_body_is_chosen_or_refused(tmp_path, truth):
         read_mocap(path)
 
 
-def test_motive_units_and_order_stated_by_the_user_win(tmp_path, truth):
+def test_motive_units_and_order_stated_by_the_user_win(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     t, H_OP = truth
     found = read_mocap(motive(tmp_path / "take.csv", t, H_OP), "Panel", units="mm", direction="H_PO")
     assert np.allclose(found.H_OP[:, :3, :3], np.swapaxes(H_OP[:, :3, :3], 1, 2), atol=1e-6)
@@ -67,7 +71,7 @@ def test_motive_units_and_order_stated_by_the_user_win(tmp_path, truth):
         read_mocap(tmp_path / "bare.csv", "Panel")
 
 
-def test_cut_file_names_its_line(tmp_path, truth):
+def test_cut_file_names_its_line(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     path = motive(tmp_path / "take.csv", *truth)
     lines = path.read_text().splitlines()
     path.write_text("\n".join([*lines[:30], lines[30][:40]]))
@@ -88,7 +92,7 @@ def test_cut_file_names_its_line(tmp_path, truth):
         ("euroc.csv", "{ns:d},{x:.9f},{y:.9f},{z:.9f},{qw:.9f},{qx:.9f},{qy:.9f},{qz:.9f},0.1,0.2,0.3"),
     ],
 )
-def test_plain_layouts(tmp_path, truth, name, text):
+def test_plain_layouts(tmp_path: Path, truth: tuple[Array, Array], name: str, text: str) -> None:
     t, H_OP = truth
     t = t + 1.5e9 if name == "euroc.csv" else t
     heads = {
@@ -125,13 +129,13 @@ def test_plain_layouts(tmp_path, truth, name, text):
         (b"t,x,y,z,qx,qy,qz,qw\n0,,,,,,,\n1,,,,,,,\n", DegenerateError, "not one pose"),
     ],
 )
-def test_refusals(tmp_path, content, error, words):
+def test_refusals(tmp_path: Path, content: bytes, error: type[Exception], words: str) -> None:
     (tmp_path / "take.csv").write_bytes(content)
     with pytest.raises(error, match=words):
         read_mocap(tmp_path / "take.csv")
 
 
-def test_real_files(data):
+def test_real_files(data: Callable[[str], Path]) -> None:
     folder = data("mocap")
     old = read_mocap(folder / "motive_1.21_hmv-s16.csv")
     assert (len(old.t_s), old.body, old.lost) == (250, "Rigid Body 1", 0)
@@ -153,7 +157,7 @@ def test_real_files(data):
     assert tf.t_s[0] == pytest.approx(1714741164.1775, abs=1e-3)
 
 
-def test_robot_poses(tmp_path, truth):
+def test_robot_poses(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     _, H_OP = truth
     (tmp_path / "flat.txt").write_text("\n".join(" ".join(f"{v:.12f}" for v in H.ravel()) for H in H_OP))
     (tmp_path / "square.txt").write_text("\n\n".join("\n".join("\t".join(f"{v:.12f}" for v in row) for row in H) for H in H_OP))
@@ -175,7 +179,7 @@ def test_robot_poses(tmp_path, truth):
         read_robot_poses(tmp_path / "sheared.txt")
 
 
-def test_image_times(tmp_path):
+def test_image_times(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(b"")
     (tmp_path / "times.csv").write_text("file,time_s\na.png,1.5\n")
     assert read_image_times(tmp_path / "times.csv") == [(tmp_path / "a.png", 1.5)]

@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -113,7 +115,7 @@ def fails(path: Path, body: str | None) -> lpcal.PoseStream:
         (lambda path, body: stream(H_OP=2 * np.tile(np.eye(4), (20, 1, 1))), InputError, "no rigid transform"),
     ],
 )
-def test_what_it_gives_is_checked(recording: Path, read, error: type[LpcalError], words: str) -> None:
+def test_what_it_gives_is_checked(recording: Path, read: Callable[..., Any], error: type[LpcalError], words: str) -> None:
     lpcal.register_mocap("ours", lambda head: True, read)
     with pytest.raises(error, match=words) as found:
         lpcal.read_mocap(recording)
@@ -127,7 +129,7 @@ def test_what_cannot_tell_its_files_is_named(recording: Path) -> None:
 
 
 @pytest.mark.parametrize("given", [("", len, len), ("ours", None, len), ("ours", len, "read")])
-def test_what_is_no_format_is_refused(given: tuple) -> None:
+def test_what_is_no_format_is_refused(given: tuple[Any, ...]) -> None:
     with pytest.raises(InputError, match="is no format"):
         lpcal.register_mocap(*given)
 

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from lpcal.chain.h_op_body import body_of
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from lpcal.records.observations import MarkerStream
 
 PLACES_P = {"A": (0.08, 0.0, 0.0), "B": (0.0, 0.06, 0.01), "C": (-0.07, 0.02, 0.0), "D": (0.01, -0.05, 0.03), "E": (-0.03, -0.06, 0.0)}
 SIGMA_M = 2e-4
 
 
-def recording(rng, count=400, names=tuple(PLACES_P), sigma_m=SIGMA_M):
+def recording(
+    rng: np.random.Generator, count: int = 400, names: tuple[Any, ...] = tuple(PLACES_P), sigma_m: float = SIGMA_M
+) -> tuple[MarkerStream, Array]:
     """A body that turns slowly, its markers seen with noise; the true poses."""
     t = np.arange(count) / 120
     xi = np.stack(
@@ -27,7 +32,7 @@ def recording(rng, count=400, names=tuple(PLACES_P), sigma_m=SIGMA_M):
     return MarkerStream("Panel", t, names, x_O, 120.0), H_OP
 
 
-def test_poses_within_their_covariance():
+def test_poses_within_their_covariance() -> None:
     markers, true_OP = recording(np.random.default_rng(0), 2000)
     markers.x_O[::7, 2] = np.nan
     found = body_of(markers, PLACES_P)
@@ -39,7 +44,7 @@ def test_poses_within_their_covariance():
     assert "in the frame of panel.markers" in found.notes[0]
 
 
-def test_without_places_the_body_is_the_same_up_to_its_frame():
+def test_without_places_the_body_is_the_same_up_to_its_frame() -> None:
     markers, true_OP = recording(np.random.default_rng(1))
     found = body_of(markers)
     H_PP = se3.inv(true_OP) @ found.H_OP
@@ -48,7 +53,7 @@ def test_without_places_the_body_is_the_same_up_to_its_frame():
     assert "origin their centre" in found.notes[0]
 
 
-def test_exchanged_and_strayed_markers_are_mended():
+def test_exchanged_and_strayed_markers_are_mended() -> None:
     markers, true_OP = recording(np.random.default_rng(2))
     markers.x_O[50:80, [0, 3]] = markers.x_O[50:80, [3, 0]]
     markers.x_O[120:125, 1] += [0.03, 0.0, 0.02]
@@ -63,7 +68,7 @@ def test_exchanged_and_strayed_markers_are_mended():
     assert np.isfinite(found.H_OP).all()
 
 
-def test_three_markers():
+def test_three_markers() -> None:
     markers, true_OP = recording(np.random.default_rng(4), names=("A", "B", "C"))
     markers.x_O[10:20, [0, 1]] = markers.x_O[10:20, [1, 0]]
     markers.x_O[30:33, 2] = np.nan
@@ -74,7 +79,7 @@ def test_three_markers():
     )
 
 
-def test_refusals():
+def test_refusals() -> None:
     markers, _ = recording(np.random.default_rng(5))
     line = MarkerStream("Panel", markers.t_s, ("A", "B", "C"), markers.x_O[:, :1] + np.arange(3)[:, None] * [0.05, 0.0, 0.0])
     with pytest.raises(DegenerateError, match="on one line"):

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from lpcal.chain.h_pd_markers import h_pd_from_markers
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import rigid_fit, se3
+from lpcal.geometry.arrays import Array
 from lpcal.records.observations import PoseStream
 
 MARKERS = {
@@ -19,7 +23,7 @@ MARKERS = {
 }
 
 
-def _stream(rng: np.random.Generator, H_PD, glue_m: float) -> PoseStream:
+def _stream(rng: np.random.Generator, H_PD: Array, glue_m: float) -> PoseStream:
     H_OP = se3.exp(rng.normal(0, 0.3, (50, 6)))
     tracks = {}
     for name, x_D in MARKERS.items():
@@ -28,7 +32,7 @@ def _stream(rng: np.random.Generator, H_PD, glue_m: float) -> PoseStream:
     return PoseStream("Panel", np.arange(50) / 100, H_OP, np.full(50, 1e-4), tracks, rate_hz=100)
 
 
-def test_covariance_is_the_spread():
+def test_covariance_is_the_spread() -> None:
     nees = []
     for seed in range(150):
         rng = np.random.default_rng(seed)
@@ -40,7 +44,7 @@ def test_covariance_is_the_spread():
     assert np.mean(nees) == pytest.approx(6.0, abs=1.3)
 
 
-def test_lost_markers_and_swapped_moments_are_left_out():
+def test_lost_markers_and_swapped_moments_are_left_out() -> None:
     rng = np.random.default_rng(3)
     H_PD = se3.exp(rng.normal(0, [0.05] * 3 + [0.004] * 3))
     stream = _stream(rng, H_PD, 0.0)
@@ -52,7 +56,7 @@ def test_lost_markers_and_swapped_moments_are_left_out():
     assert np.linalg.norm(found[:3, 3] - H_PD[:3, 3]) < 2e-4
 
 
-def test_refusals():
+def test_refusals() -> None:
     rng = np.random.default_rng(4)
     stream = _stream(rng, np.eye(4), 0.0)
     with pytest.raises(DisagreementError, match=r"no marker Z of Panel.*\n.*A, B, C, D, E"):
@@ -65,7 +69,7 @@ def test_refusals():
         rigid_fit.fit(np.eye(3) * [1, 0, 0], np.array([[1.0, 0, 0], [2, 0, 0], [3, 0, 0]]))
 
 
-def test_rig_a(data):
+def test_rig_a(data: Callable[[str], Path]) -> None:
     import yaml
 
     from lpcal.formats.mocap import read_mocap

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,23 +11,33 @@ import pytest
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.mocap import read_mocap
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 
 RATE = 100.0
 MARKERS_P = {"A": (0.08, 0.0, 0.0), "B": (0.0, 0.06, 0.01), "C": (-0.07, 0.02, 0.0), "D": (0.01, -0.05, 0.03)}
 
 
 @pytest.fixture
-def truth():
+def truth() -> tuple[Array, Array]:
     rng = np.random.default_rng(0)
     H_OP = se3.exp(np.concatenate([rng.normal(0, 0.5, (30, 3)), rng.normal(0, 1, (30, 3))], axis=1))
     return np.arange(30) / RATE, H_OP
 
 
-def marker_tracks(H_OP):
+def marker_tracks(H_OP: Array) -> dict[str, Array]:
     return {name: se3.apply(H_OP, np.tile(x, (len(H_OP), 1, 1)))[:, 0] for name, x in MARKERS_P.items()}
 
 
-def vicon_poses(path: Path, H_OP, *, turn="rad", title="Objects", bodies=("Panel:Panel",), lost=(), before="") -> Path:
+def vicon_poses(
+    path: Path,
+    H_OP: Array,
+    *,
+    turn: str = "rad",
+    title: str = "Objects",
+    bodies: tuple[Any, ...] = ("Panel:Panel",),
+    lost: tuple[Any, ...] = (),
+    before: str = "",
+) -> Path:
     axes = ["RX", "RY", "RZ", *(["RW"] if turn == "quaternion" else []), "TX", "TY", "TZ"]
     unit = {"rad": ["rad"] * 3, "deg": ["deg"] * 3, "quaternion": [""] * 4}[turn] + ["mm"] * 3
     names = "".join("," + ",".join([f"Global Angle {name}", *[""] * (len(axes) - 1)]) for name in bodies)
@@ -48,7 +59,7 @@ def vicon_poses(path: Path, H_OP, *, turn="rad", title="Objects", bodies=("Panel
 
 @pytest.mark.parametrize("turn", ["rad", "deg", "quaternion"])
 @pytest.mark.parametrize("title", ["Objects", "Segments"])
-def test_vicon_poses(tmp_path, truth, turn, title):
+def test_vicon_poses(tmp_path: Path, truth: tuple[Array, Array], turn: str, title: str) -> None:
     t, H_OP = truth
     found = read_mocap(vicon_poses(tmp_path / "take.csv", H_OP, turn=turn, title=title, lost=(4, 5)))
     seen = np.setdiff1d(np.arange(30), [4, 5])
@@ -57,7 +68,7 @@ def test_vicon_poses(tmp_path, truth, turn, title):
     assert np.abs(found.H_OP - H_OP[seen]).max() < 1e-6
 
 
-def test_vicon_sections_and_bodies(tmp_path, truth):
+def test_vicon_sections_and_bodies(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     _, H_OP = truth
     joints = "Joints,\n100,\n,,hip\nFrame,Sub Frame,RX\n,,deg\n1,0,12.0\n2,0,13.0\n"
     path = vicon_poses(tmp_path / "take.csv", H_OP, title="Segments", bodies=("Rig:Panel", "Rig:Wand"), before=joints)
@@ -77,7 +88,7 @@ def test_vicon_sections_and_bodies(tmp_path, truth):
         read_mocap(path)
 
 
-def vicon_markers(path: Path, tracks) -> Path:
+def vicon_markers(path: Path, tracks: dict[str, Array]) -> Path:
     names = ",".join(f"Panel:{name},," for name in tracks)
     rows = ["Trajectories,", f"{RATE:.0f},", f",,{names}", "Frame,Sub Frame," + ",".join(["X,Y,Z"] * len(tracks))]
     rows.append(",," + ",".join(["mm,mm,mm"] * len(tracks)))
@@ -88,7 +99,9 @@ def vicon_markers(path: Path, tracks) -> Path:
     return path
 
 
-def qualisys(path: Path, kind: str, names, blocks, *, head=True, lead=True, frames=None) -> Path:
+def qualisys(
+    path: Path, kind: str, names: Any, blocks: list[Array], *, head: bool = True, lead: bool = True, frames: int | None = None
+) -> Path:
     rows = [
         ("NO_OF_FRAMES", str(frames or len(blocks[0]))),
         ("FREQUENCY", f"{RATE:.0f}"),
@@ -106,13 +119,13 @@ def qualisys(path: Path, kind: str, names, blocks, *, head=True, lead=True, fram
     return path
 
 
-def body_block(H_OP):
+def body_block(H_OP: Array) -> Array:
     rot = np.swapaxes(H_OP[:, :3, :3], 1, 2).reshape(-1, 9)  # by columns
     return np.concatenate([1000 * H_OP[:, :3, 3], np.full((len(H_OP), 3), 77.0), np.full((len(H_OP), 1), 0.2), rot], axis=1)
 
 
 @pytest.mark.parametrize(("head", "lead"), [(True, True), (True, False), (False, True), (False, False)])
-def test_qualisys_bodies(tmp_path, truth, head, lead):
+def test_qualisys_bodies(tmp_path: Path, truth: tuple[Array, Array], head: bool, lead: bool) -> None:
     t, H_OP = truth
     lost, zero = body_block(H_OP), body_block(H_OP)
     lost[3], zero[7] = np.nan, 0.0
@@ -129,7 +142,7 @@ def test_qualisys_bodies(tmp_path, truth, head, lead):
         read_mocap(path, "Lamp")
 
 
-def test_qualisys_refusals(tmp_path, truth):
+def test_qualisys_refusals(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     _, H_OP = truth
     block = body_block(H_OP)
     by_rows = block.copy()
@@ -143,7 +156,7 @@ def test_qualisys_refusals(tmp_path, truth):
         read_mocap(path)
 
 
-def c3d(path: Path, tracks, units="mm") -> Path:
+def c3d(path: Path, tracks: dict[str, Array], units: str = "mm") -> Path:
     import ezc3d
 
     content = ezc3d.c3d()
@@ -159,7 +172,7 @@ def c3d(path: Path, tracks, units="mm") -> Path:
 
 
 @pytest.mark.parametrize("system", ["vicon", "qualisys", "c3d mm", "c3d m"])
-def test_markers(tmp_path, truth, system):
+def test_markers(tmp_path: Path, truth: tuple[Array, Array], system: str) -> None:
     t, H_OP = truth
     tracks = marker_tracks(H_OP)
     tracks["B"][3:6] = np.nan
@@ -178,7 +191,7 @@ def test_markers(tmp_path, truth, system):
         read_mocap(path, "Lamp")
 
 
-def test_which_markers_are_a_body(tmp_path, truth):
+def test_which_markers_are_a_body(tmp_path: Path, truth: tuple[Array, Array]) -> None:
     tracks = marker_tracks(truth[1])
     several = {f"{body}{k}": track for body in ("Plate_", "Arm") for k, track in enumerate(tracks.values())}
     path = c3d(tmp_path / "take.c3d", several | {"*12": tracks["A"], "Unlabeled 7": tracks["B"]})
@@ -195,7 +208,9 @@ def test_which_markers_are_a_body(tmp_path, truth):
         read_mocap(tmp_path / "cut.c3d")
 
 
-def ros(path: Path, t, H_OP, *, kind="PoseStamped", topics=("/vrpn/panel/pose",), bag_delay=3.0) -> Path:
+def ros(
+    path: Path, t: Array, H_OP: Array, *, kind: str = "PoseStamped", topics: tuple[Any, ...] = ("/vrpn/panel/pose",), bag_delay: float = 3.0
+) -> Path:
     rosbags = pytest.importorskip("rosbags")
     assert rosbags
     from rosbags.rosbag1 import Writer as Writer1
@@ -232,7 +247,7 @@ def ros(path: Path, t, H_OP, *, kind="PoseStamped", topics=("/vrpn/panel/pose",)
 
 @pytest.mark.parametrize("file", ["take.bag", "take.db3", "take.mcap"])
 @pytest.mark.parametrize("kind", ["PoseStamped", "TransformStamped", "TFMessage"])
-def test_ros(tmp_path, truth, file, kind):
+def test_ros(tmp_path: Path, truth: tuple[Array, Array], file: str, kind: str) -> None:
     if (file, kind) == ("take.bag", "TFMessage"):
         pytest.skip("rosbags cannot write it; the real bag of test_mocap_formats holds it")
     t, H_OP = truth
@@ -245,7 +260,7 @@ def test_ros(tmp_path, truth, file, kind):
         assert len(read_mocap(path.parent).t_s) == 30
 
 
-def test_ros_refusals(tmp_path, truth, monkeypatch):
+def test_ros_refusals(tmp_path: Path, truth: tuple[Array, Array], monkeypatch: pytest.MonkeyPatch) -> None:
     path = ros(tmp_path / "take.bag", *truth, topics=("/vrpn/panel/pose", "/vrpn/wand/pose"))
     with pytest.raises(InputError, match="2 bodies: /vrpn/panel/pose, /vrpn/wand/pose"):
         read_mocap(path)

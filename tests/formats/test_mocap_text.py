@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ ROWS = ["Take,One", "", ",,Body,Body", "Frame,Time,X,Y", "0,0.25,1.5,-2.5"]
 
 @pytest.mark.parametrize("delimiter", [",", ";", "\t"])
 @pytest.mark.parametrize("ends", [1, 2, 9])
-def test_quotes_may_close_after_the_line_ends(delimiter, ends):
+def test_quotes_may_close_after_the_line_ends(delimiter: str, ends: int) -> None:
     rows = [delimiter.join(f'"{cell}"' if cell else "" for cell in row.split(",")) for row in ROWS]
     text = "\n".join(rows).replace('"\n', '\n"', ends)
     plain = with_commas(text, Path("take.csv")).split("\n")
@@ -29,7 +30,7 @@ def test_quotes_may_close_after_the_line_ends(delimiter, ends):
 
 @pytest.mark.parametrize("count", [4, 7, 16])
 @pytest.mark.parametrize("quote", ["", '"ABC"'])
-def test_commas_both_between_cells_and_in_numbers_are_refused(count, quote):
+def test_commas_both_between_cells_and_in_numbers_are_refused(count: int, quote: str) -> None:
     names = ",".join(f"n{k}" for k in range(count))
     numbers = ",".join(f"{k},{k}25" for k in range(count))
     with pytest.raises(InputError, match="decimal points"):
@@ -37,14 +38,14 @@ def test_commas_both_between_cells_and_in_numbers_are_refused(count, quote):
 
 
 @pytest.mark.parametrize("label", ["New {:04d}", "Unlabeled {}", "*{}", "CentreOfMass{}"])
-def test_trajectories_that_nobody_labelled_make_no_body(label):
+def test_trajectories_that_nobody_labelled_make_no_body(label: str) -> None:
     tracks = {label.format(k): np.full((5, 3), float(k)) for k in range(4)}
     with pytest.raises(DegenerateError, match="4 unlabeled are left out"):
         markers_of(MarkerTable(np.arange(5) / 100, tracks), Path("take.tsv"), None)
 
 
 @pytest.mark.parametrize("loose", [0, 2, 3])
-def test_markers_that_move_against_each_other_are_refused_by_name(loose):
+def test_markers_that_move_against_each_other_are_refused_by_name(loose: int) -> None:
     rng = np.random.default_rng(loose)
     x_O = np.tile(np.array([[0.08, 0, 0], [0, 0.06, 0.01], [-0.07, 0.02, 0], [0.01, -0.05, 0.03]]), (200, 1, 1))
     x_O[:, loose] += rng.normal(0, 0.05, (200, 3))
@@ -54,7 +55,9 @@ def test_markers_that_move_against_each_other_are_refused_by_name(loose):
 
 
 @pytest.mark.parametrize(("rows", "lost"), [((3,), (3,)), ((0, 5), (0, 5)), ((1, 2, 4), (1, 2, 4)), ((0,), ())])
-def test_poses_that_are_exactly_the_identity_are_lost_save_a_first_that_all_count_from(tmp_path, rows, lost):
+def test_poses_that_are_exactly_the_identity_are_lost_save_a_first_that_all_count_from(
+    tmp_path: Path, rows: tuple[Any, ...], lost: tuple[Any, ...]
+) -> None:
     H = np.tile(np.eye(4), (6, 1, 1))
     H[:, 0, 3] = np.arange(1, 7) / 10
     H[list(rows)] = np.eye(4)
@@ -66,7 +69,7 @@ def test_poses_that_are_exactly_the_identity_are_lost_save_a_first_that_all_coun
 
 
 @pytest.mark.parametrize("nonsense", [(0, "1e20"), (0, "-3e99"), (0, "inf"), (2, "1e6"), (3, "-inf"), (5, "inf")])
-def test_numbers_that_no_recording_holds_are_refused_with_their_line(tmp_path, nonsense):
+def test_numbers_that_no_recording_holds_are_refused_with_their_line(tmp_path: Path, nonsense: tuple[int, str]) -> None:
     rows = [[f"{0.01 * k:.2f}", "0.1", f"{0.01 * k:.2f}", "1.5", "0", "0", "0", "1"] for k in range(50)]
     rows[17][nonsense[0]] = nonsense[1]
     path = tmp_path / "mocap.csv"

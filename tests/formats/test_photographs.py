@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,14 +29,14 @@ def photograph(path: Path, level: int = 100, time: float | None = None, iso: int
     picture.save(path, exif=tags, **({"quality": 95} if path.suffix == ".jpg" else {}))
 
 
-def numbered(folder: Path, numbers=(9, 10, 11), **more) -> Path:
+def numbered(folder: Path, numbers: tuple[Any, ...] = (9, 10, 11), **more: Any) -> Path:
     folder.mkdir()
     for k, number in enumerate(numbers):
         photograph(folder / f"IMG_{number}.jpg", 60 + 40 * k, **more)
     return folder
 
 
-def test_lights_by_the_order_of_the_images(tmp_path):
+def test_lights_by_the_order_of_the_images(tmp_path: Path) -> None:
     folder = numbered(tmp_path / "jug")
     photograph(folder / "ambient.jpg", 5)
     (folder / "capture.yaml").write_text("lights: IMG_*.jpg\n")
@@ -47,7 +49,7 @@ def test_lights_by_the_order_of_the_images(tmp_path):
     check_lights(folder, LIGHTS)
 
 
-def test_another_number_of_images_than_of_lights(tmp_path):
+def test_another_number_of_images_than_of_lights(tmp_path: Path) -> None:
     folder = numbered(tmp_path / "jug", (1, 2, 3, 4))
     (folder / "capture.yaml").write_text("lights: IMG_*.jpg\n")
     with pytest.raises(DisagreementError, match="4 images match"):
@@ -58,7 +60,7 @@ def test_another_number_of_images_than_of_lights(tmp_path):
         check_lights(folder, LIGHTS)
 
 
-def test_exposures_by_exif_where_none_is_stated(tmp_path):
+def test_exposures_by_exif_where_none_is_stated(tmp_path: Path) -> None:
     folder = tmp_path / "jug"
     folder.mkdir()
     for light, time, iso in zip(LIGHTS, (1 / 60, 1 / 30, 1 / 60), (100, 100, 400), strict=True):
@@ -70,7 +72,7 @@ def test_exposures_by_exif_where_none_is_stated(tmp_path):
     assert any("by the images' EXIF tags, 1/60 s ISO 100 f/8 to 1/60 s ISO 400 f/8" in note for note in found.notes)
 
 
-def test_a_changed_aperture_counts_and_is_said(tmp_path):
+def test_a_changed_aperture_counts_and_is_said(tmp_path: Path) -> None:
     folder = tmp_path / "jug"
     folder.mkdir()
     for light, f_number in zip(LIGHTS, (8.0, 8.0, 4.0), strict=True):
@@ -80,7 +82,7 @@ def test_a_changed_aperture_counts_and_is_said(tmp_path):
     assert any("the aperture changes: f/4 to f/8" in note for note in found.notes)
 
 
-def test_what_is_stated_counts_and_exif_that_contradicts_it_is_named(tmp_path):
+def test_what_is_stated_counts_and_exif_that_contradicts_it_is_named(tmp_path: Path) -> None:
     folder = tmp_path / "jug"
     folder.mkdir()
     for light, time in zip(LIGHTS, (1 / 60, 1 / 60, 1 / 15), strict=True):
@@ -93,7 +95,7 @@ def test_what_is_stated_counts_and_exif_that_contradicts_it_is_named(tmp_path):
     assert not [note for note in read_capture(folder, LIGHTS).notes if "EXIF" in note], "1/60 s is 1/64 s: rounding is no contradiction"
 
 
-def test_an_image_that_says_nothing_is_named(tmp_path):
+def test_an_image_that_says_nothing_is_named(tmp_path: Path) -> None:
     folder = tmp_path / "jug"
     folder.mkdir()
     for light, time in zip(LIGHTS, (1 / 60, None, 1 / 15), strict=True):
@@ -103,7 +105,7 @@ def test_an_image_that_says_nothing_is_named(tmp_path):
     assert any("L1.jpg has none: state them" in note for note in found.notes)
 
 
-def test_exif_in_png_is_read_too(tmp_path):
+def test_exif_in_png_is_read_too(tmp_path: Path) -> None:
     photograph(tmp_path / "a.png", time=1 / 125, iso=800)
     assert read_image(tmp_path / "a.png").taken.words() == "1/125 s ISO 800 f/8"
     photograph(tmp_path / "b.png", time=0.0)
@@ -147,7 +149,7 @@ def ramp() -> np.ndarray:
 
 
 @pytest.mark.parametrize("pattern", COLOURS)
-def test_a_raw_file_is_the_sensors_own_linear_numbers(tmp_path, pattern):
+def test_a_raw_file_is_the_sensors_own_linear_numbers(tmp_path: Path, pattern: str) -> None:
     reader("rawpy")
     dng(tmp_path / "a.dng", ramp(), pattern)
     found = read_image(tmp_path / "a.dng")
@@ -159,7 +161,7 @@ def test_a_raw_file_is_the_sensors_own_linear_numbers(tmp_path, pattern):
     assert found.taken.words() == "1/60 s f/8"
 
 
-def test_noise_below_black_keeps_its_sign(tmp_path):
+def test_noise_below_black_keeps_its_sign(tmp_path: Path) -> None:
     reader("rawpy")
     noise = np.random.default_rng(0).normal(0, 0.002, (64, 64, 3))
     dng(tmp_path / "dark.dng", noise)
@@ -168,7 +170,7 @@ def test_noise_below_black_keeps_its_sign(tmp_path):
     assert abs(found.mean()) < 1e-4
 
 
-def test_a_capture_of_raw_files_beside_their_pictures(tmp_path):
+def test_a_capture_of_raw_files_beside_their_pictures(tmp_path: Path) -> None:
     reader("rawpy")
     folder = tmp_path / "jug"
     folder.mkdir()
@@ -183,7 +185,7 @@ def test_a_capture_of_raw_files_beside_their_pictures(tmp_path):
     assert np.abs(found.images[1][inside] - 0.6 * ramp()[inside]).max() < 2e-4
 
 
-def test_a_raw_file_that_is_none(tmp_path):
+def test_a_raw_file_that_is_none(tmp_path: Path) -> None:
     reader("rawpy")
     (tmp_path / "L0.cr2").write_bytes(b"II*\0" + bytes(200))
     with pytest.raises(InputError, match="cannot be read as a raw file"):
@@ -191,7 +193,7 @@ def test_a_raw_file_that_is_none(tmp_path):
 
 
 @pytest.mark.slow
-def test_raw_jpeg_and_tiff_of_one_scene_give_one_surface(tmp_path):
+def test_raw_jpeg_and_tiff_of_one_scene_give_one_surface(tmp_path: Path) -> None:
     """The three ways in which a camera stores a scene: normals agree within their own standard deviations."""
     reader("rawpy")
     import cv2
@@ -233,7 +235,7 @@ def test_raw_jpeg_and_tiff_of_one_scene_give_one_surface(tmp_path):
             assert np.median(apart) < 0.6
 
 
-def test_half_of_the_words_for_a_camera_is_refused(tmp_path, lpcal):
+def test_half_of_the_words_for_a_camera_is_refused(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     photograph(tmp_path / "b.png")
     for words in (["b.png", "--corners", "9x6"], ["--corners", "9x6", "--square", "25mm"]):
         code, _, err = lpcal("intrinsics", *words, cwd=tmp_path)
@@ -248,7 +250,7 @@ def test_half_of_the_words_for_a_camera_is_refused(tmp_path, lpcal):
 
 
 @pytest.mark.slow
-def test_a_camera_from_images_and_two_words(tmp_path, lpcal):
+def test_a_camera_from_images_and_two_words(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     from lpcal import read_camera
     from lpcal.formats.bundled import folder
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 import tifffile
 from PIL import Image as Picture
@@ -16,6 +19,7 @@ from lpcal.errors import InputError
 from lpcal.formats.capture import read_capture
 from lpcal.formats.full_scale import full_scale
 from lpcal.formats.images import tone_claim
+from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import decode, encode, worded
 from lpcal.records.quantities import parse_gamma
 
@@ -32,7 +36,7 @@ def counts(most: int, seed: int = 0) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("bits", "shift"), [(10, 0), (12, 0), (14, 0), (10, 6), (12, 4), (14, 2)])
-def test_fewer_bits_in_sixteen_show_their_white_level(bits, shift):
+def test_fewer_bits_in_sixteen_show_their_white_level(bits: int, shift: int) -> None:
     images = ((counts(2**bits - 1) << shift) / 65535).astype(np.float32)
     found = full_scale(images, STEP)
     assert found.white_level == pytest.approx(((2**bits - 1) << shift) / 65535)
@@ -41,12 +45,12 @@ def test_fewer_bits_in_sixteen_show_their_white_level(bits, shift):
 
 
 @pytest.mark.parametrize("images", [counts(65535), counts(4094), counts(3000), counts(65520) | 1])
-def test_sixteen_bits_of_their_own_show_none(images):
+def test_sixteen_bits_of_their_own_show_none(images: npt.NDArray[Any]) -> None:
     found = full_scale((images / 65535).astype(np.float32), STEP)
     assert (found.white_level, found.step, found.notes) == (None, None, ())
 
 
-def test_twelve_bits_are_saturated_where_they_end(tmp_path):
+def test_twelve_bits_are_saturated_where_they_end(tmp_path: Path) -> None:
     for light, pixels in zip(LIGHTS, counts(4095), strict=True):
         cv2.imwrite(str(tmp_path / f"{light}.png"), pixels.astype(np.uint16))
     raw = read_capture(tmp_path, LIGHTS)
@@ -58,13 +62,13 @@ def test_twelve_bits_are_saturated_where_they_end(tmp_path):
 @pytest.mark.parametrize(
     ("most", "divisor"), [(1.0, 1), (1.2, 1), (200.0, 255), (900.0, 1023), (3690.0, 4095), (4095.0, 4095), (40000.0, 65535), (1e6, 1e6)]
 )
-def test_floats_are_divided_by_the_full_scale_that_they_fit_in(most, divisor):
+def test_floats_are_divided_by_the_full_scale_that_they_fit_in(most: float, divisor: float) -> None:
     found = full_scale(np.linspace(0, most, 3 * 20, dtype=np.float32).reshape(3, 4, 5), 1e-6)
     assert found.divisor == divisor
     assert bool(found.notes) == (divisor != 1)
 
 
-def write_floats(folder, values, **others):
+def write_floats(folder: Path, values: Array, **others: Any) -> None:
     for light, pixels in zip(LIGHTS, values, strict=True):
         tifffile.imwrite(folder / f"{light}.tif", pixels.astype(np.float32))
     for name, pixels in others.items():
@@ -79,7 +83,7 @@ def with_one(value: float, base: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, -3000.0])
 @pytest.mark.parametrize("name", ["L1", "ambient", "short_L0", "ambient_1"])
-def test_what_is_no_light_is_refused_by_its_image(tmp_path, value, name):
+def test_what_is_no_light_is_refused_by_its_image(tmp_path: Path, value: float, name: str) -> None:
     values = counts(3600).astype(float)
     write_floats(tmp_path, values, ambient=0.01 * values[0], short_L0=0.1 * values[0])
     base = values[1] if name == "L1" else 0.01 * values[0]
@@ -88,7 +92,7 @@ def test_what_is_no_light_is_refused_by_its_image(tmp_path, value, name):
         read_capture(tmp_path, LIGHTS)
 
 
-def test_the_noise_of_a_dark_frame_taken_away_is_kept_and_said(tmp_path):
+def test_the_noise_of_a_dark_frame_taken_away_is_kept_and_said(tmp_path: Path) -> None:
     values = counts(3600).astype(float)
     write_floats(tmp_path, values, ambient=with_one(-20.0, 0.01 * values[0]))
     raw = read_capture(tmp_path, LIGHTS)
@@ -118,7 +122,7 @@ SRGB = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
 CHUNKS = {"sRGB": b"\0", "gAMA": (45455).to_bytes(4, "big"), "linear": (100000).to_bytes(4, "big")}
 
 
-def stored(form: str, chunk: str = "", camera: str = "", **more) -> bytes:
+def stored(form: str, chunk: str = "", camera: str = "", **more: Any) -> bytes:
     picture, to = Picture.fromarray(np.full((16, 16, 3), 90, np.uint8)), io.BytesIO()
     if chunk:
         more["pnginfo"] = PngImagePlugin.PngInfo()
@@ -150,18 +154,18 @@ def stored(form: str, chunk: str = "", camera: str = "", **more) -> bytes:
         (stored("JPEG", icc_profile=b"rubbish"), None),
     ],
 )
-def test_what_files_claim_of_their_curve(data, gamma):
+def test_what_files_claim_of_their_curve(data: bytes, gamma: str | float | None) -> None:
     assert tone_claim(data).gamma == gamma
 
 
 @pytest.mark.parametrize(
     "data", [stored("PNG"), stored("TIFF"), stored("BMP"), b"", b"\x89PNG", stored("PNG", icc_profile=b"rubbish" * 30)]
 )
-def test_most_files_claim_nothing(data):
+def test_most_files_claim_nothing(data: bytes) -> None:
     assert tone_claim(data) is None
 
 
-def test_images_that_claim_different_things_claim_nothing(tmp_path):
+def test_images_that_claim_different_things_claim_nothing(tmp_path: Path) -> None:
     for light, chunk in zip(LIGHTS, ["sRGB", "sRGB", "gAMA"], strict=True):
         (tmp_path / f"{light}.png").write_bytes(stored("PNG", chunk))
     assert read_capture(tmp_path, LIGHTS).claim is None
@@ -170,23 +174,23 @@ def test_images_that_claim_different_things_claim_nothing(tmp_path):
 
 
 @pytest.mark.parametrize("gamma", [1.0, 0.5, 1.8, 2.2, "srgb"])
-def test_curves_are_undone_by_each_other(gamma):
+def test_curves_are_undone_by_each_other(gamma: float | str) -> None:
     linear = np.linspace(0, 1, 999)
     assert np.allclose(decode(encode(linear, gamma), gamma), linear, atol=1e-6)
     assert np.all(np.diff(decode(linear, gamma)) > 0)
 
 
-def test_srgb_is_the_standards():
+def test_srgb_is_the_standards() -> None:
     assert np.allclose(decode(np.array([0.04, 0.5, 1.0]), "srgb"), [0.04 / 12.92, 0.21404114, 1.0])
 
 
 @pytest.mark.parametrize(("text", "gamma"), [("2.2", 2.2), ("sRGB", "srgb"), (" srgb ", "srgb"), ("s-RGB", "srgb"), ("1", 1.0)])
-def test_a_gamma_is_a_number_or_srgb(text, gamma):
+def test_a_gamma_is_a_number_or_srgb(text: str, gamma: float | str) -> None:
     assert parse_gamma(text) == gamma
     assert parse_gamma(worded(gamma)) == gamma
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "nan", "12", "adobe", "", "2,2", "2.2 %"])
-def test_no_gamma(text):
+def test_no_gamma(text: str) -> None:
     with pytest.raises(ValueError, match="or srgb"):
         parse_gamma(text)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +22,7 @@ zarr = pytest.importorskip("zarr")
 
 
 @pytest.mark.parametrize("bits", [8, 16])
-def test_a_capture_comes_back_and_makes_the_same_surface(lpcal, tmp_path, bits):
+def test_a_capture_comes_back_and_makes_the_same_surface(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, bits: int) -> None:
     (folder,) = collection(tmp_path, 1)
     raw = library.read_capture(folder, dome())
     stored = raw if bits == 8 else replace(raw, step=1 / 65535)
@@ -34,7 +37,7 @@ def test_a_capture_comes_back_and_makes_the_same_surface(lpcal, tmp_path, bits):
     np.testing.assert_allclose(library.read_surface(tmp_path / "out").normals, plain.normals, atol=1e-3)
 
 
-def test_a_subset_of_lights_is_taken_and_a_lacking_one_is_named(tmp_path):
+def test_a_subset_of_lights_is_taken_and_a_lacking_one_is_named(tmp_path: Path) -> None:
     (folder,) = collection(tmp_path, 1)
     write_capture_zarr(tmp_path / "c.zarr", library.read_capture(folder, ["L1", "L3", "L4"]))
     assert library.read_capture(tmp_path / "c.zarr", dome(), use=["L4", "L1"]).lights == ("L1", "L4")
@@ -43,7 +46,9 @@ def test_a_subset_of_lights_is_taken_and_a_lacking_one_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("colours", [(), (3,)])
-def test_a_capture_that_is_too_large_stays_where_it_lies_and_is_read_by_parts(tmp_path, monkeypatch, colours):
+def test_a_capture_that_is_too_large_stays_where_it_lies_and_is_read_by_parts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, colours: tuple[int, ...]
+) -> None:
     monkeypatch.setattr(full_size, "HELD", 40_000)
     monkeypatch.setattr(full_size, "COARSE_PIXELS", 4_000)
     images = np.random.default_rng(1).integers(0, 60000, (4, 130, 171, *colours)).astype(np.uint16)
@@ -78,7 +83,7 @@ print(raw.size, part.shape, int(65535 * part.max() + 0.5), resource.getrusage(re
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the peak is counted in other units")
-def test_twenty_four_megapixels_under_twelve_lights_are_read_in_half_of_what_holding_them_takes(tmp_path):
+def test_twenty_four_megapixels_under_twelve_lights_are_read_in_half_of_what_holding_them_takes(tmp_path: Path) -> None:
     """Chunks that were never written are zero: the capture takes little disk; what is written allows for the memory of reading."""
     group = zarr.open_group(tmp_path / "c.zarr", mode="w", zarr_format=3)
     group.attrs.update({"lpcal": 1, "kind": "capture", "lights": [f"L{k}" for k in range(12)]})
@@ -91,7 +96,7 @@ def test_twenty_four_megapixels_under_twelve_lights_are_read_in_half_of_what_hol
     assert int(peak_mb) < 600  # 12 x 24 million numbers of float32 are 1152 MB
 
 
-def test_tiles_are_the_image_piece_by_piece(tmp_path):
+def test_tiles_are_the_image_piece_by_piece(tmp_path: Path) -> None:
     (folder,) = collection(tmp_path, 1)
     raw = library.read_capture(folder, dome())
     write_capture_zarr(tmp_path / "c.zarr", raw)
@@ -102,7 +107,7 @@ def test_tiles_are_the_image_piece_by_piece(tmp_path):
     assert np.array_equal(pieced, np.rint(255 * raw.images))
 
 
-def test_a_surface_is_written_by_tiles(tmp_path):
+def test_a_surface_is_written_by_tiles(tmp_path: Path) -> None:
     (folder,) = collection(tmp_path, 1)
     surface = library.reconstruct(library.read_capture(folder, dome()), dome())
     library.write_surface(tmp_path / "s.zarr", surface)
@@ -119,7 +124,7 @@ def test_a_surface_is_written_by_tiles(tmp_path):
         (lambda group: group.attrs.update({"lights": ["L0"]}), "for 1 lights"),
     ],
 )
-def test_groups_that_are_no_captures(tmp_path, spoil, words):
+def test_groups_that_are_no_captures(tmp_path: Path, spoil: Callable[..., Any], words: str) -> None:
     (folder,) = collection(tmp_path, 1)
     write_capture_zarr(tmp_path / "c.zarr", library.read_capture(folder, dome()))
     spoil(zarr.open_group(tmp_path / "c.zarr", mode="a"))

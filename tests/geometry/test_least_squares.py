@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from lpcal.errors import ConvergenceError, DegenerateError
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from lpcal.geometry.least_squares import POSE, Block, SolverOptions, Term, compile_residual, matrix, prior, small_rotation, solve
 
 SIGMA = 0.01
 
 
-def _point_residual(H, scale, x, data):
+def _point_residual(H: Any, scale: Any, x: Any, data: Any) -> Any:
     """(H (scale x) - seen) / sigma."""
     return (H[:3, :3] @ (scale * x) + H[:3, 3] - data) / SIGMA
 
 
-def _problem(rng: np.random.Generator, views: int = 8, points: int = 12):
+def _problem(rng: np.random.Generator, views: int = 8, points: int = 12) -> tuple[dict[str, Block], Term, Array, Array]:
     H_true = se3.exp(rng.normal(0, 0.5, (views, 6)))
     x_true = rng.normal(0, 1, (points, 3))
     view, point = (a.ravel() for a in np.meshgrid(np.arange(views), np.arange(points), indexing="ij"))
@@ -36,7 +38,7 @@ def _problem(rng: np.random.Generator, views: int = 8, points: int = 12):
     return blocks, term, H_true, x_true
 
 
-def test_elimination_changes_nothing():
+def test_elimination_changes_nothing() -> None:
     blocks, term, _, _ = _problem(np.random.default_rng(1))
     plain = solve(blocks, [term])
     schur = solve(blocks, [term], eliminate="x")
@@ -50,7 +52,7 @@ def test_elimination_changes_nothing():
     assert np.allclose(plain.scores(0)[:, plain.columns("H")].sum(axis=0), 0, atol=1e-4)
 
 
-def test_what_is_left_out_moves_the_rest_as_a_new_solve_would():
+def test_what_is_left_out_moves_the_rest_as_a_new_solve_would() -> None:
     blocks, term, _, _ = _problem(np.random.default_rng(6))
     found = solve(blocks, [term], eliminate="x")
     out, kept = np.isin(term.items(2), [2, 7]), np.setdiff1d(np.arange(12), [2, 7])
@@ -64,7 +66,7 @@ def test_what_is_left_out_moves_the_rest_as_a_new_solve_would():
     assert np.abs(moved - again["H"]).max() < 1e-2 * sigma
 
 
-def test_covariance_is_the_spread():
+def test_covariance_is_the_spread() -> None:
     nees = []
     for seed in range(60):
         blocks, term, H_true, _x_true = _problem(np.random.default_rng(seed))
@@ -75,8 +77,8 @@ def test_covariance_is_the_spread():
     assert np.mean(nees) == pytest.approx(1.0, abs=4 * np.sqrt(2 / (60 * 42)))
 
 
-def test_jacobian_is_the_derivative():
-    def residual(H, K, data):
+def test_jacobian_is_the_derivative() -> None:
+    def residual(H: Any, K: Any, data: Any) -> Any:
         return small_rotation(H[:3, :3] @ matrix(data[:9], 3, 3)) * K[0] + H[:3, 3] * K[1] ** 2
 
     rng = np.random.default_rng(2)
@@ -90,7 +92,7 @@ def test_jacobian_is_the_derivative():
         assert np.allclose((up - down) / 2e-6, J[:, column], atol=1e-8)
 
 
-def test_robust_loss_ignores_a_gross_error_and_weight_zero_hides_one():
+def test_robust_loss_ignores_a_gross_error_and_weight_zero_hides_one() -> None:
     blocks, term, _, x_true = _problem(np.random.default_rng(3))
     term.data[5] += 50
     weight = np.ones_like(term.data)
@@ -101,7 +103,7 @@ def test_robust_loss_ignores_a_gross_error_and_weight_zero_hides_one():
     assert np.abs(robust["x"] - hidden["x"]).max() < 2 * SIGMA
 
 
-def test_prior_alone_is_returned():
+def test_prior_alone_is_returned() -> None:
     rng = np.random.default_rng(4)
     root = rng.normal(0, 0.01, (6, 6))
     covariance, mean = root @ root.T + 1e-6 * np.eye(6), se3.exp(rng.normal(0, 0.3, 6))
@@ -111,7 +113,7 @@ def test_prior_alone_is_returned():
     assert np.allclose(found.covariance("H"), covariance, rtol=1e-6, atol=1e-12)
 
 
-def test_a_free_gauge_is_refused_by_name():
+def test_a_free_gauge_is_refused_by_name() -> None:
     blocks, term, _, _ = _problem(np.random.default_rng(5))
     blocks["H"] = Block(blocks["H"].value)
     found = solve(blocks, [term], eliminate="x")
@@ -120,10 +122,10 @@ def test_a_free_gauge_is_refused_by_name():
 
 
 @pytest.mark.parametrize(("height", "settles"), [(0.1, True), (1e3, False)])
-def test_a_valley_that_no_datum_notices_is_an_end_and_a_slope_is_not(height: float, settles: bool):
+def test_a_valley_that_no_datum_notices_is_an_end_and_a_slope_is_not(height: float, settles: bool) -> None:
     """The residual falls for ever, by a factor e a step: what is left of it counts, not that it falls."""
 
-    def slope(x, data):
+    def slope(x: Any, data: Any) -> Any:
         return data * 2.718281828 ** (-x)
 
     term = Term(compile_residual(slope, (1,), 1), ("x",), (np.zeros(1, int),), np.full((1, 1), height))

@@ -9,17 +9,18 @@ from handeye_scene import Noise, moving_session, stop_and_shoot
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye.clock import as_good, offset_candidates
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from lpcal.geometry.pose_track import clean, poses_at
 
 FLIP = se3.exp(np.array([0.0, 0.0, 2.1, 0.03, -0.02, 0.01]))
 
 
-def _motion(t):
+def _motion(t: Array) -> Array:
     xi = np.stack([0.3 * np.sin(2 * t), 0.2 * np.sin(3 * t), 0.1 * np.cos(t), 0.1 * np.sin(t), 0.2 * np.cos(2 * t), 0.1 * t], axis=1)
     return se3.exp(xi)
 
 
-def test_flips_and_gaps_never_reach_a_pose():
+def test_flips_and_gaps_never_reach_a_pose() -> None:
     t = np.arange(0, 10, 1 / 120)
     H_OP = _motion(t)
     flipped = ((t > 2) & (t < 2.04)) | ((t > 5) & (t < 5.01)) | ((t > 7) & (t < 7.2))
@@ -35,7 +36,7 @@ def test_flips_and_gaps_never_reach_a_pose():
     assert {"outside the mocap recording", "the body was lost, or its markers swapped, within 50 ms"} == set(lost)
 
 
-def test_a_flip_that_lasts_is_found_by_the_marker_error():
+def test_a_flip_that_lasts_is_found_by_the_marker_error() -> None:
     t = np.arange(0, 10, 1 / 120)
     H_OP, error = _motion(t), np.full(len(t), 1e-4)
     swapped = (t > 4) & (t < 6)
@@ -47,7 +48,7 @@ def test_a_flip_that_lasts_is_found_by_the_marker_error():
     assert not poses_at(clean(t, H_OP, np.full(len(t), np.nan)), np.array([4.02])).trusted.any()
 
 
-def test_dwells_are_averaged_and_motion_is_not():
+def test_dwells_are_averaged_and_motion_is_not() -> None:
     rng = np.random.default_rng(0)
     t = np.arange(0, 8, 1 / 120)
     slow = _motion(np.where(t < 3, 0.0, t - 3))
@@ -59,7 +60,7 @@ def test_dwells_are_averaged_and_motion_is_not():
     assert np.sqrt(np.mean(mean**2)) < 0.35 * single
 
 
-def test_velocity():
+def test_velocity() -> None:
     t = np.arange(0, 10, 1 / 120)
     found = poses_at(clean(t, _motion(t), np.full(len(t), np.nan)), np.linspace(1, 9, 50))
     step = 1e-4
@@ -69,12 +70,12 @@ def test_velocity():
     assert np.abs(found.velocity[:, 3:] - (later - before)[:, :3, 3] / (2 * step)).max() < 5e-3
 
 
-def test_what_is_too_short_holds_no_pose():
+def test_what_is_too_short_holds_no_pose() -> None:
     one = clean(np.zeros(1), np.eye(4)[None], np.full(1, np.nan))
     assert not poses_at(one, np.array([0.0])).trusted.any()
 
 
-def test_many_short_flips_leave_the_rest_to_be_trusted():
+def test_many_short_flips_leave_the_rest_to_be_trusted() -> None:
     rng = np.random.default_rng(2)
     t = np.arange(0, 10, 1 / 120)
     H_OP = _motion(t)
@@ -91,7 +92,7 @@ def test_many_short_flips_leave_the_rest_to_be_trusted():
     assert found.trusted.mean() > 0.2
 
 
-def test_a_moving_body_is_never_taken_for_resting():
+def test_a_moving_body_is_never_taken_for_resting() -> None:
     for seed in range(12):
         session = moving_session(np.random.default_rng(seed), 30)
         found = poses_at(
@@ -101,7 +102,7 @@ def test_a_moving_body_is_never_taken_for_resting():
         assert np.all(np.any(found.velocity != 0, axis=1))
 
 
-def test_a_resting_body_rests_and_has_no_speed():
+def test_a_resting_body_rests_and_has_no_speed() -> None:
     session, _ = stop_and_shoot(np.random.default_rng(0), 20, noise=Noise(drift=0.3))
     found = poses_at(clean(session.stream.t_s, session.stream.H_OP, session.stream.error_m), session.boards.t_camera_s - session.offset_s)
     assert found.steady.mean() > 0.9
@@ -109,7 +110,7 @@ def test_a_resting_body_rests_and_has_no_speed():
 
 
 @pytest.mark.parametrize(("seed", "dwell_s"), [(1, 0.8), (2, 1.2), (3, 1.0), (4, 0.6)])
-def test_the_offsets_between_which_all_views_fall_into_rests(seed, dwell_s):
+def test_the_offsets_between_which_all_views_fall_into_rests(seed: int, dwell_s: float) -> None:
     session, _ = stop_and_shoot(np.random.default_rng(seed), 20, noise=Noise(drift=0.3), dwell_s=dwell_s)
     track = track_of(session.stream)
     best = offset_candidates(track, session.boards.t_camera_s, session.boards.H_CB)[0]
@@ -121,7 +122,7 @@ def test_the_offsets_between_which_all_views_fall_into_rests(seed, dwell_s):
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_panel_that_moves_leaves_no_such_stretch(seed):
+def test_a_panel_that_moves_leaves_no_such_stretch(seed: int) -> None:
     session = moving_session(np.random.default_rng(seed), 40)
     track = track_of(session.stream)
     best = offset_candidates(track, session.boards.t_camera_s, session.boards.H_CB)[0]

@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -36,7 +37,7 @@ def run_array(folder: Path, index: int, count: int) -> int:
 
 
 @pytest.mark.slow
-def test_the_array_of_jobs_does_every_capture_once_and_names_a_bad_one_by_its_code(tmp_path):
+def test_the_array_of_jobs_does_every_capture_once_and_names_a_bad_one_by_its_code(tmp_path: Path) -> None:
     captures = collection(tmp_path / "data", 4)
     (captures[3] / "L1.png").unlink()
     assert [run_array(tmp_path / "data", index, 3) for index in range(3)] == [6, 0, 0]
@@ -49,7 +50,9 @@ def test_the_array_of_jobs_does_every_capture_once_and_names_a_bad_one_by_its_co
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # dask's own, of ports
-def test_the_services_of_the_compose_file_work_as_they_stand_but_for_their_containers(lpcal, tmp_path):
+def test_the_services_of_the_compose_file_work_as_they_stand_but_for_their_containers(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
     """Scheduler and worker by the commands of the recipe, installing left out, names of containers made this machine's."""
     pytest.importorskip("distributed")
     captures = collection(tmp_path, 2)
@@ -84,7 +87,7 @@ def free_port() -> int:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("snakemake") is None, reason="snakemake is not installed: uv tool run --from snakemake snakemake")
-def test_the_snakefile_makes_a_surface_a_capture_and_nothing_twice(tmp_path):
+def test_the_snakefile_makes_a_surface_a_capture_and_nothing_twice(tmp_path: Path) -> None:
     collection(tmp_path / "data", 2)
     (tmp_path / "data/captures").mkdir()
     for name in ("c0000", "c0001"):
@@ -100,7 +103,7 @@ def test_the_snakefile_makes_a_surface_a_capture_and_nothing_twice(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_step_of_the_workflow_makes_the_surfaces_of_a_data_set(tmp_path):
+def test_the_step_of_the_workflow_makes_the_surfaces_of_a_data_set(tmp_path: Path) -> None:
     collection(tmp_path / "captures", 2)
     (tmp_path / "captures/dome.yaml").replace(tmp_path / "calibration.yaml")
     steps = yaml.safe_load((RECIPES / "dataset.github.yml").read_text())["jobs"]["surfaces"]["steps"]
@@ -110,13 +113,13 @@ def test_the_step_of_the_workflow_makes_the_surfaces_of_a_data_set(tmp_path):
     assert len(list((tmp_path / "surfaces").glob("*/summary.json"))) == 2
 
 
-def test_the_compose_file_serves_this_machine_alone():
+def test_the_compose_file_serves_this_machine_alone() -> None:
     services = yaml.safe_load((RECIPES / "compose.yaml").read_text())["services"]
     assert services["scheduler"]["ports"] == ["127.0.0.1:8786:8786"]
     assert "lpcal[dask]" in services["worker"]["command"]
 
 
-def test_the_workflow_runs_a_command_that_there_is(lpcal):
+def test_the_workflow_runs_a_command_that_there_is(lpcal: Callable[..., tuple[int, str, str]]) -> None:
     steps = yaml.safe_load((RECIPES / "dataset.github.yml").read_text())["jobs"]["surfaces"]["steps"]
     (command,) = (step["run"] for step in steps if step.get("run", "").startswith("lpcal"))
     _, told, _ = lpcal("reconstruct", "--help")
@@ -124,7 +127,7 @@ def test_the_workflow_runs_a_command_that_there_is(lpcal):
 
 
 @pytest.mark.parametrize(("workers", "bound"), [(10, "workers"), (200, "disk")])
-def test_a_queue_that_is_played_through_ends_with_all_done_or_given_up(workers, bound):
+def test_a_queue_that_is_played_through_ends_with_all_done_or_given_up(workers: int, bound: str) -> None:
     played = play(Site(2000, 12.0, 40.0, 500.0, 0.01, 24 * 3600.0), workers)
     least_h = 2000 * 12.0 / workers / 3600
     assert played.hours > 0.9 * least_h

@@ -6,11 +6,14 @@ import ctypes
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from lpcal.geometry import camera, lambert, led_cluster, park, se3
+from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.surface import bounce, cut, field, gloss, layers, multigrid, normals
@@ -24,51 +27,51 @@ from lpcal.surface.surroundings import Patches
 PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
 
 
-def points(rng, count):
+def points(rng: np.random.Generator, count: int) -> Array:
     z = 0.3 + 0.05 * rng.random(count)
     return np.stack([z * 0.9 * (rng.random(count) - 0.5), z * 0.7 * (rng.random(count) - 0.5), z], axis=1)
 
 
-def relief(rng) -> Relief:
+def relief(rng: np.random.Generator) -> Relief:
     front = 0.3 + 0.02 * rng.random((60, 80))
     front[:10] = np.inf
     return Relief(front, PIXEL_OF_RAY)
 
 
-def patches(rng, count) -> Patches:
+def patches(rng: np.random.Generator, count: int) -> Patches:
     return Patches(points(rng, count), lambert.unit(rng.normal(size=(count, 3)))[0], 1e-5 * rng.random(count), rng.random((5, count)))
 
 
-def hidden(rng):
+def hidden(rng: np.random.Generator) -> Array:
     return relief(rng).hidden(points(rng, 4000), 1.2 * points(rng, 4000), 24).astype(float)
 
 
-def behind(rng):
+def behind(rng: np.random.Generator) -> Array:
     return relief(rng).behind(np.concatenate([points(rng, 4000), [[0.0, 0.0, 0.0], [1e30, 0.0, 1.0], [np.nan, 0.0, 1.0]]]))
 
 
-def received(rng):
+def received(rng: np.random.Generator) -> Array:
     return bounce._received(patches(rng, 200), patches(rng, 150), relief(rng))
 
 
-def shading(rng, lights=6, pixels=800):
+def shading(rng: np.random.Generator, lights: int = 6, pixels: int = 800) -> tuple[Array, Array, Mask, Array]:
     B = rng.normal(size=(lights, pixels, 3))
     B[:, :50] = B[:1, :50]  # lights of one direction span nothing
     signal = lambert.predicted(B, rng.normal(size=(pixels, 3))) + 0.02 * rng.normal(size=(lights, pixels))
     return signal, B, rng.random((lights, pixels)) < 0.8, 4e-4 * (1 + rng.random((lights, pixels)))
 
 
-def weighted(rng):
+def weighted(rng: np.random.Generator) -> Array:
     signal, B, usable, variance = shading(rng)
     b, inverse = lambert.weighted(B, signal, usable / variance)
     return np.concatenate([b.ravel(), inverse.ravel()])
 
 
-def best_three(rng):
+def best_three(rng: np.random.Generator) -> Array:
     return np.concatenate([normals._best_three(*shading(rng, lights)).ravel() for lights in (3, 5, 8)])
 
 
-def gathered(rng):
+def gathered(rng: np.random.Generator) -> Array:
     signal, B, usable, variance = shading(rng, pixels=500)
     d, E = lambert.unit(B)
     b, v, dark = rng.normal(size=(500, 3)), lambert.unit(rng.normal(size=(500, 3)))[0], rng.random(signal.shape) < 0.2
@@ -79,37 +82,37 @@ def gathered(rng):
     return np.concatenate([part.ravel() for case in cases for part in field._gathered(seen, case[0], b, v, *case[1:])])
 
 
-def lobe(rng):
+def lobe(rng: np.random.Generator) -> Array:
     d, n, v = (lambert.unit(rng.normal(size=(*shape, 3)))[0] for shape in ((5, 300), (300,), (300,)))
     return np.concatenate([gloss.lobe(d, n, v, roughness).ravel() for roughness in (0.06, 0.5)])
 
 
-def unexplained(rng):
+def unexplained(rng: np.random.Generator) -> Array:
     signal, B, usable, variance = shading(rng, 9, 300)
     return np.concatenate([each.ravel() for each in gloss._unexplained(signal, rng.random(signal.shape), usable + 0.0, variance, B)])
 
 
-def lobe_costs(rng):
+def lobe_costs(rng: np.random.Generator) -> Array:
     left, own = 1e-3 * rng.normal(size=(2, 19, 300))
     weight, spread2 = (rng.random(left.shape) < 0.9) + 0.0, 10.0 ** rng.uniform(-12, -4, left.shape)
     return np.concatenate([gloss._costs(left, own, np.geomspace(0.01, 1, 7), weight, spread2, doubt).ravel() for doubt in (0.0, 0.2)])
 
 
-def two_labels(rng):
+def two_labels(rng: np.random.Generator) -> Array:
     said = np.clip(3 * rng.normal(size=(70, 90)), -2, 2).astype(np.float32)
     return cut._relaxed(said, rng.random((70, 89), np.float32), rng.random((69, 90), np.float32)).astype(float)
 
 
-def many_labels(rng):
+def many_labels(rng: np.random.Generator) -> Array:
     return layers._relaxed(60 * rng.random((5, 40, 70)), *layers.boundary(rng.random((40, 70))))
 
 
-def many(rng):
+def many(rng: np.random.Generator) -> Array:
     found = [part for lights in (9, 24, 96) for part in normals._weighted_in_rounds(*shading(rng, lights, 200))]
     return np.concatenate([part.ravel() for part in found])
 
 
-def cubic(rng):
+def cubic(rng: np.random.Generator) -> Array:
     table = LightTable(np.log(0.1), 0.05, rng.random((700, 40, 5, 3), np.float32), rng.random((700, 40, 5), np.float32))
     some = rng.permutation(700)[:500]
     B, doubt = table.at(np.log(0.08) + 2.5 * rng.random(500), some)
@@ -117,7 +120,7 @@ def cubic(rng):
     return np.concatenate([B.ravel(), doubt.ravel(), of_some.ravel()])
 
 
-def solved(rng):
+def solved(rng: np.random.Generator) -> Array:
     y, x = np.indices((90, 100))
     grid = Grid.of((x - 50) ** 2 + (y - 45) ** 2 < 40**2 + 200 * np.sin(x))
     weight = rng.random(len(grid.a)) ** 4 + 1e-6
@@ -131,7 +134,7 @@ def solved(rng):
     return np.concatenate([*found, multigrid.solve(alone, right[:900], np.zeros(900), precision=1e-13)])
 
 
-def coupled(rng):
+def coupled(rng: np.random.Generator) -> Array:
     y, x = np.indices((40, 50))
     grid = Grid.of((x - 25) ** 2 + (y - 20) ** 2 < 18**2 + 100 * np.sin(x))
     b = rng.normal(size=(len(grid.rows), 3))
@@ -139,7 +142,7 @@ def coupled(rng):
     return field._System.at(grid, b, own).solved(rng.normal(size=b.shape), b).ravel()
 
 
-def cluster(rng):
+def cluster(rng: np.random.Generator) -> Array:
     axes = led_cluster.led_axes(19)
     x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
     power = rng.uniform(0.9, 1.1, 19)
@@ -149,22 +152,22 @@ def cluster(rng):
     return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
 
 
-def rotations(rng, *shape):
+def rotations(rng: np.random.Generator, *shape: Any) -> Array:
     return se3.exp(np.concatenate([rng.normal(size=(*shape, 3)), np.zeros((*shape, 3))], axis=-1))
 
 
-def turns(rng):
+def turns(rng: np.random.Generator) -> Array:
     one, other = (rotations(rng, 40, 9)[..., :3, :3] for _ in range(2))
     one[0] = one[0, 0]  # no turn at all
     other[1, 0] = other[1, 1] @ np.diag([1.0, -1.0, -1.0])  # half a turn
     return np.concatenate([park._rotations(one, other).ravel(), park._rotations(one[3], other[3]).ravel()])
 
 
-def misses(rng):
+def misses(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for each in park._misses(*(rotations(rng, count) for count in (30, 30, 20, 20)))])
 
 
-def distort(rng):
+def distort(rng: np.random.Generator) -> Array:
     found, J = camera._distort_with_jacobian(rng.normal(size=(2, 500, 2)), np.array([-0.3, 0.12, 1e-3, -2e-3, 0.01, 0.02, 0.03, 0.001]))
     return np.concatenate([found.ravel(), J.ravel()])
 
@@ -194,13 +197,13 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
 kernels that it calls."""
 
 
-def test_every_kernel_is_held_against_its_twin():
+def test_every_kernel_is_held_against_its_twin() -> None:
     assert set.union(*(names for _, names in CASES.values())) == set(library.SIGNATURES)
 
 
 @pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
 @pytest.mark.filterwarnings("ignore:(divide|invalid|overflow)")
-def test_a_kernel_does_what_its_twin_does(work, monkeypatch):
+def test_a_kernel_does_what_its_twin_does(work: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(kernel(name) for name in CASES[work][1]), "the library is not built: uv sync --reinstall-package lpcal"
     compiled = work(np.random.default_rng(3))
     monkeypatch.setenv(SWITCH, "numpy")
@@ -212,14 +215,14 @@ def test_a_kernel_does_what_its_twin_does(work, monkeypatch):
 
 
 @pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
-def test_threads_change_no_byte(work):
+def test_threads_change_no_byte(work: Callable[..., Any]) -> None:
     with ThreadPoolExecutor(4) as pool:
         found = {one.tobytes() for one in pool.map(lambda _: work(np.random.default_rng(3)), range(4))}
     assert found == {work(np.random.default_rng(3)).tobytes()}
 
 
 @pytest.mark.parametrize("work", CASES, ids=lambda work: work.__name__)
-def test_wider_vectors_change_no_byte(work, monkeypatch):
+def test_wider_vectors_change_no_byte(work: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
     if not library.built(library.WIDE).exists():
         pytest.skip("no library for wider vectors on this machine")
     found = work(np.random.default_rng(3))
@@ -238,13 +241,13 @@ def test_wider_vectors_change_no_byte(work, monkeypatch):
     ],
     ids=["type", "strides", "number", "list"],
 )
-def test_what_a_kernel_is_given_is_checked(wrong):
+def test_what_a_kernel_is_given_is_checked(wrong: Callable[..., Any]) -> None:
     found = np.zeros(4, bool)
     with pytest.raises(ctypes.ArgumentError):
         kernel("hidden")(*wrong(np.ones((4, 6))), 2, 2, np.ones((2, 2)), PIXEL_OF_RAY, 0.1, 0.2, found)
 
 
-def test_a_library_of_other_sources_is_not_loaded(tmp_path, monkeypatch):
+def test_a_library_of_other_sources_is_not_loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for path in library.sources():
         (tmp_path / path.name).write_bytes(path.read_bytes())
     (tmp_path / library.built().name).write_bytes(library.built().read_bytes())
@@ -254,7 +257,7 @@ def test_a_library_of_other_sources_is_not_loaded(tmp_path, monkeypatch):
     assert not library._loaded.__wrapped__()
 
 
-def test_a_system_of_nothing_is_solved_by_nothing():
+def test_a_system_of_nothing_is_solved_by_nothing() -> None:
     grid = Grid.of(np.ones((6, 7), bool))
     b, nothing = np.ones((42, 3)), np.zeros((42, 3))
     assert not field._System.at(grid, b, np.tile(np.eye(3), (42, 1, 1))).solved(nothing, nothing).any()

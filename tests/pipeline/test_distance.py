@@ -49,7 +49,7 @@ def views() -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.fixture
-def rig(tmp_path) -> Path:
+def rig(tmp_path: Path) -> Path:
     (tmp_path / "panel.yaml").write_text(PANEL)
     H, reading = views()
     names = [f"images/{k:02d}.png" for k in range(24)]
@@ -74,7 +74,7 @@ def rig(tmp_path) -> Path:
     return tmp_path
 
 
-def test_the_stage_writes_the_beam_and_a_calibration_carries_it(rig):
+def test_the_stage_writes_the_beam_and_a_calibration_carries_it(rig: Path) -> None:
     outcome = distance.STAGE.run(Workspace(read_rig(rig / "panel.yaml")), silent)
     assert any("23 of 23 used" in line for line in outcome.summary)
     found = read_distance(rig / "calib/distance.yaml")
@@ -88,7 +88,7 @@ def test_the_stage_writes_the_beam_and_a_calibration_carries_it(rig):
     assert np.allclose(again.covariance, found.sensor.covariance, rtol=1e-6, atol=1e-14)
 
 
-def test_check_names_readings_in_another_unit(rig):
+def test_check_names_readings_in_another_unit(rig: Path) -> None:
     text = (rig / "readings.csv").read_text()
     (rig / "readings.csv").write_text(text.replace("distance_mm", "distance_m"))
     workspace = Workspace(read_rig(rig / "panel.yaml"))
@@ -102,7 +102,7 @@ def test_check_names_readings_in_another_unit(rig):
     assert "millimetres" in wrong[0].found
 
 
-def test_a_table_without_readings_is_an_error_only_where_one_is_asked_for(tmp_path):
+def test_a_table_without_readings_is_an_error_only_where_one_is_asked_for(tmp_path: Path) -> None:
     table = tmp_path / "stations.csv"
     table.write_text("file,time_s\n")
     assert read_distances(table, needed=False) == []
@@ -116,14 +116,14 @@ def test_a_table_without_readings_is_an_error_only_where_one_is_asked_for(tmp_pa
         read_distances(table)
 
 
-def test_panel_yaml_asks_for_units_and_a_direction(tmp_path):
+def test_panel_yaml_asks_for_units_and_a_direction(tmp_path: Path) -> None:
     for wrong, words in (("noise: 2 mm", "noise: 2"), ("direction: [0, 0, 1]", "direction: [0, 0, 0]")):
         (tmp_path / "panel.yaml").write_text(PANEL.replace(wrong, words))
         with pytest.raises(InputError, match=r"bare number|without length"):
             read_rig(tmp_path / "panel.yaml")
 
 
-def test_the_simulator_reads_the_board_or_the_wall_behind():
+def test_the_simulator_reads_the_board_or_the_wall_behind() -> None:
     H, _ = views()
     rig = read_rig_text(PANEL)
     beam = draw_beam(rig, np.eye(4), 3)

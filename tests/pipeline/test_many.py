@@ -11,11 +11,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 import lpcal as library
@@ -23,6 +26,7 @@ from lpcal.api import engines
 from lpcal.api.engines import Lost, each, engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
 from lpcal.pipeline import many
+from lpcal.pipeline.reconstruct import Task
 from many_captures import collection, dome, draw, same_bytes
 
 
@@ -39,7 +43,7 @@ def changed_ns(folder: Path) -> dict[str, int]:
     return {path.name: (path / "summary.json").stat().st_mtime_ns for path in folder.iterdir() if path.is_dir()}
 
 
-def test_processes_give_the_bytes_of_the_loop_and_nothing_is_done_twice(lpcal, tmp_path):
+def test_processes_give_the_bytes_of_the_loop_and_nothing_is_done_twice(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     captures = collection(tmp_path, 2)
     words = ["reconstruct", *captures, "-c", "dome.yaml", "-o"]
     assert lpcal(*words, "loop", cwd=tmp_path)[0] == 0
@@ -64,7 +68,9 @@ def test_processes_give_the_bytes_of_the_loop_and_nothing_is_done_twice(lpcal, t
     assert "2 captures: 2 done" in lpcal(*words, "many", "--anew", cwd=tmp_path)[1]
 
 
-def test_one_capture_that_is_up_to_date_is_not_done_again(lpcal, captures, tmp_path):
+def test_one_capture_that_is_up_to_date_is_not_done_again(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path
+) -> None:
     words = ["reconstruct", captures[0], "-c", "dome.yaml", "-o", "one"]
     assert lpcal(*words, cwd=tmp_path)[0] == 0
     before = (tmp_path / "one/summary.json").stat().st_mtime_ns
@@ -74,7 +80,9 @@ def test_one_capture_that_is_up_to_date_is_not_done_again(lpcal, captures, tmp_p
     assert "(up to date)" not in lpcal(*words, "--anew", cwd=tmp_path)[1]
 
 
-def test_the_mask_is_part_of_what_a_surface_is_made_from(lpcal, captures, tmp_path):
+def test_the_mask_is_part_of_what_a_surface_is_made_from(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path
+) -> None:
     mask = tmp_path / "given.png"
     mask.write_bytes((captures[0] / "mask.png").read_bytes())
     words = ["reconstruct", captures[0], "-c", "dome.yaml", "--mask", mask, "-o", "one"]
@@ -85,7 +93,9 @@ def test_the_mask_is_part_of_what_a_surface_is_made_from(lpcal, captures, tmp_pa
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_bad_captures_are_named_first_and_cost_themselves(lpcal, captures, tmp_path, jobs):
+def test_bad_captures_are_named_first_and_cost_themselves(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path, jobs: int
+) -> None:
     (captures[0] / "L2.png").unlink()
     (captures[2] / "L4.png").write_bytes(b"no image")
     code, told, warned = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", "--jobs", jobs, cwd=tmp_path)
@@ -107,10 +117,12 @@ def test_bad_captures_are_named_first_and_cost_themselves(lpcal, captures, tmp_p
         (ZeroDivisionError("of lpcal's"), "a bug of lpcal: ZeroDivisionError: of lpcal's", 1),
     ],
 )
-def test_what_the_system_refuses_costs_its_own_capture_and_is_made_good(lpcal, captures, tmp_path, monkeypatch, fault, words, expected):
+def test_what_the_system_refuses_costs_its_own_capture_and_is_made_good(
+    lpcal: Callable[..., Any], captures: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fault: Any, words: str, expected: int
+) -> None:
     written = many.reconstruct_one
 
-    def refuse(task, *given):
+    def refuse(task: Task, *given: Any) -> dict[str, Any]:
         if task.name == "c0001":
             raise fault
         return written(task, *given)
@@ -126,14 +138,16 @@ def test_what_the_system_refuses_costs_its_own_capture_and_is_made_good(lpcal, c
     assert (code, "1 done, 2 up to date" in told) == (0, True)
 
 
-def test_a_disk_that_fills_while_a_surface_is_written_leaves_nothing_half(lpcal, captures, tmp_path, monkeypatch):
+def test_a_disk_that_fills_while_a_surface_is_written_leaves_nothing_half(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The eighth write and all after it are refused, as on a full disk."""
     from lpcal.formats import surface_files
 
     count = 0
     encode = surface_files._write_png
 
-    def full(path: Path, pixels) -> None:
+    def full(path: Path, pixels: npt.NDArray[Any]) -> None:
         nonlocal count
         count += 1
         if count > 4:
@@ -147,7 +161,7 @@ def test_a_disk_that_fills_while_a_surface_is_written_leaves_nothing_half(lpcal,
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["c0000", "surfaces.csv", "surfaces.html"]
 
 
-def test_the_table_replaces_nothing_of_anybodys(lpcal, captures, tmp_path):
+def test_the_table_replaces_nothing_of_anybodys(lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out/surfaces.csv").write_text("my,own\n1,2\n")
     code, _, told = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
@@ -156,7 +170,9 @@ def test_the_table_replaces_nothing_of_anybodys(lpcal, captures, tmp_path):
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["surfaces.csv"]
 
 
-def test_where_no_table_can_be_written_what_became_of_each_capture_is_said_all_the_same(lpcal, captures, tmp_path, monkeypatch):
+def test_where_no_table_can_be_written_what_became_of_each_capture_is_said_all_the_same(
+    lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(*_: object) -> None:
         raise InputError("cannot write here: No space left on device", where="surfaces.html")
 
@@ -177,20 +193,20 @@ def test_where_no_table_can_be_written_what_became_of_each_capture_is_said_all_t
         (("slurm", 2), InputError, "no sbatch here"),
     ],
 )
-def test_engines_that_are_not_there(words, error, said, monkeypatch):
+def test_engines_that_are_not_there(words: tuple[str, int], error: type[Exception], said: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engines, "REPLY_S", 0.5)
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(error, match=said):
         engine_of(*words)
 
 
-def test_a_package_that_is_not_installed_is_named_with_its_extra(monkeypatch):
+def test_a_package_that_is_not_installed_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"lpcal\[dask\]"):
         engine_of("dask", 2)
 
 
-def test_a_folder_of_rigs_is_run_rig_by_rig_and_a_bad_one_is_named(lpcal, tmp_path):
+def test_a_folder_of_rigs_is_run_rig_by_rig_and_a_bad_one_is_named(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     panel = "lpcal: 1\ncamera: {cameramodel: camera.yaml}\n"
     panel += "lights: {L0: {azimuth: 0 deg, joint_angle: 30 deg, disc_spacer: 29 mm, blob_spacer: 40 mm}}\n"
     panel += "panel: {disc_radius: 60 mm, joint: 15 mm, blob: 30 mm}\n"
@@ -228,12 +244,12 @@ def sturdy(item: Item) -> int:
 
 
 @pytest.mark.parametrize("deaths", [1, 2])
-def test_a_worker_that_dies_costs_a_retry(tmp_path, deaths):
+def test_a_worker_that_dies_costs_a_retry(tmp_path: Path, deaths: int) -> None:
     items = [Item(k, tmp_path, deaths=deaths * (k == 1)) for k in range(4)]
     assert sorted(each(sturdy, items, engine_of("processes", 2))) == [(k, k * k) for k in range(4)]
 
 
-def test_an_item_that_always_kills_is_lost_and_no_other(tmp_path):
+def test_an_item_that_always_kills_is_lost_and_no_other(tmp_path: Path) -> None:
     items = [Item(k, tmp_path, deaths=99 * (k == 2)) for k in range(6)]
     found = dict(each(sturdy, items, engine_of("processes", 2)))
     assert found.pop(2) == Lost("the worker was killed, or ran out of memory")
@@ -241,7 +257,7 @@ def test_an_item_that_always_kills_is_lost_and_no_other(tmp_path):
     assert len(list(tmp_path.glob("died_2_*"))) == engines.TRIES
 
 
-def test_where_no_worker_can_work_that_is_said_soon(tmp_path, monkeypatch):
+def test_where_no_worker_can_work_that_is_said_soon(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engines, "FRUITLESS", 3)
     items = [Item(k, tmp_path, deaths=99) for k in range(40)]
     found = dict(each(sturdy, items, engine_of("processes", 1)))
@@ -253,12 +269,12 @@ def test_where_no_worker_can_work_that_is_said_soon(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "error", [InputError("a", where="b", needed="c", todo="d"), DegenerateError("x"), DisagreementError("y", todo="z")]
 )
-def test_errors_come_whole_out_of_another_process(error):
+def test_errors_come_whole_out_of_another_process(error: Any) -> None:
     again = pickle.loads(pickle.dumps(error))
     assert (type(again), str(again), again.where, again.todo) == (type(error), str(error), error.where, error.todo)
 
 
-def test_the_library_takes_an_executor_and_gives_results_in_order(captures):
+def test_the_library_takes_an_executor_and_gives_results_in_order(captures: list[Path]) -> None:
     (captures[1] / "L2.png").unlink()
     with ThreadPoolExecutor(2) as pool:
         first, bad, last = library.reconstruct_many(captures, dome(), executor=pool)
@@ -270,7 +286,7 @@ def test_the_library_takes_an_executor_and_gives_results_in_order(captures):
         library.reconstruct_many(captures, dome(), masc="auto")
 
 
-def test_dask_arrays_are_taken(captures):
+def test_dask_arrays_are_taken(captures: list[Path]) -> None:
     array = pytest.importorskip("dask.array")
     raw = library.read_capture(captures[0], dome())
     lazy = array.from_array(raw.images, chunks=(1, 24, 24))
@@ -301,7 +317,7 @@ def started(tmp_path: Path, captures: list[Path]) -> subprocess.Popen[str]:
     )
 
 
-def wait_for(condition, seconds: float = 90.0) -> bool:
+def wait_for(condition: Callable[[], object], seconds: float = 90.0) -> bool:
     until = time.monotonic() + seconds
     while not condition() and time.monotonic() < until:
         time.sleep(0.02)
@@ -310,7 +326,7 @@ def wait_for(condition, seconds: float = 90.0) -> bool:
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found by /proc")
-def test_workers_killed_by_their_ids_at_ten_moments_cost_nothing_but_time(tmp_path):
+def test_workers_killed_by_their_ids_at_ten_moments_cost_nothing_but_time(tmp_path: Path) -> None:
     """Before anything stands, and each time that two more surfaces do; a bad capture is among them."""
     captures = collection(tmp_path, 26)
     (captures[9] / "L2.png").unlink()
@@ -344,7 +360,9 @@ def killed(workers: list[int]) -> bool:
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found by /proc")
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
-def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(lpcal, tmp_path, number):
+def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, number: int
+) -> None:
     captures = collection(tmp_path, 16)
     with started(tmp_path, captures) as run:
         assert wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -24,7 +25,7 @@ def files_of(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_processes_draw_what_the_loop_draws_and_nothing_twice(lpcal, panel):
+def test_processes_draw_what_the_loop_draws_and_nothing_twice(lpcal: Callable[..., tuple[int, str, str]], panel: Path) -> None:
     code, told, wrong = lpcal(*WORDS, "loop", cwd=panel)
     assert (code, "2 rigs: 2 drawn, 0 up to date, 0 failed" in told) == (0, True), wrong
     assert sorted(path.name for path in (panel / "loop").iterdir()) == ["seed_0003", "seed_0004"]
@@ -37,7 +38,9 @@ def test_processes_draw_what_the_loop_draws_and_nothing_twice(lpcal, panel):
     assert "2 rigs: 0 drawn, 2 up to date, 0 failed" in lpcal(*WORDS, "many", cwd=panel)[1]
 
 
-def test_a_folder_that_is_anybodys_is_left_and_named_and_the_others_are_drawn(lpcal, panel):
+def test_a_folder_that_is_anybodys_is_left_and_named_and_the_others_are_drawn(
+    lpcal: Callable[..., tuple[int, str, str]], panel: Path
+) -> None:
     (panel / "out/seed_0003").mkdir(parents=True)
     (panel / "out/seed_0003/mine.txt").write_text("mine")
     code, told, warned = lpcal(*WORDS, "out", cwd=panel)
@@ -47,6 +50,6 @@ def test_a_folder_that_is_anybodys_is_left_and_named_and_the_others_are_drawn(lp
 
 
 @pytest.mark.parametrize("words", [("--count", "-1"), ("--jobs", "2"), ("--on", "dask")])
-def test_words_that_make_no_sense(lpcal, panel, words):
+def test_words_that_make_no_sense(lpcal: Callable[..., tuple[int, str, str]], panel: Path, words: tuple[str, ...]) -> None:
     assert lpcal("simulate", "--rig", "panel.yaml", *words, "out", cwd=panel)[0] == 2
     assert not (panel / "out").exists()

@@ -8,6 +8,9 @@ import threading
 import time
 import urllib.error
 import urllib.request
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -18,6 +21,7 @@ from board_pictures import Pattern, Studio, exposed, poses
 from lpcal.api.watching import Watched, exposure_words
 from lpcal.errors import InputError, UsageError
 from lpcal.formats.panel_yaml import read_rig
+from lpcal.geometry.arrays import Array
 from lpcal.pipeline.watch import watch
 from lpcal.records.observations import Board
 
@@ -39,7 +43,7 @@ def float_of(picture: np.ndarray) -> np.ndarray:
     return (picture / 255).astype(np.float32)
 
 
-def test_boards_are_counted_by_where_their_corners_fell(pictures):
+def test_boards_are_counted_by_where_their_corners_fell(pictures: list[np.ndarray]) -> None:
     session = Watched(BOARD, ())
     assert session.following().startswith("the board to the")
     for k, picture in enumerate(pictures):
@@ -49,7 +53,7 @@ def test_boards_are_counted_by_where_their_corners_fell(pictures):
     assert session.counted.sum() == 54 * len(pictures)
 
 
-def test_what_is_wrong_with_a_board_image_is_said(pictures):
+def test_what_is_wrong_with_a_board_image_is_said(pictures: list[np.ndarray]) -> None:
     session = Watched(BOARD, ())
     for picture in pictures[:4]:
         session.judge_board("good.png", float_of(picture))
@@ -71,11 +75,11 @@ def test_what_is_wrong_with_a_board_image_is_said(pictures):
         (np.linspace(0, 2, 10000).reshape(100, 100).clip(0, 1), ("50.2 % saturated: a shorter exposure",), "poor"),
     ],
 )
-def test_exposures(pixels, words, tone):
+def test_exposures(pixels: Array, words: tuple[Any, ...], tone: str) -> None:
     assert exposure_words(pixels.astype(np.float32)) == (words, tone)
 
 
-def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark():
+def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark() -> None:
     session = Watched(None, ("L0", "L1", "L2"))
     lit, dark = np.full((20, 20), 0.6, np.float32), np.full((20, 20), 0.02, np.float32)
     session.judge_light("objects/vase", "L0", lit)
@@ -86,7 +90,7 @@ def test_lights_that_a_capture_lacks_are_next_and_a_chrome_sphere_may_be_dark():
     assert session.following() == "spheres/ball: 2 of 3 lights are lacking, next L1"
 
 
-def test_an_ambient_image_or_a_short_exposure_is_no_board_and_no_light(tmp_path):
+def test_an_ambient_image_or_a_short_exposure_is_no_board_and_no_light(tmp_path: Path) -> None:
     (tmp_path / "panel.yaml").write_text(PANEL)
     (tmp_path / "objects/vase").mkdir(parents=True)
     for name in ("ambient", "ambient_1", "short_L0"):
@@ -98,7 +102,7 @@ def test_an_ambient_image_or_a_short_exposure_is_no_board_and_no_light(tmp_path)
     assert all("ok  " in line for line in said if "objects/vase/" in line and "next" not in line), said
 
 
-def test_a_sphere_is_looked_for_once_its_lights_have_come_and_a_bad_one_is_asked_for_again(tmp_path):
+def test_a_sphere_is_looked_for_once_its_lights_have_come_and_a_bad_one_is_asked_for_again(tmp_path: Path) -> None:
     lights = [f"L{k}: {{}}" for k in range(6)]
     spheres = [f"{name}: {{kind: matte, radius: 25 mm, images: spheres/{name}}}" for name in ("ball", "none", "later")]
     (tmp_path / "panel.yaml").write_text(f"lpcal: 1\nlights: {{{', '.join(lights)}}}\nspheres: {{{', '.join(spheres)}}}\n")
@@ -120,7 +124,7 @@ def fetched(address: str, host: str | None = None) -> bytes:
         return answer.read()
 
 
-def test_a_folder_is_watched_its_page_served_and_its_end_summed_up(tmp_path, pictures):
+def test_a_folder_is_watched_its_page_served_and_its_end_summed_up(tmp_path: Path, pictures: list[np.ndarray]) -> None:
     (tmp_path / "panel.yaml").write_text(PANEL)
     for folder in ("stations", "objects/vase"):
         (tmp_path / folder).mkdir(parents=True)
@@ -155,7 +159,7 @@ def test_a_folder_is_watched_its_page_served_and_its_end_summed_up(tmp_path, pic
     assert outcome.summary[0].startswith("3 images, 1 with the board")
 
 
-def test_what_cannot_be_watched(tmp_path, lpcal):
+def test_what_cannot_be_watched(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     with pytest.raises(InputError, match="no such folder"):
         watch(tmp_path / "nothing", None, print)
     with pytest.raises(UsageError, match="cannot be had"):
@@ -167,7 +171,7 @@ def test_what_cannot_be_watched(tmp_path, lpcal):
 
 
 @pytest.mark.slow
-def test_twelve_images_a_second_are_never_more_than_two_seconds_behind(tmp_path, pictures):
+def test_twelve_images_a_second_are_never_more_than_two_seconds_behind(tmp_path: Path, pictures: list[np.ndarray]) -> None:
     (tmp_path / "panel.yaml").write_text(PANEL)
     (tmp_path / "stations").mkdir()
     encoded = [cv2.imencode(".png", picture)[1].tobytes() for picture in pictures]

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,7 +67,7 @@ def test_a_kind_that_is_none_is_refused(kind: str, tmp_path: Path) -> None:
         ("mine", lambda angle_rad, exponent: 1.0),
     ],
 )
-def test_what_is_no_lobe_is_not_registered(name: str, formula) -> None:
+def test_what_is_no_lobe_is_not_registered(name: str, formula: Any) -> None:
     with pytest.raises(lpcal.errors.InputError, match="register_lobe"):
         lpcal.extend.register_lobe(name, formula)
     assert "mine" not in FORMULAS

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +19,7 @@ RECT = re.compile(NUMBER + rb" " + NUMBER + rb" " + NUMBER + rb" " + NUMBER + rb
 LINE = re.compile(rb"n " + NUMBER + rb" " + NUMBER + rb" m " + NUMBER + rb" " + NUMBER + rb" l S")
 
 
-def board(**changes) -> BoardSection:
+def board(**changes: Any) -> BoardSection:
     return BoardSection(**({"corners": [9, 6], "square": "25 mm"} | changes))
 
 
@@ -34,7 +37,7 @@ def drawn_mm(pdf: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return page, rects, lines
 
 
-def test_squares_are_at_true_scale_and_the_first_is_black():
+def test_squares_are_at_true_scale_and_the_first_is_black() -> None:
     page, rects, _ = drawn_mm(draw(board(), choose_page(board())))
     np.testing.assert_allclose(page, [297, 210], atol=0.01)
     assert len(rects) == 35
@@ -45,13 +48,13 @@ def test_squares_are_at_true_scale_and_the_first_is_black():
     assert {tuple(cell) for cell in cells} == {(i, j) for i in range(10) for j in range(7) if (i + j) % 2 == 0}
 
 
-def test_unequal_squares_as_measured():
+def test_unequal_squares_as_measured() -> None:
     section = board(corners=[4, 3], square=["24 mm", "26 mm"])
     _, rects, _ = drawn_mm(draw(section, choose_page(section)))
     np.testing.assert_allclose(rects[:, 2:], np.broadcast_to([24, 26], (len(rects), 2)), atol=1e-3)
 
 
-def test_rulers_tick_every_millimetre_along_two_edges():
+def test_rulers_tick_every_millimetre_along_two_edges() -> None:
     page, rects, lines = drawn_mm(draw(board(), choose_page(board())))
     left, top = rects[:, :2].min(axis=0)
     below, aside = lines[lines[:, 0] == lines[:, 2]], lines[lines[:, 1] == lines[:, 3]]
@@ -71,7 +74,7 @@ def test_rulers_tick_every_millimetre_along_two_edges():
         ((13, 12), "40 mm", "made to measure", None),
     ],
 )
-def test_the_page_is_picked_to_fit(corners, square, name, size):
+def test_the_page_is_picked_to_fit(corners: tuple[int, int], square: str, name: str, size: tuple[int, int] | None) -> None:
     section = board(corners=corners, square=square)
     page = choose_page(section)
     assert page.name == name
@@ -80,7 +83,7 @@ def test_the_page_is_picked_to_fit(corners, square, name, size):
     assert page.width_mm >= width + 2 * MARGIN_MM
 
 
-def test_the_yaml_on_the_sheet_is_the_boards_own(tmp_path):
+def test_the_yaml_on_the_sheet_is_the_boards_own(tmp_path: Path) -> None:
     section = board(square=["24.9 mm", "25.1 mm"])
     line = yaml_line(section)
     assert line.encode().replace(b"(", rb"\(") in draw(section, choose_page(section))
@@ -88,7 +91,7 @@ def test_the_yaml_on_the_sheet_is_the_boards_own(tmp_path):
     assert read_rig(tmp_path / "panel.yaml").rig.board == section
 
 
-def test_markers_stand_in_the_white_squares():
+def test_markers_stand_in_the_white_squares() -> None:
     section = board(kind="charuco", corners=[4, 3], marker="18 mm", dictionary="DICT_5X5_100")
     _, rects, _ = drawn_mm(draw(section, choose_page(section)))
     sizes = np.round(rects[:, 2], 3)
@@ -102,7 +105,7 @@ def read_rig_line(line: str) -> bool:
     return "marker: 18 mm" in line and "DICT_5X5_100" in line
 
 
-def test_the_command_takes_the_rigs_board_and_words_over_it(lpcal, tmp_path):
+def test_the_command_takes_the_rigs_board_and_words_over_it(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "panel.yaml").write_text("lpcal: 1\nboard: {corners: [6, 4], square: 30 mm}\n")
     code, out, _ = lpcal("board", cwd=tmp_path)
     assert code == 0
@@ -113,14 +116,14 @@ def test_the_command_takes_the_rigs_board_and_words_over_it(lpcal, tmp_path):
     assert "corners: [7, 5], square: 30 mm" in out
 
 
-def test_the_default_board_outside_a_rig(lpcal, tmp_path):
+def test_the_default_board_outside_a_rig(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, out, _ = lpcal("board", cwd=tmp_path)
     assert code == 0
     assert "corners: [9, 6], square: 25 mm" in out
     assert "A4" in out
 
 
-def test_what_a_user_gets_wrong(lpcal, tmp_path):
+def test_what_a_user_gets_wrong(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     assert lpcal("board", "--corners", "9", cwd=tmp_path)[0] == 2
     code, _, err = lpcal("board", "--square", "25", cwd=tmp_path)
     assert (code, "25mm" in err) == (2, True)

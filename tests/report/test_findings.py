@@ -15,7 +15,7 @@ from lpcal.records.evidence import CameraEvidence, LightsEvidence, NextSphere, N
 from lpcal.report import charts
 from lpcal.report.chain_sections import camera_section, handeye_section
 from lpcal.report.page import lights_section, render, spheres_section
-from lpcal.report.rig_report import PARTS
+from lpcal.report.rig_report import PARTS, RigReport
 from lpcal.report.time_lines import time_lines
 from lpcal.report.verdict import verdicts
 from report_rig import documents, read, report_of, surface, text_of
@@ -54,7 +54,7 @@ def plain(text: str) -> str:
     return text.replace("\N{NO-BREAK SPACE}", " ")
 
 
-def solved():
+def solved() -> RigReport:
     report = report_of(documents())
     return replace(report, camera=replace(report.camera, evidence=evidence()))
 

@@ -56,7 +56,7 @@ def on_back(scene: DrawnScene, y_m: np.ndarray, x_m: np.ndarray | float = 0.0) -
     return Points(x_C, np.tile([0.0, 0, -1], (len(y_m), 1)), np.full(len(y_m), scene.shape.albedo), np.ones(len(y_m), bool))
 
 
-def test_the_share_of_rays_is_the_form_factor_of_a_rectangle():
+def test_the_share_of_rays_is_the_form_factor_of_a_rectangle() -> None:
     """Differential element to a rectangle at right angles to it, J. R. Howell's catalogue of configuration factors, B-5."""
     scene = before_wall(corner(0.5), lamp((0, 0, 0)))
     y_m = np.array([0.002, 0.005, 0.01, 0.02, 0.04])
@@ -71,7 +71,7 @@ def test_the_share_of_rays_is_the_form_factor_of_a_rectangle():
     assert np.mean(ends.n_C[:, 1] < -0.9999) > 0.999  # but for ends on its very rim
 
 
-def test_one_bounce_in_a_corner_is_the_integral_over_the_other_plate(monkeypatch):
+def test_one_bounce_in_a_corner_is_the_integral_over_the_other_plate(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(picture, "BOUNCES", 1)
     scene = before_wall(corner(0.6), lamp((0.02, -0.03, 0.1)))
     y_m, x_m = (one.ravel() for one in np.meshgrid(np.linspace(0.008, 0.05, 12), np.linspace(-0.03, 0.03, 12)))
@@ -91,7 +91,7 @@ def test_one_bounce_in_a_corner_is_the_integral_over_the_other_plate(monkeypatch
 
 
 @pytest.mark.parametrize("albedo", [0.8, pytest.param(0.3, marks=pytest.mark.slow)])
-def test_an_integrating_sphere_keeps_its_energy(albedo):
+def test_an_integrating_sphere_keeps_its_energy(albedo: float) -> None:
     """Whatever the lamp's place, the walls get 4 pi I / (4 pi R^2) on the mean, and rho of it again with every bounce, all over alike."""
 
     def hollow(x_S: np.ndarray) -> np.ndarray:
@@ -110,7 +110,7 @@ def test_an_integrating_sphere_keeps_its_energy(albedo):
 
 
 @pytest.mark.parametrize("shape", [sphere(0.04), SHAPES["card"](0.05)], ids=["sphere", "card"])
-def test_a_convex_object_alone_throws_nothing_on_itself(shape):
+def test_a_convex_object_alone_throws_nothing_on_itself(shape: Shape) -> None:
     scene = before_wall(shape, lamp((0.1, 0, 0)))
     picture = render(LENS, scene)
     dark = render_direct(scene)
@@ -118,7 +118,7 @@ def test_a_convex_object_alone_throws_nothing_on_itself(shape):
     assert picture.light.max() > 0
 
 
-def test_a_wall_lights_the_rim_of_a_ball_and_not_its_middle():
+def test_a_wall_lights_the_rim_of_a_ball_and_not_its_middle() -> None:
     scene = before_wall(sphere(0.04), lamp((0.1, 0, 0)), wall=0.5)
     picture = render(LENS, scene)
     more = (picture.light - render_direct(scene))[0]
@@ -129,7 +129,7 @@ def test_a_wall_lights_the_rim_of_a_ball_and_not_its_middle():
 
 
 @pytest.mark.parametrize("name", sorted(SHAPES))
-def test_no_surface_gives_back_more_than_it_gets(name):
+def test_no_surface_gives_back_more_than_it_gets(name: str) -> None:
     shape = SHAPES[name](0.05)
     waves = grain(shape.texture_length_m, np.random.default_rng(1))
     textured = Shape(shape.note, shape.bound_m, shape.pieces, shape.albedo, shape.texture, shape.texture_length_m, waves)
@@ -137,7 +137,7 @@ def test_no_surface_gives_back_more_than_it_gets(name):
     assert 0.3 < reflectance.min() <= reflectance.max() < 0.95
 
 
-def test_hollows_of_a_relief_gain_light_by_a_share_of_what_the_rest_has():
+def test_hollows_of_a_relief_gain_light_by_a_share_of_what_the_rest_has() -> None:
     scene = before_wall(SHAPES["relief"](0.06), lamp((0.12, 0.02, 0.0)), wall=0.3)
     before, after = render_direct(scene)[0], render(LENS, scene)
     more, on = after.light[0] - before, after.mask
@@ -147,7 +147,7 @@ def test_hollows_of_a_relief_gain_light_by_a_share_of_what_the_rest_has():
     assert np.median(more[flat] / before[flat]) < 0.1
 
 
-def test_means_over_nodes_keep_to_their_side():
+def test_means_over_nodes_keep_to_their_side() -> None:
     rng = np.random.default_rng(5)
     x = rng.uniform(-0.02, 0.02, (400, 3)) * [1, 1, 0] + [0, 0, 0.3]
     on = np.arange(400) < 200

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import hashlib
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -50,7 +52,7 @@ def made(tmp_path: Path, panel: str, recipe: Recipe = SMALL, name: str = "rig") 
     return tmp_path / name
 
 
-def test_every_bundled_rig_is_read():
+def test_every_bundled_rig_is_read() -> None:
     assert {"lightpanel-6", "lightpanel-12", "dome", "robot-camera"} <= set(rig_names())
     assert rig_file(None).parent.name == "lightpanel-6"
     for name in rig_names():
@@ -58,14 +60,14 @@ def test_every_bundled_rig_is_read():
 
 
 @pytest.mark.parametrize(("name", "distance_m", "count"), [("lightpanel-6", 0.350, 6), ("lightpanel-12", 0.400, 12)])
-def test_wings_of_the_bundled_panels_meet_at_their_distance(name, distance_m, count):
+def test_wings_of_the_bundled_panels_meet_at_their_distance(name: str, distance_m: float, count: int) -> None:
     rig = read_rig(rig_file(name)).rig
     assert len(rig.lights) == count
     for light in rig.lights.values():
         assert working_distance(rig.model_copy(update={"lights": {"one": light}})) == pytest.approx(distance_m, abs=5e-5)
 
 
-def test_the_demo_rig_travels_with_its_truth():
+def test_the_demo_rig_travels_with_its_truth() -> None:
     demo = folder("calib_data") / "demo_rig"
     rig = read_rig(demo / "panel.yaml").rig
     for sphere in rig.spheres.values():
@@ -78,7 +80,7 @@ def test_the_demo_rig_travels_with_its_truth():
 
 
 @pytest.mark.slow
-def test_a_seed_gives_the_same_bytes_and_another_seed_others(tmp_path):
+def test_a_seed_gives_the_same_bytes_and_another_seed_others(tmp_path: Path) -> None:
     first, again = made(tmp_path, DOME, name="first"), made(tmp_path, DOME, name="again")
     other = made(tmp_path, DOME, Recipe(seed=6, image_size=SMALL.image_size), name="other")
     assert digests(first) == digests(again)
@@ -86,7 +88,7 @@ def test_a_seed_gives_the_same_bytes_and_another_seed_others(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_dome_needs_neither_board_nor_mocap(tmp_path):
+def test_a_dome_needs_neither_board_nor_mocap(tmp_path: Path) -> None:
     rig = made(tmp_path, DOME)
     assert not (rig / "truth" / "handeye.yaml").exists()
     assert "LENSMODEL_OPENCV5" in (rig / "camera.cameramodel").read_text()
@@ -98,7 +100,7 @@ def test_a_dome_needs_neither_board_nor_mocap(tmp_path):
     assert short.max() < 255 == long.max()
 
 
-def test_a_robot_states_one_pose_an_image(tmp_path):
+def test_a_robot_states_one_pose_an_image(tmp_path: Path) -> None:
     panel = rig_file("robot-camera").read_text().replace("direction: H_OP  ", "direction: H_PO  ")
     rig = made(tmp_path, panel)
     rows = list(csv.DictReader((rig / "robot.csv").read_text().splitlines()))
@@ -110,7 +112,7 @@ def test_a_robot_states_one_pose_an_image(tmp_path):
     np.testing.assert_allclose(se3.inv(H_PO)[:, :3, 3], t_true, atol=0.0015)
 
 
-def test_images_listed_by_name_are_made_by_name(tmp_path):
+def test_images_listed_by_name_are_made_by_name(tmp_path: Path) -> None:
     rig = made(tmp_path, "lpcal: 1\ncamera: {images: [a/one.png, a/two.tif, b/three.png]}\nboard: {corners: [6, 4], square: 30 mm}\n")
     assert all((rig / name).is_file() for name in ("a/one.png", "a/two.tif", "b/three.png"))
     rows = (rig / "truth" / "H_CB.csv").read_text().splitlines()
@@ -118,7 +120,7 @@ def test_images_listed_by_name_are_made_by_name(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_charuco_board_is_found_in_its_images(tmp_path):
+def test_a_charuco_board_is_found_in_its_images(tmp_path: Path) -> None:
     charuco = "kind: charuco\n  marker: 20 mm\n  dictionary: DICT_4X4_50"
     panel = rig_file("robot-camera").read_text().replace("kind: chessboard", charuco)
     rig = made(tmp_path, panel, Recipe(seed=5, image_size=(640, 420), stations=3, sweep_frames=0))
@@ -143,13 +145,15 @@ def test_a_charuco_board_is_found_in_its_images(tmp_path):
         ("lpcal: 1\ncamera: {images: 's/??.png'}\nboard: {corners: [9, 6], square: 25 mm}\n", "cannot be numbered"),
     ],
 )
-def test_what_cannot_be_simulated_is_said_before_anything_is_written(lpcal, tmp_path, panel, words):
+def test_what_cannot_be_simulated_is_said_before_anything_is_written(
+    lpcal: Callable[..., Any], tmp_path: Path, panel: str, words: str
+) -> None:
     (tmp_path / "panel.yaml").write_text(panel)
     code, _, err = lpcal("simulate", "--rig", tmp_path, tmp_path / "out")
     assert (code, words in err, (tmp_path / "out").exists()) == (3, True, False)
 
 
-def test_a_folder_that_is_there_is_left_alone(lpcal, tmp_path):
+def test_a_folder_that_is_there_is_left_alone(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "kept.txt").write_text("mine")
     code, _, err = lpcal("simulate", tmp_path)
     assert code == 3
@@ -161,19 +165,19 @@ def test_a_folder_that_is_there_is_left_alone(lpcal, tmp_path):
 @pytest.mark.parametrize(
     "words", [["--size", "640"], ["--size", "20x20"], ["--stations", "2"], ["--seed", "-1"], ["--object", "knot"], ["--session", "3"]]
 )
-def test_words_out_of_range_are_usage(lpcal, tmp_path, words):
+def test_words_out_of_range_are_usage(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, words: list[str]) -> None:
     code, _, err = lpcal("simulate", *words, tmp_path / "out")
     assert code == 2
     assert words[0] in err
 
 
-def test_an_unknown_rig_lists_the_known_ones(lpcal, tmp_path):
+def test_an_unknown_rig_lists_the_known_ones(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     code, _, err = lpcal("simulate", "--rig", "lightpannel", tmp_path / "out")
     assert code == 3
     assert "lightpanel-6" in err
 
 
-def test_the_command_says_what_it_made(lpcal, tmp_path):
+def test_the_command_says_what_it_made(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     (tmp_path / "panel.yaml").write_text(rig_file("robot-camera").read_text())
     code, out, _ = lpcal("simulate", "--rig", tmp_path / "panel.yaml", "--size", "240x160", "--stations", "4", tmp_path / "out")
     assert code == 0
@@ -182,7 +186,7 @@ def test_the_command_says_what_it_made(lpcal, tmp_path):
 
 
 @pytest.mark.parametrize("name", sorted(SHAPES))
-def test_rays_stop_at_the_first_crossing(name):
+def test_rays_stop_at_the_first_crossing(name: str) -> None:
     """A signed distance that were too large anywhere would let a ray jump through a thin part: dense sampling shows none before the hit."""
     shape = SHAPES[name](0.05)
     rng = np.random.default_rng(3)
@@ -202,7 +206,7 @@ def test_rays_stop_at_the_first_crossing(name):
     assert np.mean(np.sum(shape.normal(x_S) * d_S[hit], axis=1) < 0.02) > 0.99
 
 
-def test_a_point_behind_a_ball_is_in_its_shadow():
+def test_a_point_behind_a_ball_is_in_its_shadow() -> None:
     ball = SHAPES["pair"](0.05)
     behind, beside = np.array([[-0.05 * 0.5, 0.25 * 0.05, 0.3]]), np.array([[0.3, 0.3, 0.3]])
     lamp = np.array([[-0.025, 0.0125, -0.3]])
@@ -210,7 +214,7 @@ def test_a_point_behind_a_ball_is_in_its_shadow():
     assert not blocked(ball, beside, lamp)[0]
 
 
-def test_the_lens_agrees_with_opencv_both_ways():
+def test_the_lens_agrees_with_opencv_both_ways() -> None:
     lens = Lens((640, 400), np.array([[680.0, 0, 322], [0, 681, 197], [0, 0, 1]]), np.array([-0.28, 0.1, 0.0007, -0.0004, 0.01]))
     x_C = np.random.default_rng(0).uniform([-0.4, -0.25, 1], [0.4, 0.25, 1], (300, 3)) * np.random.default_rng(1).uniform(0.2, 2, (300, 1))
     theirs = cv2.projectPoints(x_C, np.zeros(3), np.zeros(3), lens.K, lens.distortion)[0].reshape(-1, 2)
@@ -220,7 +224,7 @@ def test_the_lens_agrees_with_opencv_both_ways():
     np.testing.assert_allclose(fine[4, 7], lens.grid()[1, 2], atol=1e-12)
 
 
-def test_mirrored_rays_reach_the_led():
+def test_mirrored_rays_reach_the_led() -> None:
     rng = np.random.default_rng(4)
     centre_C, led_C = np.array([0.03, -0.02, 0.36]), rng.uniform([-0.2, -0.2, 0], [0.2, 0.2, 0.05], (50, 3))
     P = mirror_point(centre_C, 0.025, led_C)
@@ -231,7 +235,7 @@ def test_mirrored_rays_reach_the_led():
     np.testing.assert_allclose(r, to, atol=1e-9)
 
 
-def test_a_spot_keeps_its_place_and_its_flux():
+def test_a_spot_keeps_its_place_and_its_flux() -> None:
     light = np.zeros((40, 60))
     splat(light, np.array([31.37, 18.81]), 5.0, 0.7)
     v, u = np.mgrid[:40, :60]
@@ -242,7 +246,7 @@ def test_a_spot_keeps_its_place_and_its_flux():
 
 
 @pytest.mark.parametrize("gamma", [1.0, 2.2])
-def test_the_sensor_stores_linear_light_by_black_white_and_gamma(gamma):
+def test_the_sensor_stores_linear_light_by_black_white_and_gamma(gamma: float) -> None:
     response = Response(SensorRecipe(read_noise_e=5), np.ones((200, 200)), black=0.02, white=0.9, gamma=gamma)
     rng = np.random.default_rng(0)
     for light in (0.0, 0.1, 0.6):
@@ -255,14 +259,14 @@ def test_the_sensor_stores_linear_light_by_black_white_and_gamma(gamma):
         assert shot.std() / 0.88 == pytest.approx(np.sqrt(0.5 * 30000) / 30000, rel=0.25)
 
 
-def test_swapped_markers_turn_the_body_and_fit_worse():
+def test_swapped_markers_turn_the_body_and_fit_worse() -> None:
     marker_P = np.array([[81, 0, 4], [24, 79, 12], [-74, 41, 4], [-58, -62, 20], [35, -80, 7]]) / 1000
     H_flip, error_m = swapped_fit(marker_P)
     assert np.degrees(se3.angle_rad(H_flip[:3, :3])) > 10
     assert 0.001 < error_m < 0.04
 
 
-def test_leds_stand_in_rings():
+def test_leds_stand_in_rings() -> None:
     directions = ring_directions(19)
     polar = np.degrees(np.arccos(directions[:, 2]))
     np.testing.assert_allclose(np.sort(polar), [0] + [11.25] * 6 + [22.5] * 12, atol=1e-6)

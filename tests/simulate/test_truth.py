@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -53,7 +54,7 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return here / "rig"
 
 
-def truth(rig: Path, name: str) -> dict:
+def truth(rig: Path, name: str) -> dict[str, Any]:
     return yaml.safe_load((rig / "truth" / f"{name}.yaml").read_text())
 
 
@@ -75,7 +76,7 @@ def board_points(rig: Path) -> np.ndarray:
     return np.stack([0.1 * (u + 1), 0.0625 * (v + 1), board["bow_m"] * (z - z.mean())], axis=-1).reshape(-1, 3)
 
 
-def test_rendered_corners_are_the_projected_ones(rig):
+def test_rendered_corners_are_the_projected_ones(rig: Path) -> None:
     K, distortion = lens(rig)
     images, H_CB = poses(rig / "truth" / "H_CB.csv")
     errors = []
@@ -93,7 +94,7 @@ def test_rendered_corners_are_the_projected_ones(rig):
     assert np.abs(errors).max() < 0.35
 
 
-def test_edges_do_not_stand_in_steps():
+def test_edges_do_not_stand_in_steps() -> None:
     """Without noise and stored bits corners are where they should be: sixteen plain samples a pixel leave 0.12 px."""
     board = BoardSection(corners=(9, 6), square="25 mm")
     built = build(Rig(lpcal=1, board=board), RECIPE)
@@ -110,7 +111,7 @@ def test_edges_do_not_stand_in_steps():
     assert np.nanmax(np.abs(errors)) < 0.03
 
 
-def test_the_first_corner_is_the_one_whose_outer_square_is_black(rig):
+def test_the_first_corner_is_the_one_whose_outer_square_is_black(rig: Path) -> None:
     K, distortion = lens(rig)
     images, H_CB = poses(rig / "truth" / "H_CB.csv")
     outside_B = np.array([[-0.0125, -0.0125, 0], [0.2125, 0.1375, 0]])
@@ -122,7 +123,7 @@ def test_the_first_corner_is_the_one_whose_outer_square_is_black(rig):
         assert int(grey[v0, u0]) + 30 < int(grey[v1, u1])
 
 
-def test_the_poses_chain_to_the_board_in_the_room(rig):
+def test_the_poses_chain_to_the_board_in_the_room(rig: Path) -> None:
     handeye = truth(rig, "handeye")
     images, H_OP = poses(rig / "truth" / "H_OP.csv")
     also, H_CB = poses(rig / "truth" / "H_CB.csv")
@@ -131,7 +132,7 @@ def test_the_poses_chain_to_the_board_in_the_room(rig):
     np.testing.assert_allclose(np.array(handeye["H_PD"]) @ np.array(handeye["H_DC"]), handeye["H_PC"], atol=1e-12)
 
 
-def test_the_recording_is_the_true_motion_but_for_noise_and_named_failures(rig):
+def test_the_recording_is_the_true_motion_but_for_noise_and_named_failures(rig: Path) -> None:
     handeye = truth(rig, "handeye")
     rows = list(csv.reader((rig / "mocap.csv").read_text().splitlines()))[7:]
     kept = np.array([[float(cell) for cell in row[1:10]] for row in rows if row[2]])
@@ -156,7 +157,7 @@ def test_the_recording_is_the_true_motion_but_for_noise_and_named_failures(rig):
             assert np.min(np.abs(kept[:, 0] - t_s[k])) > 0.05
 
 
-def test_the_field_is_the_sum_over_the_leds(rig):
+def test_the_field_is_the_sum_over_the_leds(rig: Path) -> None:
     leds = np.load(rig / "truth" / "leds.npz")
     rows = list(csv.DictReader((rig / "truth" / "field.csv").read_text().splitlines()))
     assert {row["light"] for row in rows} == {"L0", "L1", "L2"}
@@ -171,7 +172,7 @@ def test_the_field_is_the_sum_over_the_leds(rig):
         np.testing.assert_allclose([float(row[key]) for key in ("dx", "dy", "dz")], E / np.linalg.norm(E), atol=1e-7)
 
 
-def test_lights_follow_the_wings_within_tolerance(rig):
+def test_lights_follow_the_wings_within_tolerance(rig: Path) -> None:
     H_CD = se3.inv(np.array(truth(rig, "handeye")["H_DC"]))
     for light, azimuth_deg in zip(truth(rig, "lights")["lights"], (0, 120, 240), strict=True):
         a, g = np.radians(light["azimuth_deg"]), np.radians(light["joint_angle_deg"])
@@ -185,7 +186,7 @@ def test_lights_follow_the_wings_within_tolerance(rig):
         assert max(np.abs(off)) > 0
 
 
-def test_highlights_stand_where_the_mirror_law_puts_them(rig):
+def test_highlights_stand_where_the_mirror_law_puts_them(rig: Path) -> None:
     K, distortion = lens(rig)
     leds, ball = np.load(rig / "truth" / "leds.npz"), truth(rig, "spheres")["chrome"]
     centre_C = np.array(ball["centre_m"])
@@ -203,7 +204,7 @@ def test_highlights_stand_where_the_mirror_law_puts_them(rig):
         assert np.linalg.norm(found - expected) < 0.25  # the LEDs that face the sphere weigh more than the others
 
 
-def test_matte_pixels_are_lambertian_in_the_true_field(rig):
+def test_matte_pixels_are_lambertian_in_the_true_field(rig: Path) -> None:
     """Reads stored numbers back to light: black level, flat field and exposure are one factor for all pixels of all lights."""
     K, distortion = lens(rig)
     leds, ball = np.load(rig / "truth" / "leds.npz"), truth(rig, "spheres")["matte"]
@@ -235,7 +236,7 @@ def test_matte_pixels_are_lambertian_in_the_true_field(rig):
     assert 0.005 < spread < 0.06  # a few percent of texture and noise, no more
 
 
-def test_surface_truth_is_a_surface(rig):
+def test_surface_truth_is_a_surface(rig: Path) -> None:
     K, distortion = lens(rig)
     true = np.load(rig / "truth" / "objects" / "pair.npz")
     mask, component = true["mask"], true["component"]
@@ -255,7 +256,7 @@ def test_surface_truth_is_a_surface(rig):
     assert np.all(np.sum(true["normals"][mask] * x_C[mask], axis=-1) < 1e-3)
 
 
-def test_shadows_fall_where_the_object_stands_between(rig):
+def test_shadows_fall_where_the_object_stands_between(rig: Path) -> None:
     """The wall behind is lit by L0 (from the right) save for one patch, which lies left of the object."""
     lit = cv2.imread(str(rig / "objects/pair/L0.png"), 0).astype(float) - cv2.imread(str(rig / "objects/pair/ambient.png"), 0)
     mask = np.load(rig / "truth" / "objects" / "pair.npz")["mask"]

@@ -115,7 +115,8 @@ def exposed(light: np.ndarray, seed: int, *, noise: float = 2.0, bits: int = 8) 
 def poses(count: int, seed: int, pattern: Pattern = Pattern(), studio: Studio = Studio()) -> np.ndarray:
     """H_CB (count, 4, 4) with the whole board in the picture, tilted up to 40 degrees, rolled by any angle under 60."""
     rng = np.random.default_rng(seed)
-    points, found = pattern.points(), []
+    points = pattern.points()
+    found: list[np.ndarray] = []
     middle = points.mean(axis=0)
     while len(found) < count:
         tilt = rng.uniform(8, 40) * np.pi / 180

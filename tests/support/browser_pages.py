@@ -54,7 +54,8 @@ class Opened:
     """A page, what it said, and what it asked of the network."""
 
     def __init__(self, page: Any) -> None:
-        self.page, self.said = page, []
+        self.page = page
+        self.said: list[str] = []
         page.on("pageerror", lambda error: self.said.append(str(error)))
         page.on("console", lambda line: self.said.append(line.text) if line.type == "error" else None)
         page.on("request", lambda asked: None if asked.url.startswith(("file:", "data:", "blob:")) else self.said.append(asked.url))

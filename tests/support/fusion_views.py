@@ -46,7 +46,7 @@ class Scene:
 @cache
 def scene(kind: str = "stone", count: int = 10, seed: int = 3) -> Scene:
     """Views all round an object."""
-    shape = shapes.SHAPES.get(kind, shapes.ROUND.get(kind))(0.045)
+    shape = {**shapes.ROUND, **shapes.SHAPES}[kind](0.045)
     rng = np.random.default_rng(seed)
     H_OS = se3.transform(se3.rotation(np.array([np.pi, 0.3, 0.0])), np.array([1.0, 1.2, 0.4]))
     H_PC = se3.exp(np.array([0.02, 0.03, -0.01, 0.004, -0.003, 0.01]))
@@ -89,19 +89,19 @@ def _seen(shape: shapes.Shape, H_CS: np.ndarray, rng: np.random.Generator) -> Su
     depth, normals, albedo = np.full(len(t), np.nan), np.full((len(t), 3), np.nan), np.full(len(t), np.nan)
     depth[on], normals[on] = t[on] * d_C[on, 2], se3.rotate(H_CS, shape.normal(x_S))
     albedo[on] = 0.6 + 0.2 * np.sin(x_S[:, 0] / 0.004)
-    mask, depth = on.reshape(height, width), depth.reshape(height, width)
+    mask, depth_map = on.reshape(height, width), depth.reshape(height, width)
     grown = np.exp(rng.normal(0, SCALE_STD) + BEND_STD * _smooth(rng, 18) + 1e-4 * rng.standard_normal(mask.shape))
     tilt = np.stack([np.radians(0.8) * _smooth(rng, 4) for _ in range(3)], axis=-1)
     normals = normals.reshape(height, width, 3) + tilt
     normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
     breaks = np.ones((2, height, width), bool)
-    breaks[0, :, :-1] = ~(np.abs(np.diff(depth, axis=1)) < 0.006)
-    breaks[1, :-1] = ~(np.abs(np.diff(depth, axis=0)) < 0.006)
+    breaks[0, :, :-1] = ~(np.abs(np.diff(depth_map, axis=1)) < 0.006)
+    breaks[1, :-1] = ~(np.abs(np.diff(depth_map, axis=0)) < 0.006)
     single = np.float32
     return Surface(
         name="view",
         normals=normals.astype(single),
-        depth=(depth * grown).astype(single),
+        depth=(depth_map * grown).astype(single),
         albedo=(albedo.reshape(height, width) * np.exp(rng.normal(0, 0.05))).astype(single),
         mask=mask,
         normal_std_deg=np.where(mask, single(1.0), single(np.nan)),
@@ -109,7 +109,7 @@ def _seen(shape: shapes.Shape, H_CS: np.ndarray, rng: np.random.Generator) -> Su
         lights_used=np.where(mask, 6, 0).astype(np.uint8),
         component=mask.astype(np.uint8),
         rays_C=rays,
-        components=(Component(1, int(mask.sum()), float(np.nanmedian(depth)), SCALE_STD),),
+        components=(Component(1, int(mask.sum()), float(np.nanmedian(depth_map)), SCALE_STD),),
         breaks=breaks,
     )
 

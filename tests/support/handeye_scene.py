@@ -6,12 +6,16 @@ projected through the true lens and drop out, images are stamped with jitter, th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Board, BoardPoses, PoseStream
 
@@ -54,7 +58,9 @@ class Session:
     """(N,) whether the view's panel pose was swapped."""
 
 
-def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0, *, fixed=False) -> Session:
+def static_session(
+    rng: np.random.Generator, views: int = 30, turn_deg: float = 25.0, noise: Noise = TYPICAL, flips: float = 0.0, *, fixed: bool = False
+) -> Session:
     """Views at rest, each with its own pose; `fixed`: the camera stands in the room and the body carries the board."""
     H_PC, H_OB, H_CB = _scene(rng, views, np.radians(turn_deg))
     if fixed:
@@ -67,7 +73,7 @@ def static_session(rng, views=30, turn_deg=25.0, noise=TYPICAL, flips=0.0, *, fi
     return Session(boards, camera, H_OP, None, H_PC, H_OB, 0.0, flipped)
 
 
-def robot_session(rng, turn_deg=0.03, shift_mm=0.3) -> Session:
+def robot_session(rng: np.random.Generator, turn_deg: float = 0.03, shift_mm: float = 0.3) -> Session:
     """Thirty views whose panel poses are off by a random linear function of the pose, of these rms sizes (a length of three axes)."""
     session = static_session(rng, 30, 25.0)
     H = session.H_OP
@@ -82,7 +88,16 @@ def robot_session(rng, turn_deg=0.03, shift_mm=0.3) -> Session:
     return replace(session, H_OP=moved)
 
 
-def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every_s=1 / FRAME_HZ, *, fixed=False) -> Session:
+def moving_session(
+    rng: np.random.Generator,
+    views: int = 30,
+    noise: Noise = TYPICAL,
+    flips: float = 0.0,
+    turn_deg: float = 20.0,
+    every_s: float = 1 / FRAME_HZ,
+    *,
+    fixed: bool = False,
+) -> Session:
     """The panel waved by hand before the board, camera and mocap each on its own clock; `fixed` as of `static_session`."""
     H_PC, H_OB, H_0 = _scene(rng, 1, 0.05)
     if fixed:
@@ -104,18 +119,18 @@ def moving_session(rng, views=30, noise=TYPICAL, flips=0.0, turn_deg=20.0, every
     return Session(boards, camera, H_OP[:0], stream, H_PC, H_OB, offset, np.zeros(views, dtype=bool))
 
 
-def _fixed(rng):
+def _fixed(rng: np.random.Generator) -> tuple[Array, Array]:
     """H_OC of a camera in the room, H_PB of a board on the body."""
     H_OC = se3.exp(np.concatenate([rng.normal(0, 0.5, 3), np.zeros(3)]))
     H_OC[:3, 3] = rng.uniform(0.7, 2.5) * se3.rotation(rng.normal(0, 2, 3))[:, 0]
     return H_OC, se3.exp(np.concatenate([rng.normal(0, 0.4, 3), rng.normal(0, 0.05, 3)]))
 
 
-def _poses(H_PC, H_OB, H_CB, *, fixed):
+def _poses(H_PC: Array, H_OB: Array, H_CB: Array, *, fixed: bool) -> Array:
     return H_PC @ H_CB @ se3.inv(H_OB) if fixed else H_OB @ se3.inv(H_PC @ H_CB)
 
 
-def _scene(rng, views, turn_rad):
+def _scene(rng: np.random.Generator, views: int, turn_rad: float) -> tuple[Array, Array, Array]:
     H_PC = se3.exp(np.concatenate([rng.normal(0, 0.4, 3), rng.normal(0, 0.03, 3)]))
     H_OB = se3.exp(np.concatenate([rng.normal(0, 0.5, 3), rng.normal(0, 0.6, 3)]))
     centre_B = np.array([0.1, 0.0625, 0.0])
@@ -124,21 +139,21 @@ def _scene(rng, views, turn_rad):
     return H_PC, H_OB, se3.transform(R, middle_C - R @ centre_B)
 
 
-def _motion(rng, turn_rad):
+def _motion(rng: np.random.Generator, turn_rad: float) -> Callable[[Array], Array]:
     """A smooth motion of the board before the camera: sums of sines about the board's middle."""
     frequency = rng.uniform(0.3, 1.0, (3, 6))
     phase = rng.uniform(0, 2 * np.pi, (3, 6))
     size = np.array([turn_rad] * 3 + [0.05, 0.03, 0.06]) / 1.5
     middle = se3.transform(np.eye(3), np.array([0.0, 0.0, 0.45]))
 
-    def at(t):
+    def at(t: Array) -> Array:
         xi = size * np.sum(np.sin(2 * np.pi * frequency * np.asarray(t)[:, None, None] + phase), axis=1)
         return middle @ se3.exp(xi) @ se3.inv(middle)
 
     return at
 
 
-def _measured(rng, H, noise):
+def _measured(rng: np.random.Generator, H: Array, noise: Noise) -> Array:
     """Poses with white noise, and a share of it that drifts."""
     sigma = np.array([noise.mocap_rad] * 3 + [noise.mocap_m] * 3)
     white = rng.normal(0, 1, (len(H), 6))
@@ -153,7 +168,7 @@ def _measured(rng, H, noise):
     return found
 
 
-def _seen(rng, H_CB, noise, t_camera_s):
+def _seen(rng: np.random.Generator, H_CB: Array, noise: Noise, t_camera_s: Array | None) -> tuple[Camera, BoardPoses]:
     """The camera as handed over, and the boards as found with it."""
     points_B = Board((9, 6), (0.025, 0.025)).points_B()
     u, v = (points_B[:, 0] - 0.1) / 0.1, (points_B[:, 1] - 0.0625) / 0.0625
@@ -169,7 +184,7 @@ def _seen(rng, H_CB, noise, t_camera_s):
     return camera, BoardPoses(names, t_camera_s, poses, corners, points_B)
 
 
-def _pose(corners, points_B, camera, start):
+def _pose(corners: Array, points_B: Array, camera: Camera, start: Array) -> Array:
     """H_CB by Gauss-Newton from the truth, with the camera as handed over."""
     seen = np.isfinite(corners).all(axis=1)
     H = start
@@ -181,7 +196,15 @@ def _pose(corners, points_B, camera, start):
     return H
 
 
-def stop_and_shoot(rng, views=24, turn_deg=25.0, noise=TYPICAL, dwell_s=1.0, move_s=0.6, hz=MOCAP_HZ):
+def stop_and_shoot(
+    rng: np.random.Generator,
+    views: int = 24,
+    turn_deg: float = 25.0,
+    noise: Noise = TYPICAL,
+    dwell_s: float = 1.0,
+    move_s: float = 0.6,
+    hz: float = MOCAP_HZ,
+) -> tuple[Session, npt.NDArray[Any]]:
     """A static session as a recording sees it: the panel rests, is moved on, rests; and the truth of each sample.
 
     Returns the session with a stream and camera times (offset 0.07 s), and for every sample the view that it belongs to.

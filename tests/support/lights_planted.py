@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -30,7 +31,7 @@ BLACK = 0.008
 type Image = np.ndarray
 
 
-def truth(name: str) -> dict:
+def truth(name: str) -> dict[str, Any]:
     return yaml.safe_load((RIG / "truth" / f"{name}.yaml").read_text())
 
 
@@ -64,12 +65,14 @@ def alter(folder: Path, sphere: str, change: Callable[[Image], Image], names: Ca
     """Change the stored images of a sphere whose names (without ending) are meant."""
     for path in (folder / "spheres" / sphere).glob("*.png"):
         if names(path.stem):
-            stored = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
-            cv2.imwrite(str(path), np.clip(np.rint(change(stored.astype(float))), 0, 255).astype(np.uint8))
+            cv2.imwrite(str(path), np.clip(np.rint(change(image(folder, sphere, path.stem))), 0, 255).astype(np.uint8))
 
 
 def image(folder: Path, sphere: str, name: str) -> Image:
-    return cv2.imread(str(folder / "spheres" / sphere / f"{name}.png"), cv2.IMREAD_UNCHANGED).astype(float)
+    path = folder / "spheres" / sphere / f"{name}.png"
+    stored = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    assert stored is not None, path
+    return stored.astype(float)
 
 
 def exchange(folder: Path, sphere: str, order: dict[str, str]) -> None:

@@ -89,6 +89,8 @@ def _signals(scene: Scene, lights: Calibration, dx: float, dy: float) -> np.ndar
     v = -x / np.sqrt(_dot(x, x))[..., None]
     found = []
     for light in lights.lights:
+        assert light.axis_C is not None
+        assert light.source_C is not None
         side = np.cross(light.axis_C, [0, 1, 0.3])
         side /= np.linalg.norm(side)
         up = np.cross(light.axis_C, side)

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 
 
 def motive(
-    path: Path, t, H_OP, *, version="1.23", units="Meters", rotation="Quaternion", bodies=("Panel",), lost=(), timecode=False
+    path: Path,
+    t: Array,
+    H_OP: Array,
+    *,
+    version: str = "1.23",
+    units: str = "Meters",
+    rotation: Order | Literal["Quaternion"] = "Quaternion",
+    bodies: tuple[str, ...] = ("Panel",),
+    lost: Collection[int] = (),
+    timecode: bool = False,
 ) -> Path:
     """A file in the manner of Motive: header rows of the version, a mean marker error, one marker, an unlabeled one."""
     scale = {"Meters": 1.0, "Centimeters": 100.0, "Millimeters": 1000.0}[units]
@@ -52,7 +64,11 @@ def motive(
     return path
 
 
-def euler_deg(R, order):
+type Order = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
+"""Moving axes in the order in which they turn."""
+
+
+def euler_deg(R: Array, order: Order) -> list[float]:
     """Angles about X, Y, Z (in this order of columns) for moving axes in the given order."""
     from scipy.spatial.transform import Rotation
 

@@ -102,7 +102,7 @@ def documents(seed: int = 0) -> dict[str, Any]:
     ]
     std = {"azimuth_deg": 0.5, "joint_angle_deg": 1.0, "d1_m": 5e-4, "d2_m": 5e-4}
     covariance = np.diag([1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4]) ** 2
-    body = {
+    body: dict[str, dict[str, Any]] = {
         "camera": {
             "image_size": [640, 480],
             "model": "opencv4",

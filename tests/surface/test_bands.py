@@ -23,17 +23,17 @@ DOME = lpcal.Calibration("dome", tuple(lpcal.Light(f"L{k}", s, np.ones(1)) for k
 
 
 @pytest.mark.parametrize(("pixels", "lights"), [(1, 1), (100_000, 6), (3_000, 96), (5, 10 * bands.SAMPLES)])
-def test_bands_hold_every_pixel_once_and_no_more_samples_than_fit(pixels, lights):
+def test_bands_hold_every_pixel_once_and_no_more_samples_than_fit(pixels: int, lights: int) -> None:
     found = bands.bands(pixels, lights)
     assert [pixel for one in found for pixel in range(pixels)[one]] == list(range(pixels))
     assert max(one.stop - one.start for one in found) * lights <= max(bands.SAMPLES, lights)
 
 
-def test_work_is_shared_by_no_more_threads_than_asked_and_kept_in_order():
+def test_work_is_shared_by_no_more_threads_than_asked_and_kept_in_order() -> None:
     for count in (1, 2, 5):
         seen = set()
 
-        def work(item, seen=seen):
+        def work(item: int, seen: set[int] = seen) -> int:
             seen.add(threading.get_ident())
             return bands.shared(lambda one: 2 * one, [item])[0]
 
@@ -43,7 +43,7 @@ def test_work_is_shared_by_no_more_threads_than_asked_and_kept_in_order():
 
 
 @pytest.mark.parametrize("scene", [Scene()])
-def test_any_number_of_cores_gives_the_same_bytes(scene, monkeypatch):
+def test_any_number_of_cores_gives_the_same_bytes(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bands, "SAMPLES", 5000)
     lights = calibration()
     mask = truth(scene)[0]
@@ -56,7 +56,7 @@ def test_any_number_of_cores_gives_the_same_bytes(scene, monkeypatch):
 
 
 @pytest.mark.parametrize("kind", ["point", "cluster", "distant"])
-def test_a_light_taken_as_distant_is_everywhere_as_it_is_at_the_focus(kind):
+def test_a_light_taken_as_distant_is_everywhere_as_it_is_at_the_focus(kind: str) -> None:
     light = calibration().lights[0]
     if kind == "cluster":
         H_CL = np.eye(4)
@@ -87,7 +87,7 @@ def ball(size: int, middle: tuple[int, int], radius: float) -> tuple[np.ndarray,
 
 
 @pytest.mark.parametrize("middle", [(30, 40), (70, 90), (100, 20)])
-def test_a_part_about_the_mask_is_put_back_where_it_was(middle):
+def test_a_part_about_the_mask_is_put_back_where_it_was(middle: tuple[int, int]) -> None:
     mask, n, images = ball(120, middle, 18.0)
     surface = lpcal.reconstruct(images, DOME, ambient=np.full(mask.shape, 0.02), mask=mask)
     assert surface.normals.shape == (*mask.shape, 3)
@@ -100,7 +100,7 @@ def test_a_part_about_the_mask_is_put_back_where_it_was(middle):
 
 
 @pytest.mark.parametrize("at", [(0, 0), (5, 60), (39, 79)])
-def test_a_part_has_its_margin_within_the_picture(at):
+def test_a_part_has_its_margin_within_the_picture(at: tuple[int, int]) -> None:
     mask = np.zeros((40, 80), bool)
     mask[at] = True
     part = Crop.about(mask)
@@ -110,7 +110,7 @@ def test_a_part_has_its_margin_within_the_picture(at):
     assert Crop.about(np.zeros((4, 5), bool)).of(np.ones((4, 5))).shape == (4, 5)
 
 
-def test_the_rounds_give_the_same_however_much_is_empty_about_the_object(monkeypatch):
+def test_the_rounds_give_the_same_however_much_is_empty_about_the_object(monkeypatch: pytest.MonkeyPatch) -> None:
     lights, about = calibration(), Scene(radius=0.018)
     mask = truth(about)[0]
     raw = draw(about, lights)

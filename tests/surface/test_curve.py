@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ import pytest
 import lit_scene
 from lit_heights import Drawn, Recipe
 from lit_heights import draw as draw_large
+from lit_scene import Scene
 from lpcal.api.curve import curve_of, settle_sensor
 from lpcal.detect.radiometry import Sensor
 from lpcal.errors import DisagreementError
@@ -33,7 +37,7 @@ TAG = ToneClaim("carry an sRGB chunk", "srgb")
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("gamma", [1.0, 1.6, 2.2])
-def test_the_exponent_is_found(gamma, seed):
+def test_the_exponent_is_found(gamma: float, seed: int) -> None:
     rng = np.random.default_rng(seed)
     S = rng.normal(size=(14, 3)) * 0.4 + [0, 0, -1]
     n = np.array([0, 0, -1.0]) + 0.4 * rng.normal(size=(400, 3))
@@ -61,7 +65,7 @@ CURVED = {
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("kind", CURVED)
-def test_a_curve_that_nobody_states_is_refused_with_the_cure(kind, seed):
+def test_a_curve_that_nobody_states_is_refused_with_the_cure(kind: str, seed: int) -> None:
     drawn = draw(CURVED[kind], seed)
     with pytest.raises(DisagreementError, match="not linear") as stop:
         settle_sensor(drawn.raw, drawn.calibration, [])
@@ -71,7 +75,7 @@ def test_a_curve_that_nobody_states_is_refused_with_the_cure(kind, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("recipe", [Recipe(lights=40, gamma=2.2, bumps=8, gloss=0.1), Recipe(lights=8, gamma="srgb", bumps=8, gloss=0.1)])
-def test_a_curve_that_gloss_half_hides_is_said_at_least(recipe, seed):
+def test_a_curve_that_gloss_half_hides_is_said_at_least(recipe: Any, seed: int) -> None:
     drawn = draw(recipe, seed)
     try:
         settled = settle_sensor(drawn.raw, drawn.calibration, [])
@@ -83,7 +87,7 @@ def test_a_curve_that_gloss_half_hides_is_said_at_least(recipe, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("kind", CURVED)
-def test_the_same_curve_stated_is_no_matter(kind, seed):
+def test_the_same_curve_stated_is_no_matter(kind: str, seed: int) -> None:
     drawn = draw(CURVED[kind], seed)
     settled = settle_sensor(drawn.raw, drawn.calibration, [("told", StatedSensor(CURVED[kind].gamma))])
     assert (settled.notes, settled.linear) == ((), True)
@@ -105,7 +109,7 @@ LINEAR = {
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("kind", LINEAR)
-def test_linear_numbers_are_taken_as_they_are(kind, seed):
+def test_linear_numbers_are_taken_as_they_are(kind: str, seed: int) -> None:
     drawn = draw(LINEAR[kind], seed)
     settled = settle_sensor(drawn.raw, drawn.calibration, [])
     assert (settled.notes, settled.linear, settled.used.sensor) == ((), True, Sensor())
@@ -115,7 +119,7 @@ def test_linear_numbers_are_taken_as_they_are(kind, seed):
 @pytest.mark.parametrize(
     "scene", [lit_scene.Scene(), lit_scene.Scene(gloss=0.5), lit_scene.Scene(room=0.25), lit_scene.Scene(albedo=(0.8, 0.5, 0.2))]
 )
-def test_near_lights_a_wall_and_its_shadows_are_no_curve(scene, seed):
+def test_near_lights_a_wall_and_its_shadows_are_no_curve(scene: Scene, seed: int) -> None:
     raw = lit_scene.draw(scene, lit_scene.calibration(8), seed)
     assert settle_sensor(raw, lit_scene.calibration(8), []).notes == ()
     without = settle_sensor(replace(raw, ambient=None, ambient_exposure_s=np.ones(0)), lit_scene.calibration(8), [])
@@ -123,7 +127,7 @@ def test_near_lights_a_wall_and_its_shadows_are_no_curve(scene, seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_near_lights_show_a_curve(seed):
+def test_near_lights_show_a_curve(seed: int) -> None:
     raw = lit_scene.draw(lit_scene.Scene(), lit_scene.calibration(8), seed)
     curved = replace(raw, images=encode(raw.images, 2.2).astype(np.float32), ambient=encode(raw.ambient, 2.2).astype(np.float32))
     with pytest.raises(DisagreementError, match="with gamma 2"):
@@ -131,7 +135,7 @@ def test_near_lights_show_a_curve(seed):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_tag_that_the_object_bears_out_is_followed_and_said(seed):
+def test_a_tag_that_the_object_bears_out_is_followed_and_said(seed: int) -> None:
     drawn = draw(Recipe(gamma="srgb", bumps=4), seed)
     settled = settle_sensor(replace(drawn.raw, claim=TAG), drawn.calibration, [])
     assert settled.used.sensor == Sensor(gamma="srgb")
@@ -140,21 +144,21 @@ def test_a_tag_that_the_object_bears_out_is_followed_and_said(seed):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_tag_on_linear_numbers_is_not_followed(seed):
+def test_a_tag_on_linear_numbers_is_not_followed(seed: int) -> None:
     drawn = draw(Recipe(bumps=4, gloss=0.1), seed)
     settled = settle_sensor(replace(drawn.raw, claim=TAG), drawn.calibration, [])
     assert (settled.used.sensor, settled.notes) == (Sensor(), ())
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_tag_of_another_curve_than_the_objects_is_refused(seed):
+def test_a_tag_of_another_curve_than_the_objects_is_refused(seed: int) -> None:
     drawn = draw(Recipe(gamma=3.0, bumps=4), seed)
     with pytest.raises(DisagreementError, match="not linear"):
         settle_sensor(replace(drawn.raw, claim=ToneClaim("carry a gAMA chunk of gamma 1.8", 1.8)), drawn.calibration, [])
 
 
 @pytest.mark.parametrize("claim", [TAG, ToneClaim("carry an ICC profile of gamma 1.8", 1.8), ToneClaim("are JPEGs", None)])
-def test_a_tag_that_nothing_tells_of_is_said_with_the_cure(claim):
+def test_a_tag_that_nothing_tells_of_is_said_with_the_cure(claim: ToneClaim) -> None:
     drawn = draw(Recipe(lights=4), 0)
     settled = settle_sensor(replace(drawn.raw, claim=claim), drawn.calibration, [])
     assert claim.said in settled.notes[0]
@@ -171,7 +175,9 @@ def test_a_tag_that_nothing_tells_of_is_said_with_the_cure(claim):
 
 
 @pytest.mark.parametrize(("true", "stated", "better"), [(1.0, 2.2, "1.0"), ("srgb", 1.0, "2.2"), (1.0, "srgb", "1.0"), (2.2, 1.4, "2.2")])
-def test_a_gamma_that_is_stated_wrong_is_said_with_both_fits_and_no_powers_take_it_up(true, stated, better):
+def test_a_gamma_that_is_stated_wrong_is_said_with_both_fits_and_no_powers_take_it_up(
+    true: float | str, stated: float | str, better: str
+) -> None:
     drawn = draw(Recipe(gamma=true, bumps=4), 1)
     settled = settle_sensor(drawn.raw, drawn.calibration, [("capture.yaml", StatedSensor(stated))])
     assert not settled.linear
@@ -179,7 +185,7 @@ def test_a_gamma_that_is_stated_wrong_is_said_with_both_fits_and_no_powers_take_
     assert settled.notes[0].count(" %") == 2
 
 
-def test_the_largest_number_of_the_images_is_the_white_level_but_for_what_is_stated():
+def test_the_largest_number_of_the_images_is_the_white_level_but_for_what_is_stated() -> None:
     drawn = draw(Recipe(), 0)
     raw = replace(drawn.raw, white_level=0.0625, images=drawn.raw.images / 16, ambient=drawn.raw.ambient / 16)
     found = settle_sensor(raw, drawn.calibration, []).used
@@ -188,7 +194,7 @@ def test_the_largest_number_of_the_images_is_the_white_level_but_for_what_is_sta
     assert settle_sensor(raw, drawn.calibration, [("told", StatedSensor(white_level=0.5))]).used.sensor.white_level == 0.5
 
 
-def rig_a_lights(folder) -> Calibration:
+def rig_a_lights(folder: Path) -> Calibration:
     """The rig as it truly is."""
     import yaml
 
@@ -214,7 +220,7 @@ MORE = ["objects/nefertiti", "objects/spot", "objects/teapot", "spheres/matte_1"
 
 
 @pytest.mark.parametrize("name", [*CAPTURES, *(pytest.param(name, marks=pytest.mark.slow) for name in MORE)])
-def test_rendered_objects_with_all_that_light_does_are_no_curve(data, name):
+def test_rendered_objects_with_all_that_light_does_are_no_curve(data: Callable[[str], Path], name: str) -> None:
     folder = data("rig_a")
     calibration = rig_a_lights(folder)
     raw = read_capture(folder / name, [light.name for light in calibration.lights])
@@ -223,7 +229,7 @@ def test_rendered_objects_with_all_that_light_does_are_no_curve(data, name):
 
 
 @pytest.mark.parametrize("name", ["spheres/matte_0", "spheres/matte_1", "objects/bunny", "objects/spot"])
-def test_rendered_objects_stored_by_a_curve_are_refused_or_said(data, name):
+def test_rendered_objects_stored_by_a_curve_are_refused_or_said(data: Callable[[str], Path], name: str) -> None:
     folder = data("rig_a")
     calibration = rig_a_lights(folder)
     raw = read_capture(folder / name, [light.name for light in calibration.lights])

@@ -14,11 +14,12 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.formats.documents import plain
 from lpcal.pipeline.reconstruct import _flat_said
+from lpcal.records.observations import RawCapture
 from lpcal.surface.flatness import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 
-def overexposed():
+def overexposed() -> RawCapture:
     """The scene at twice the exposure, with short images at a quarter of that."""
     raw = draw(Scene(), calibration(), noise=0.002 / 2.2)  # the read noise of the long images is 0.002 again
     longer = np.minimum(2.2 * raw.images, 1.0)
@@ -34,7 +35,7 @@ def overexposed():
 
 
 @pytest.mark.slow
-def test_saturated_samples_come_from_shorter_exposures():
+def test_saturated_samples_come_from_shorter_exposures() -> None:
     raw, mask = overexposed(), truth(Scene())[0]
     plain = to_radiance(raw, Sensor())
     merged = with_short_exposures(plain, raw, Sensor())
@@ -49,14 +50,14 @@ def test_saturated_samples_come_from_shorter_exposures():
     assert "shorter exposures" in merged.notes[-1]
 
 
-def test_a_short_exposure_of_which_nothing_is_stated_is_not_merged():
+def test_a_short_exposure_of_which_nothing_is_stated_is_not_merged() -> None:
     raw = overexposed()
     untold = replace(raw, short_exposure_s=dict.fromkeys(raw.lights))
     plain = to_radiance(untold, Sensor())
     assert with_short_exposures(plain, untold, Sensor()) is plain
 
 
-def test_ambient_that_drifts_is_said_and_its_mean_taken():
+def test_ambient_that_drifts_is_said_and_its_mean_taken() -> None:
     raw = draw(Scene(), calibration())
     drifted = replace(raw, ambient=np.concatenate([raw.ambient, raw.ambient * 1.6]), ambient_exposure_s=np.ones(2))
     steady = replace(raw, ambient=np.concatenate([raw.ambient, raw.ambient]), ambient_exposure_s=np.ones(2))
@@ -66,14 +67,14 @@ def test_ambient_that_drifts_is_said_and_its_mean_taken():
     assert taken.mean() == pytest.approx(1.3 * raw.ambient.mean(), rel=1e-3)
 
 
-def test_more_ambient_than_lamps_is_said():
+def test_more_ambient_than_lamps_is_said() -> None:
     raw = draw(Scene(), calibration())
     bright = replace(raw, images=0.05 * raw.images + 0.7, ambient=0.05 * raw.ambient + 0.7)
     assert "more ambient light" in ambient_notes(to_radiance(bright, Sensor()), bright, Sensor())[0]
 
 
 @pytest.mark.slow
-def test_lights_of_different_colours_are_told_from_the_objects_colour():
+def test_lights_of_different_colours_are_told_from_the_objects_colour() -> None:
     scene = Scene(albedo=(0.8, 0.5, 0.2))
     raw, lights, mask = draw(scene, calibration()), calibration().lights, truth(scene)[0]
     tint = (1 + 0.35 * np.sin(np.arange(18).reshape(6, 3) * 1.7)) * [0.8, 1.0, 1.2]
@@ -91,7 +92,7 @@ def test_lights_of_different_colours_are_told_from_the_objects_colour():
 
 
 @pytest.mark.slow
-def test_twelve_bits_low_in_sixteen_are_cut_off_where_they_pile_up():
+def test_twelve_bits_low_in_sixteen_are_cut_off_where_they_pile_up() -> None:
     raw, mask = overexposed(), truth(Scene())[0]
     low = replace(raw, images=raw.images / 16, ambient=raw.ambient / 16, short={}, short_exposure_s={}, step=1 / 65535)
     full, told, untold = to_radiance(raw, Sensor()), to_radiance(low, Sensor(white_level=0.0625)), to_radiance(low, Sensor())
@@ -101,7 +102,7 @@ def test_twelve_bits_low_in_sixteen_are_cut_off_where_they_pile_up():
     assert (untold.saturated & full.saturated).sum() > 0.9 * full.saturated.sum()  # nobody states the level; their pile shows it
 
 
-def test_more_ambient_images_mean_less_noise():
+def test_more_ambient_images_mean_less_noise() -> None:
     raw = draw(Scene(), calibration(), noise=0.01)
     rng = np.random.default_rng(3)
     eight = np.float32(0.05) + 0.01 * rng.standard_normal((8, *raw.ambient.shape[1:])).astype(np.float32)
@@ -114,7 +115,7 @@ def test_more_ambient_images_mean_less_noise():
 
 
 @pytest.mark.slow
-def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness():
+def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness() -> None:
     row, column = np.indices(SIZE[::-1])
     fall = (1 - 0.55 * (((row - 56) ** 2 + (column - 80) ** 2) / 97**2)).astype(np.float32)
     raw = draw(Scene(centre=None, wall_z=0.35, wall_albedo=0.7), calibration())
@@ -131,7 +132,7 @@ def test_without_a_flat_field_the_lens_is_taken_for_the_objects_brightness():
 
 
 @pytest.mark.slow
-def test_a_cards_flatness_is_told_and_a_balls_is_not():
+def test_a_cards_flatness_is_told_and_a_balls_is_not() -> None:
     card = to_radiance(draw(Scene(centre=None, wall_z=0.35, wall_albedo=0.7), calibration()), Sensor())
     middle = np.zeros(SIZE[::-1], bool)
     middle[30:82, 50:110] = True

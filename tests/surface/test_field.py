@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -47,7 +48,7 @@ def errors_deg(b: Array, n: Array) -> Array:
 
 
 @pytest.mark.parametrize("lights", [4, 6, 12])
-def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights):
+def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights: int) -> None:
     seen, lit, n, clean = ball(lights)
     whole, alone = found(seen, lit)
     many = np.sum(clean > 0.02, axis=0) == lights
@@ -57,11 +58,11 @@ def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights):
 
 
 @pytest.mark.parametrize("shine", [None, (0.2, 0.15)])
-def test_rounds_end_where_the_rest_would_change_nothing(shine, monkeypatch):
+def test_rounds_end_where_the_rest_would_change_nothing(shine: tuple[float, float] | None, monkeypatch: pytest.MonkeyPatch) -> None:
     seen, lit, _, _ = ball(6, shine=shine)
     count, gathered = [0], field._all_gathered
 
-    def counted(*given):
+    def counted(*given: Any) -> tuple[Array, Array]:
         count[0] += 1
         return gathered(*given)
 
@@ -79,7 +80,7 @@ def test_rounds_end_where_the_rest_would_change_nothing(shine, monkeypatch):
 
 
 @pytest.mark.parametrize("left", [(0, 1), (0, 3), (2, 4)])
-def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left):
+def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left: tuple[int, int]) -> None:
     seen, lit, n, _ = ball(6)
     strip = np.abs(n[:, 0] - 0.2) < 0.1
     signal = seen.signal.copy()
@@ -90,7 +91,7 @@ def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left):
     assert np.median(errors_deg(whole.b, n)[~strip]) < 0.5
 
 
-def test_a_shadow_lit_from_around_is_no_dark_matter():
+def test_a_shadow_lit_from_around_is_no_dark_matter() -> None:
     """Inside a dark patch a tenth of the light is left, as if all lights reached matter of a tenth of the albedo turned elsewhere."""
     seen, lit, n, _ = ball(6)
     patch = (np.abs(n[:, 0]) < 0.25) & (np.abs(n[:, 1] - 0.3) < 0.2)
@@ -103,7 +104,7 @@ def test_a_shadow_lit_from_around_is_no_dark_matter():
     assert ours < 0.5 * theirs
 
 
-def test_gloss_is_found_and_taken_off():
+def test_gloss_is_found_and_taken_off() -> None:
     seen, lit, n, _ = ball(6, shine=(0.15, 0.19))
     whole, alone = found(seen, lit, glossy=0.5)
     assert whole.gloss is not None
@@ -112,7 +113,7 @@ def test_gloss_is_found_and_taken_off():
 
 
 @pytest.mark.parametrize(("lights", "F0", "roughness"), [(6, 0.03, 0.12), (6, 0.06, 0.3), (8, 0.045, 0.2), (12, 0.045, 0.35)])
-def test_strength_and_roughness_of_the_gloss_are_those_drawn(lights, F0, roughness):
+def test_strength_and_roughness_of_the_gloss_are_those_drawn(lights: int, F0: float, roughness: float) -> None:
     seen, lit, _, _ = ball(lights, shine=(F0 * np.pi * ALBEDO / 0.5, roughness))
     whole, _ = found(seen, lit, glossy=0.5)
     assert whole.gloss is not None
@@ -121,7 +122,7 @@ def test_strength_and_roughness_of_the_gloss_are_those_drawn(lights, F0, roughne
 
 
 @pytest.mark.parametrize("roughness", [0.1, 0.3])
-def test_how_a_lobe_turns_with_the_normal_is_its_derivative(roughness):
+def test_how_a_lobe_turns_with_the_normal_is_its_derivative(roughness: float) -> None:
     rng, step = np.random.default_rng(0), 1e-5
     n, d, v = (
         lambert.unit(rng.normal(size=shape) + toward)[0] for shape, toward in (((50, 3), VIEW), ((4, 50, 3), VIEW), ((50, 3), 2 * VIEW))
@@ -134,14 +135,14 @@ def test_how_a_lobe_turns_with_the_normal_is_its_derivative(roughness):
     assert np.abs(found).max() > 1
 
 
-def test_where_there_is_no_gloss_next_to_none_is_taken_off():
+def test_where_there_is_no_gloss_next_to_none_is_taken_off() -> None:
     seen, lit, _, _ = ball(6)
     whole, _ = found(seen, lit, glossy=0.5)
     assert whole.gloss is None or not whole.gloss.clear
     assert whole.estimate.gloss is None or np.abs(whole.estimate.gloss).max() < 0.02 * ALBEDO
 
 
-def test_a_tenth_of_the_noise_moves_no_normal_far():
+def test_a_tenth_of_the_noise_moves_no_normal_far() -> None:
     seen, lit, _, clean = ball(4)
     shake = 2e-4 * np.random.default_rng(9).standard_normal(clean.shape)
     one, _ = found(seen, lit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -26,14 +27,14 @@ DOME = lpcal.Calibration("dome", tuple(lpcal.Light(f"L{k}", s, np.ones(1)) for k
 
 
 @pytest.fixture
-def small(monkeypatch):
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """Captures count as large from 50,000 samples, coarse pictures are of 4,000 pixels."""
     monkeypatch.setattr(full_size, "HELD", 50_000)
     monkeypatch.setattr(full_size, "COARSE_PIXELS", 4_000)
 
 
 @pytest.mark.parametrize("colours", [(), (3,)])
-def test_parts_of_images_come_back_as_they_were_kept(colours):
+def test_parts_of_images_come_back_as_they_were_kept(colours: tuple[Any, ...]) -> None:
     images = np.random.default_rng(1).integers(0, 60000, (3, 2 * PART + 17, PART + 90, *colours)).astype(np.uint16)
     store = Scratch(images.shape, images.dtype)
     for k in (2, 0, 1):
@@ -44,7 +45,7 @@ def test_parts_of_images_come_back_as_they_were_kept(colours):
 
 
 @pytest.mark.parametrize(("size", "side", "margin"), [((50, 70), 20, 4), ((9, 9), 20, 4), ((300, 130), 64, 10)])
-def test_tiles_hold_every_pixel_once_and_their_ramps_add_up_to_one(size, side, margin):
+def test_tiles_hold_every_pixel_once_and_their_ramps_add_up_to_one(size: tuple[int, int], side: int, margin: int) -> None:
     count, total = np.zeros(size), np.zeros(size)
     for row in tiles(size, side, margin):
         for tile in row:
@@ -56,7 +57,7 @@ def test_tiles_hold_every_pixel_once_and_their_ramps_add_up_to_one(size, side, m
 
 
 @pytest.mark.parametrize("factor", [2, 3, 7])
-def test_between_coarse_pixels_a_slope_stays_a_slope(factor):
+def test_between_coarse_pixels_a_slope_stays_a_slope(factor: int) -> None:
     row, column = np.mgrid[: 9 * factor, : 12 * factor]
     whole = 3.0 * row - 2.0 * column
     coarse = full_size.blocks(whole, factor).mean(axis=(1, 3))
@@ -65,7 +66,7 @@ def test_between_coarse_pixels_a_slope_stays_a_slope(factor):
 
 
 @pytest.mark.parametrize("factor", [2, 5])
-def test_a_coarse_pixel_looks_where_the_middle_of_its_pixels_looks(factor):
+def test_a_coarse_pixel_looks_where_the_middle_of_its_pixels_looks(factor: int) -> None:
     camera = lpcal.Camera((100, 60), "opencv4", np.array([[90.0, 0, 49], [0, 91, 31], [0, 0, 1]]), np.array([0.1, -0.05, 1e-3, 0]))
     binned = BinnedCamera.of(camera, factor)
     middle = (factor - 1) / 2
@@ -99,7 +100,7 @@ def written(folder: Path, images: np.ndarray, ambient: np.ndarray | None, mask: 
 
 
 @pytest.mark.parametrize("colours", [False, True])
-def test_a_large_capture_gives_the_ball_that_a_small_one_gives(small, tmp_path, colours):
+def test_a_large_capture_gives_the_ball_that_a_small_one_gives(small: None, tmp_path: Path, colours: bool) -> None:
     mask, n, images = ball((203, 251), colours)
     ambient = np.full(mask.shape, 0.02)[..., None] * [0.9, 0.7, 0.5] if colours else np.full(mask.shape, 0.02)
     folder = written(tmp_path / "ball", images, ambient, mask, ["L0", "L1", "L2", "L3", "L4"])
@@ -127,7 +128,7 @@ def test_a_large_capture_gives_the_ball_that_a_small_one_gives(small, tmp_path, 
     assert np.allclose(np.median(albedo, axis=0), np.array([0.9, 0.7, 0.5]) * 0.7 if colours else 0.7, rtol=0.03)
 
 
-def test_near_lights_put_a_large_capture_where_they_put_a_small_one(small, tmp_path, monkeypatch):
+def test_near_lights_put_a_large_capture_where_they_put_a_small_one(small: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(full_size, "COARSE_PIXELS", 6_000)
     lights, scene = calibration(), Scene(radius=0.045)
     raw = draw(scene, lights)
@@ -143,7 +144,7 @@ def test_near_lights_put_a_large_capture_where_they_put_a_small_one(small, tmp_p
     assert np.median(error) < 1.0
 
 
-def test_where_the_numbers_end_a_coarse_pixel_is_saturated(small, tmp_path):
+def test_where_the_numbers_end_a_coarse_pixel_is_saturated(small: None, tmp_path: Path) -> None:
     _, _, images = ball((203, 251))
     images[1, 100:103, 120:123] = 1.0
     folder = written(tmp_path / "ball", images, None, None, ["L0", "L1", "L2", "L3", "L4"])
@@ -154,7 +155,7 @@ def test_where_the_numbers_end_a_coarse_pixel_is_saturated(small, tmp_path):
     assert np.sum(raw.images >= 1.0 - 1e-6) <= 9
 
 
-def test_a_method_to_compare_with_is_refused_for_a_large_capture(small, tmp_path):
+def test_a_method_to_compare_with_is_refused_for_a_large_capture(small: None, tmp_path: Path) -> None:
     mask, _, images = ball((203, 251))
     folder = written(tmp_path / "ball", images, None, mask, ["L0", "L1", "L2", "L3", "L4"])
     with pytest.raises(UsageError, match="too large"):

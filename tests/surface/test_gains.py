@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -53,13 +56,13 @@ def error_deg(n: np.ndarray, truth: np.ndarray) -> float:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", EQUAL)
-def test_equal_powers_stay_equal(kind, seed):
+def test_equal_powers_stay_equal(kind: str, seed: int) -> None:
     assert gains.intensities(*seen_by(draw(EQUAL[kind], seed))) is None
 
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", UNEQUAL)
-def test_unequal_powers_are_found_nearer_than_equal_ones(kind, seed):
+def test_unequal_powers_are_found_nearer_than_equal_ones(kind: str, seed: int) -> None:
     drawn = draw(UNEQUAL[kind], seed)
     found = gains.intensities(*seen_by(drawn))
     assert found is not None
@@ -68,7 +71,7 @@ def test_unequal_powers_are_found_nearer_than_equal_ones(kind, seed):
 
 
 @pytest.mark.parametrize("kind", ["gloss", "broad gloss and shadows", "six lights", pytest.param("fifty lights", marks=pytest.mark.slow)])
-def test_equal_lights_come_out_better_than_plain_least_squares(kind):
+def test_equal_lights_come_out_better_than_plain_least_squares(kind: str) -> None:
     drawn = draw(EQUAL[kind], 4)
     seen, lights = seen_by(drawn)
     S = np.stack([light.direction_C for light in lights])
@@ -79,7 +82,7 @@ def test_equal_lights_come_out_better_than_plain_least_squares(kind):
 
 
 @pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
-def test_a_curve_is_not_taken_up_by_powers(seed):
+def test_a_curve_is_not_taken_up_by_powers(seed: int) -> None:
     drawn = draw(Recipe(size=40, lights=30, gamma=2.2), seed)
     settled = settle_sensor(drawn.raw, drawn.calibration, [("told", StatedSensor(1.0))])
     assert not settled.linear
@@ -89,7 +92,7 @@ def test_a_curve_is_not_taken_up_by_powers(seed):
     assert heeded.figures.intensities_found is None
 
 
-def test_powers_that_somebody_measured_are_no_matter():
+def test_powers_that_somebody_measured_are_no_matter() -> None:
     drawn = draw(UNEQUAL["much"], 0)
     lights = drawn.calibration.lights
     assert gains.unmeasured(lights)
@@ -98,7 +101,9 @@ def test_powers_that_somebody_measured_are_no_matter():
 
 
 @pytest.mark.parametrize(("kind", "recipe"), [("found", UNEQUAL["gloss"]), ("equal", EQUAL["gloss"]), ("equal", EQUAL["six lights"])])
-def test_powers_that_are_estimated_are_said_on_the_terminal(lpcal, tmp_path, kind, recipe):
+def test_powers_that_are_estimated_are_said_on_the_terminal(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, kind: str, recipe: Any
+) -> None:
     drawn = draw(recipe, 2)
     (tmp_path / "cap").mkdir()
     for name, image in zip(drawn.raw.lights, drawn.raw.images, strict=True):

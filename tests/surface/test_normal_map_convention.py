@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.surface_files import read_surface
+from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera
 from lpcal.surface.convention import settled
 from lpcal.surface.sight import ray_map
@@ -20,26 +25,26 @@ ROW, COLUMN = np.indices(SHAPE).astype(float)
 EVERYWHERE = np.ones(SHAPE, bool)
 
 
-def spheres():
+def spheres() -> Array:
     z = np.zeros(SHAPE)
     for x, y, radius in ((45, 45, 30), (110, 60, 40), (60, 95, 20)):
         z = np.minimum(z, -np.sqrt(np.maximum(radius**2 - (COLUMN - x) ** 2 - (ROW - y) ** 2, 0)))
     return z
 
 
-def rough():
+def rough() -> Array:
     return 4 * cv2.GaussianBlur(np.random.default_rng(1).standard_normal(SHAPE), (0, 0), 2)
 
 
-def step():
+def step() -> Array:
     return spheres() - 30.0 * (COLUMN + ROW / 2 > 120)
 
 
-def bump():
+def bump() -> Array:
     return -20 * np.exp(-((COLUMN - 80) ** 2 + (ROW - 60) ** 2) / 800)
 
 
-def normals_of(z, noise=0.0):
+def normals_of(z: Array, noise: float = 0.0) -> npt.NDArray[Any]:
     """Normals in C of a depth in pixels seen by parallel rays."""
     q, p = np.gradient(z)
     n = np.stack([p, q, -np.ones_like(z)], axis=-1)
@@ -50,7 +55,7 @@ def normals_of(z, noise=0.0):
 
 @pytest.mark.parametrize("surface", [spheres, rough, step, bump])
 @pytest.mark.parametrize("noise", [0.0, 0.02])
-def test_green_is_turned_over_where_it_points_down(surface, noise):
+def test_green_is_turned_over_where_it_points_down(surface: Callable[..., Any], noise: float) -> None:
     n = normals_of(surface(), noise)
     assert not settled("map", n, EVERYWHERE, None).flipped
     found = settled("map", n * np.array([1, -1, 1], np.float32), EVERYWHERE, None)
@@ -59,7 +64,7 @@ def test_green_is_turned_over_where_it_points_down(surface, noise):
     assert np.allclose(found.normals_C, n)
 
 
-def test_a_camera_s_normals_are_judged_along_its_rays():
+def test_a_camera_s_normals_are_judged_along_its_rays() -> None:
     """A sphere seen by a wide lens: normals across the image, of which parallel rays would judge otherwise."""
     camera = Camera((SHAPE[1], SHAPE[0]), "opencv4", np.array([[90.0, 0, 79.5], [0, 90, 59.5], [0, 0, 1]]), np.zeros(4))
     rays, centre, radius = ray_map(SHAPE, camera), np.array([0.1, 0.05, 1.0]), 0.45
@@ -72,21 +77,21 @@ def test_a_camera_s_normals_are_judged_along_its_rays():
 
 
 @pytest.mark.parametrize("z", [0.2 * COLUMN, -np.sqrt(np.maximum(100.0**2 - (COLUMN - 80) ** 2, 1)), np.zeros(SHAPE)])
-def test_a_surface_without_twist_is_taken_as_it_is_and_that_is_said(z):
+def test_a_surface_without_twist_is_taken_as_it_is_and_that_is_said(z: Array) -> None:
     found = settled("flat", normals_of(z, 0.02), EVERYWHERE, None)
     assert not found.flipped
     assert "do not tell" in (found.note or "")
 
 
 @pytest.mark.parametrize("surface", [spheres, rough, bump])
-def test_swapped_channels_are_refused(surface):
+def test_swapped_channels_are_refused(surface: Callable[..., Any]) -> None:
     gl = normals_of(surface()) * np.array([1, -1, -1], np.float32)
     with pytest.raises(DisagreementError, match="red channel has one sign"):
         settled("map", gl[..., ::-1], EVERYWHERE, None)
 
 
 @pytest.mark.parametrize("blur", [0.0, 2.0, 5.0])
-def test_what_is_no_surface_is_refused(blur):
+def test_what_is_no_surface_is_refused(blur: float) -> None:
     rng = np.random.default_rng(2)
     n = np.stack([rng.standard_normal(SHAPE) for _ in range(3)], axis=-1)
     n = 2 * blur * cv2.GaussianBlur(n, (0, 0), blur) if blur else n
@@ -96,14 +101,14 @@ def test_what_is_no_surface_is_refused(blur):
 
 
 @pytest.mark.parametrize("name", ["diligent_ball", "diligent_bear"])
-def test_real_normals_are_read_as_they_are(data, name):
+def test_real_normals_are_read_as_they_are(data: Callable[[str], Path], name: str) -> None:
     n, good = read_normals(data("surface") / name / "normal_gt.npz")
     assert not settled(name, n, good, None).flipped
     assert settled(name, n * np.array([1, -1, 1], np.float32), good, None).flipped
 
 
 @pytest.mark.parametrize("bits", [8, 16])
-def test_a_directx_map_gives_the_surface_of_the_opengl_one(tmp_path, lpcal, bits):
+def test_a_directx_map_gives_the_surface_of_the_opengl_one(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], bits: int) -> None:
     full = 2**bits - 1
     gl = normals_of(bump()) * np.array([1, -1, -1], np.float32)
     for name, turn in (("gl", 1), ("dx", -1)):
@@ -131,7 +136,7 @@ CAMERAS = {
 
 
 @pytest.mark.parametrize("name", list(CAMERAS))
-def test_a_camera_alone_makes_metres(tmp_path, lpcal, name):
+def test_a_camera_alone_makes_metres(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]], name: str) -> None:
     np.save(tmp_path / "n.npy", normals_of(bump()))
     (tmp_path / name).write_text(CAMERAS[name])
     words = ("integrate", tmp_path / "n.npy", "-c", tmp_path / name, "--distance", "200mm", "-o", tmp_path / "out")
@@ -141,7 +146,7 @@ def test_a_camera_alone_makes_metres(tmp_path, lpcal, name):
     assert np.nanmedian(read_surface(tmp_path / "out").depth) == pytest.approx(0.2, rel=1e-3)
 
 
-def test_what_is_transparent_or_not_finite_holds_no_normal(tmp_path):
+def test_what_is_transparent_or_not_finite_holds_no_normal(tmp_path: Path) -> None:
     n = normals_of(bump())
     n[:10] = np.nan
     np.savez(tmp_path / "n.npz", normals=n)
@@ -155,20 +160,20 @@ def test_what_is_transparent_or_not_finite_holds_no_normal(tmp_path):
 
 
 @pytest.mark.parametrize("shape", [(10**6, 10**6, 3), (4, 4, 3), (4, 4, 3000)])
-def test_an_array_that_says_more_than_it_holds_is_refused(tmp_path, shape):
+def test_an_array_that_says_more_than_it_holds_is_refused(tmp_path: Path, shape: tuple[int, int, int]) -> None:
     head = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
     (tmp_path / "n.npy").write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + b"\0" * 20)
     with pytest.raises(InputError, match=r"cut off|an array"):
         read_normals(tmp_path / "n.npy")
 
 
-def test_a_mask_of_another_size_is_said(tmp_path):
+def test_a_mask_of_another_size_is_said(tmp_path: Path) -> None:
     np.savez(tmp_path / "n.npz", normals=normals_of(bump()), mask=np.ones((5, 5)))
     with pytest.raises(DisagreementError, match="a mask of 5x5"):
         read_normals(tmp_path / "n.npz")
 
 
-def test_meshes_say_their_frame_and_glb_is_matte_with_linear_colours(tmp_path, lpcal):
+def test_meshes_say_their_frame_and_glb_is_matte_with_linear_colours(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     import trimesh
 
     np.save(tmp_path / "n.npy", normals_of(bump()))

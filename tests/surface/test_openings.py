@@ -53,14 +53,14 @@ def pictures(centre_m: float, radius_m: float, hole: Mask | None = None) -> tupl
     return Grey(*maps, np.ones((6, HEIGHT, WIDTH), bool)), disc.reshape(HEIGHT, WIDTH)
 
 
-def test_a_wall_that_is_seen_through_a_hole_is_no_object():
+def test_a_wall_that_is_seen_through_a_hole_is_no_object() -> None:
     maps, disc = pictures(0.45, 0.08, HOLE)
     found = openings(maps, rays(), LIGHTS, disc, [WALL])
     assert (found & HOLE).sum() > 0.85 * HOLE.sum()
     assert (found & ~HOLE).sum() < 0.1 * HOLE.sum()
 
 
-def test_what_no_lamp_reaches_is_an_opening_where_the_same_is_seen_around_the_object():
+def test_what_no_lamp_reaches_is_an_opening_where_the_same_is_seen_around_the_object() -> None:
     maps, disc = pictures(0.45, 0.08, HOLE)
     dim = np.where(disc & ~HOLE, 1.0, 0.02).astype(np.float32)
     found = openings(Grey(maps.signal * dim, maps.sigma, maps.usable), rays(), LIGHTS, disc, [])
@@ -70,7 +70,7 @@ def test_what_no_lamp_reaches_is_an_opening_where_the_same_is_seen_around_the_ob
     assert not openings(Grey(maps.signal * inside, maps.sigma, maps.usable), rays(), LIGHTS, disc, []).any()
 
 
-def test_a_dome_that_rises_out_of_the_wall_stays(monkeypatch: pytest.MonkeyPatch):
+def test_a_dome_that_rises_out_of_the_wall_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its middle lies and faces as the wall does, but nothing steps at the middle's rim."""
     maps, disc = pictures(WALL_M + 0.395, 0.40)
     assert not openings(maps, rays(), LIGHTS, disc, [WALL]).any()
@@ -78,7 +78,7 @@ def test_a_dome_that_rises_out_of_the_wall_stays(monkeypatch: pytest.MonkeyPatch
     assert openings(maps, rays(), LIGHTS, disc, [WALL]).any()
 
 
-def test_pictures_that_do_not_divide_into_coarse_pixels():
+def test_pictures_that_do_not_divide_into_coarse_pixels() -> None:
     maps, disc = pictures(0.45, 0.08, HOLE)
     large = Grey(*(np.kron(one, np.ones((1, 5, 5), one.dtype))[:, 3:, 2:] for one in (maps.signal, maps.sigma, maps.usable)))
     r = np.stack([np.kron(rays()[..., k], np.ones((5, 5)))[3:, 2:] for k in range(3)], axis=-1)

@@ -50,7 +50,7 @@ def bowl(half_angle_deg: float = 55.0) -> tuple[Sight, Array, Array, float]:
     return sight_of(mask, np.ones((1, int(mask.sum())))), depth[mask.ravel()], n, (1 - np.cos(np.radians(half_angle_deg))) / 2
 
 
-def test_inside_a_sphere_every_place_gets_the_same_light_from_the_rest():
+def test_inside_a_sphere_every_place_gets_the_same_light_from_the_rest() -> None:
     seen, depth, n, share = bowl()
     found = bounce.thrown(seen, depth, shown(n), n, [HIGH])
     got = np.einsum("pi,pi->p", found.seen[0], n)
@@ -66,7 +66,7 @@ def shown(n: Array, lights: int = 1) -> normals.Estimate:
 
 
 @pytest.mark.slow
-def test_a_wall_behind_lights_what_is_turned_away_from_the_camera():
+def test_a_wall_behind_lights_what_is_turned_away_from_the_camera() -> None:
     tilt = np.radians(60.0)
     seen = sight_of(np.ones((40, 40), bool), np.zeros((1, 1600)))
     n = np.tile([np.sin(tilt), 0.0, -np.cos(tilt)], (1600, 1))
@@ -84,7 +84,7 @@ def test_a_wall_behind_lights_what_is_turned_away_from_the_camera():
     assert np.abs(lambert.dot(alone[0], n)).max() < 1e-9
 
 
-def test_the_wall_is_taken_up_as_it_is_seen():
+def test_the_wall_is_taken_up_as_it_is_seen() -> None:
     mask = np.ones((90, 120), bool)
     plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
     bare = sight_of(mask, np.zeros((3, mask.size)))
@@ -113,7 +113,7 @@ def test_the_wall_is_taken_up_as_it_is_seen():
     assert beyond.area[~inside].sum() > found.area.sum()
 
 
-def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights():
+def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights() -> None:
     mask = np.ones((90, 120), bool)
     plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
     bare = sight_of(mask, np.zeros((3, mask.size)))
@@ -129,7 +129,7 @@ def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights(
     assert np.allclose(around.seen.signal, 0.5 * predicted(plane.q, at, lights), rtol=0.05)
 
 
-def test_a_table_hides_a_light_below_it():
+def test_a_table_hides_a_light_below_it() -> None:
     """A table 6 cm under the camera's axis, seen along it: points above its top, lights over and under it."""
     mask = np.ones((90, 120), bool)
     plane = Plane(np.array([0.0, 1.0, 0.02]) / 0.06, 1.0)
@@ -155,7 +155,7 @@ def test_a_table_hides_a_light_below_it():
     assert not around.front.hidden_from(x_C, np.array([-0.2, -0.05, 0.03]), rounds.SHADOW_STEPS).any()
 
 
-def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind():
+def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind() -> None:
     mask, albedo = np.ones((80, 160), bool), 0.6
     seen = sight_of(mask, np.zeros((2, mask.size)))
     near = seen.rays_C[:, 0] < 0
@@ -204,7 +204,7 @@ def error_deg(b: Array, n: Array) -> float:
 
 
 @pytest.mark.parametrize("reflectance", [0.25, 0.5, 0.8])
-def test_shadows_tell_the_reflectance_and_a_bowl_is_no_longer_flattened(reflectance: float):
+def test_shadows_tell_the_reflectance_and_a_bowl_is_no_longer_flattened(reflectance: float) -> None:
     seen, lit, depth, n, hidden = bowl_under_lights(reflectance)
     usable, variance = normals.candidates(seen, lit.E) & ~hidden, normals.variances(seen)
     plain = normals.estimate(seen, lit.B, usable, variance)
@@ -248,7 +248,7 @@ def ball_over_a_bright_floor(reflectance: float) -> tuple[Sight, Lit, Array, Arr
 
 
 @pytest.mark.parametrize("reflectance", [0.2, 0.5, 0.8])
-def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: float):
+def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: float) -> None:
     """Where a shadow ends on a ball, normals would turn by what is not known to be thrown."""
     seen, lit, depth, n, hidden, floor = ball_over_a_bright_floor(reflectance)
     grid, around = Grid.of(seen.mask), Around(floor, None, EMPTY)
@@ -268,7 +268,7 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
     assert error_deg(found.b, n) < 6
 
 
-def test_without_shadows_the_reflectance_is_that_of_common_matter():
+def test_without_shadows_the_reflectance_is_that_of_common_matter() -> None:
     seen, lit, depth, n, _ = bowl_under_lights(0.8)
     plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
     by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
@@ -276,7 +276,7 @@ def test_without_shadows_the_reflectance_is_that_of_common_matter():
     assert abs(found.median - bounce.COMMON) < 0.05
 
 
-def test_a_step_hides_a_light_where_its_shadow_falls():
+def test_a_step_hides_a_light_where_its_shadow_falls() -> None:
     mask = np.ones((60, 120), bool)
     seen = sight_of(mask, np.zeros((1, mask.size)))
     near = seen.rays_C[:, 0] * 0.30 < 0
@@ -291,7 +291,7 @@ def test_a_step_hides_a_light_where_its_shadow_falls():
     assert not found[near].any()
 
 
-def test_a_light_that_the_depth_hides_is_left_out():
+def test_a_light_that_the_depth_hides_is_left_out() -> None:
     mask = np.ones((60, 120), bool)
     bare = sight_of(mask, np.zeros((4, mask.size)))
     depth = np.where(bare.rays_C[:, 0] < 0, 0.30, 0.35)
@@ -316,7 +316,7 @@ def test_a_light_that_the_depth_hides_is_left_out():
     assert error_deg(better.b[dark], n[dark]) < 0.1
 
 
-def test_patches_that_light_from_elsewhere_misleads_do_not_move_the_piece():
+def test_patches_that_light_from_elsewhere_misleads_do_not_move_the_piece() -> None:
     mask = np.ones((90, 120), bool)
     row, column = np.nonzero(mask)
     misled = (row < 40) & (column < 50)  # almost a fifth

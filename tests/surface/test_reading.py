@@ -11,6 +11,7 @@ import lpcal
 from lit_scene import SIZE, K, Scene, calibration, draw, truth
 from lpcal.records.calibration import Camera
 from lpcal.records.distance import DistanceSensor
+from lpcal.records.observations import RawCapture
 from lpcal.surface.basins import Basin, Basins
 from lpcal.surface.reading import DepthMap, Reading, weighed, word
 
@@ -26,7 +27,7 @@ def reading_of(depth_m: float) -> Reading:
     return Reading(SENSOR, 0.004 + 1.01 * depth_m / U[2])
 
 
-def test_a_reading_and_the_light_are_joined_by_their_variances():
+def test_a_reading_and_the_light_are_joined_by_their_variances() -> None:
     light_std = 0.02
     found = word(reading_of(0.37), FRONT, light_std)
     sensor_std = np.hypot(SENSOR.std_m(0.37), 0.5 * SENSOR.across_std_m(0.37)) / 0.36
@@ -37,20 +38,20 @@ def test_a_reading_and_the_light_are_joined_by_their_variances():
     assert found.expected_m == pytest.approx(0.36 / U[2], abs=1e-3)
 
 
-def test_a_reading_of_the_wall_moves_nothing():
+def test_a_reading_of_the_wall_moves_nothing() -> None:
     found = word(reading_of(0.62), FRONT, 0.02)
     assert (found.log_scale, found.std) == (0.0, 0.02)
     assert found.hit < 0.01
 
 
-def test_a_beam_beside_the_object_says_nothing_of_it():
+def test_a_beam_beside_the_object_says_nothing_of_it() -> None:
     depth = FRONT.depth.copy()
     depth[:, : SIZE[0] // 2 + 20] = np.nan  # the beam comes from the right and crosses to the left
     found = word(reading_of(0.36), DepthMap(np.where(np.arange(SIZE[0]) < 20, 0.36, np.nan) + 0 * depth, CAMERA), 0.02)
     assert found.hit < 0.5
 
 
-def test_two_distances_that_the_light_allows_are_told_apart():
+def test_two_distances_that_the_light_allows_are_told_apart() -> None:
     """Two ends of nearly one cost, 0.30 and 0.41 m: the reading decides, and one of the wall leaves the order as it is."""
     mask = np.ones((SIZE[1] // 4, SIZE[0] // 4), bool)
     ends = tuple(Basin(np.full(mask.sum(), np.log(z)), cost) for z, cost in ((0.30, 6.0), (0.41, 6.1)))
@@ -63,11 +64,11 @@ def test_two_distances_that_the_light_allows_are_told_apart():
 
 
 @pytest.fixture(scope="module")
-def capture():
+def capture() -> RawCapture:
     return draw(Scene(), calibration())
 
 
-def test_a_capture_with_a_reading_is_put_where_it_says_and_says_so(capture):
+def test_a_capture_with_a_reading_is_put_where_it_says_and_says_so(capture: RawCapture) -> None:
     mask, depth, _ = truth(Scene())
     sensor = replace(SENSOR, noise_m=0.0005, covariance=np.zeros((8, 8)))
     t = np.arange(0.2, 0.5, 1e-4)
@@ -88,7 +89,7 @@ def test_a_capture_with_a_reading_is_put_where_it_says_and_says_so(capture):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.002, 0.004])
-def test_a_capture_whose_light_allows_several_distances_is_settled_by_a_reading(noise):
+def test_a_capture_whose_light_allows_several_distances_is_settled_by_a_reading(noise: float) -> None:
     """Three lights: rounds from seven distances end at seven, four of them within the odds; a reading of 5 mm noise picks the right one."""
     lights = calibration(lights=3)
     raw = draw(Scene(), lights, noise=noise)

@@ -9,34 +9,40 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, room_light, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Light
+from lpcal.records.observations import RawCapture
 from lpcal.surface import mask as mask_of
 from lpcal.surface import planes, room_samples, sight, without_ambient
 from lpcal.surface import room_light as whole
 from lpcal.surface import without_ambient as room
+from lpcal.surface.mask import Found
 from lpcal.surface.reconstruct import Options, reconstruct
+from lpcal.surface.room_light import RoomLight
+from lpcal.surface.sight import Grey
 
 LIT = Scene(centre=(0.004, -0.003, 0.36), room=0.25)
 
 
-def untold(scene: Scene, seed: int = 0):
+def untold(scene: Scene, seed: int = 0) -> RawCapture:
     return replace(draw(scene, calibration(), seed=seed), ambient=None)
 
 
 @pytest.fixture(scope="module")
-def maps():
+def maps() -> tuple[Grey, Array, tuple[Light, ...]]:
     radiance = to_radiance(untold(LIT), Sensor())
     lights = sight.lights_of(calibration(), radiance)
     return sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera), lights
 
 
 @pytest.fixture(scope="module")
-def seen_whole(maps):
+def seen_whole(maps: tuple[Grey, Array, tuple[Light, ...]]) -> tuple[RoomLight, Found]:
     grey, rays_C, lights = maps
     light = whole.found(grey, rays_C, lights, 0.35)
     return light, mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
 
 
-def test_all_that_is_seen_tells_the_rooms_light_and_what_the_object_is(seen_whole):
+def test_all_that_is_seen_tells_the_rooms_light_and_what_the_object_is(seen_whole: tuple[RoomLight, Found]) -> None:
     light, found = seen_whole
     true = truth(LIT)[0]
     assert np.sum(found.mask & true) / np.sum(found.mask | true) > 0.97
@@ -44,7 +50,9 @@ def test_all_that_is_seen_tells_the_rooms_light_and_what_the_object_is(seen_whol
         assert np.median(light.A[on] / room_light(LIT)[on]) == pytest.approx(1.0, abs=within)
 
 
-def test_the_wall_tells_its_place_and_its_room_light(maps, seen_whole):
+def test_the_wall_tells_its_place_and_its_room_light(
+    maps: tuple[Grey, Array, tuple[Light, ...]], seen_whole: tuple[RoomLight, Found]
+) -> None:
     light, found = seen_whole
     wall = room.wall_of(*maps, found, ~found.mask, light.room.level)
     assert 1 / wall.q[2] == pytest.approx(LIT.wall_z, rel=0.01)
@@ -55,7 +63,7 @@ def test_the_wall_tells_its_place_and_its_room_light(maps, seen_whole):
     assert np.median(A / room_light(LIT)[on]) == pytest.approx(1.0, abs=0.05)
 
 
-def test_a_background_that_the_lamps_do_not_reach_is_no_wall():
+def test_a_background_that_the_lamps_do_not_reach_is_no_wall() -> None:
     scene = replace(LIT, wall_z=6.0)
     radiance = to_radiance(untold(scene), Sensor())
     lights = sight.lights_of(calibration(), radiance)
@@ -69,7 +77,7 @@ def test_a_background_that_the_lamps_do_not_reach_is_no_wall():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
-def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
+def test_an_objects_room_light_comes_out_within_its_sigma(maps: tuple[Grey, Array, tuple[Light, ...]], seed: int) -> None:
     _, rays_C, lights = maps
     mask, depth, _ = truth(LIT)
     grey = sight.grey(to_radiance(untold(LIT, seed), Sensor()), lights)
@@ -86,7 +94,7 @@ def test_an_objects_room_light_comes_out_within_its_sigma(maps, seed):
 
 
 @pytest.mark.slow
-def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_without():
+def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_without() -> None:
     mask, depth, _ = truth(LIT)
     radiance = to_radiance(untold(LIT), Sensor())
     told = reconstruct(to_radiance(draw(LIT, calibration()), Sensor()), calibration(), Options(mask=mask))
@@ -105,7 +113,7 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
 
 
 @pytest.mark.slow
-def test_a_dark_room_is_left_dark(maps):
+def test_a_dark_room_is_left_dark(maps: tuple[Grey, Array, tuple[Light, ...]]) -> None:
     _, rays_C, lights = maps
     scene = Scene()
     dark = draw(scene, calibration())
@@ -116,7 +124,7 @@ def test_a_dark_room_is_left_dark(maps):
     assert found is None or found[1].mean() < 0.01 * seen.signal.mean()
 
 
-def test_colours_share_the_rooms_light(maps):
+def test_colours_share_the_rooms_light(maps: tuple[Grey, Array, tuple[Light, ...]]) -> None:
     scene = replace(LIT, albedo=(0.8, 0.5, 0.2))
     _, rays_C, lights = maps
     radiance = to_radiance(untold(scene), Sensor())
@@ -129,7 +137,7 @@ def test_colours_share_the_rooms_light(maps):
 
 
 @pytest.mark.parametrize("shadowed", [0, 1])
-def test_samples_tell_their_room_light(shadowed):
+def test_samples_tell_their_room_light(shadowed: int) -> None:
     rng = np.random.default_rng(3)
     ways = rng.normal(size=(8, 3)) * [1, 1, 0.2] + [0, 0, -1.5]
     B = np.repeat((ways / np.linalg.norm(ways, axis=1, keepdims=True))[:, None], 200, axis=1)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,12 +29,12 @@ def sphere() -> Surface:
     return reconstruct(to_radiance(draw(Scene(), calibration()), Sensor()), calibration(), Options())
 
 
-def test_the_sphere_is_found_before_the_wall(sphere):
+def test_the_sphere_is_found_before_the_wall(sphere: Surface) -> None:
     mask = truth(Scene())[0]
     assert (sphere.mask & mask).sum() / (sphere.mask | mask).sum() > 0.95
 
 
-def test_normals_depth_and_their_sigmas(sphere):
+def test_normals_depth_and_their_sigmas(sphere: Surface) -> None:
     mask, depth, n = truth(Scene())
     both = mask & sphere.mask
     error = angle_deg(sphere.normals, n)[both]
@@ -45,7 +48,7 @@ def test_normals_depth_and_their_sigmas(sphere):
     assert abs(scale - 1) < 2.5 * piece.scale_std < 0.05
 
 
-def test_every_map_is_nan_outside_and_normals_face_the_camera(sphere):
+def test_every_map_is_nan_outside_and_normals_face_the_camera(sphere: Surface) -> None:
     for values in (sphere.normals, sphere.depth, sphere.albedo, sphere.normal_std_deg, sphere.depth_std):
         assert np.isnan(values[~sphere.mask]).all()
         assert np.isfinite(values[sphere.mask]).all()
@@ -55,7 +58,7 @@ def test_every_map_is_nan_outside_and_normals_face_the_camera(sphere):
     assert np.all(sphere.component[~sphere.mask] == 0)
 
 
-def test_the_mesh_faces_the_camera_and_is_cut_at_the_outline(sphere):
+def test_the_mesh_faces_the_camera_and_is_cut_at_the_outline(sphere: Surface) -> None:
     made = mesh.build(sphere)
     a, b, c = (made.vertices_C[made.faces[:, k]].astype(float) for k in range(3))
     normal = np.cross(b - a, c - a)
@@ -66,7 +69,7 @@ def test_the_mesh_faces_the_camera_and_is_cut_at_the_outline(sphere):
 
 
 @pytest.mark.slow
-def test_colour_gives_the_same_shape_and_the_colours():
+def test_colour_gives_the_same_shape_and_the_colours() -> None:
     scene = Scene(albedo=(0.8, 0.5, 0.2))
     mask, _, n = truth(scene)
     found = reconstruct(to_radiance(draw(scene, calibration()), Sensor()), calibration(), Options(mask=mask))
@@ -77,7 +80,7 @@ def test_colour_gives_the_same_shape_and_the_colours():
 
 
 @pytest.mark.slow
-def test_gloss_is_told_from_shading():
+def test_gloss_is_told_from_shading() -> None:
     scene = Scene(gloss=0.6)
     radiance = to_radiance(draw(scene, calibration()), Sensor())
     mask, _, n = truth(scene)
@@ -99,7 +102,7 @@ def sag_mm(found: Surface) -> float:
 
 
 @pytest.mark.slow
-def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones():
+def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones() -> None:
     radiance = to_radiance(draw(card(), calibration()), Sensor())
     middle = np.zeros((SIZE[1], SIZE[0]), bool)
     middle[30:82, 50:110] = True  # about 120 x 105 mm
@@ -111,13 +114,13 @@ def test_a_flat_card_is_a_bowl_under_distant_lights_and_flat_under_near_ones():
 
 
 @pytest.mark.slow
-def test_a_card_that_fills_the_image_is_the_object():
+def test_a_card_that_fills_the_image_is_the_object() -> None:
     found = reconstruct(to_radiance(draw(card(), calibration()), Sensor()), calibration(), Options())
     assert found.mask.mean() > 0.8
     assert "one plane" in str(found.figures.mask)
 
 
-def test_without_a_camera_there_are_normals_and_a_depth_in_pixels():
+def test_without_a_camera_there_are_normals_and_a_depth_in_pixels() -> None:
     scene = Scene(centre=(0, 0, 4.0), radius=0.8, wall_z=6.0)
     lights = calibration()
     far = replace(lights, camera=None, lights=tuple(replace(light, source_C=None, axis_C=None) for light in lights.lights))
@@ -136,13 +139,13 @@ def test_without_a_camera_there_are_normals_and_a_depth_in_pixels():
 
 
 @pytest.mark.slow
-def test_a_known_distance_is_kept():
+def test_a_known_distance_is_kept() -> None:
     radiance = to_radiance(draw(Scene(), calibration()), Sensor())
     found = reconstruct(radiance, calibration(), Options(mask=truth(Scene())[0], distance_m=0.5))
     assert np.median(found.depth[found.component == 1]) == pytest.approx(0.5, rel=1e-3)
 
 
-def test_what_cannot_be_reconstructed_says_why():
+def test_what_cannot_be_reconstructed_says_why() -> None:
     radiance = to_radiance(draw(Scene(), calibration()), Sensor())
     few = replace(radiance, lights=("L0", "L1"), signal=radiance.signal[:2], sigma=radiance.sigma[:2], saturated=radiance.saturated[:2])
     with pytest.raises(DegenerateError, match="2 lights"):
@@ -161,7 +164,7 @@ def test_what_cannot_be_reconstructed_says_why():
         reconstruct(radiance, replace(calibration(), lights=row), Options())
 
 
-def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance():
+def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance() -> None:
     lights = calibration()
     radiance = to_radiance(draw(Scene(centre=(0.004, -0.003, 0.35), radius=0.02, wall_z=0.42), lights), Sensor())
     used = sight.lights_of(lights, radiance)
@@ -181,7 +184,7 @@ def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "use", "most"), [("ball", range(1, 97), 2.0), ("bear", range(21, 97), 6.5)])
-def test_diligent(data, name, use, most):
+def test_diligent(data: Callable[[str], Path], name: str, use: Any, most: float) -> None:
     folder = data(f"surface/diligent_{name}")
     _, lights = read_lights(folder)
     raw = read_capture(folder, [light.name for light in lights.lights], use=[f"{k:03d}" for k in use])

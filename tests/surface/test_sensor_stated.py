@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -42,7 +44,7 @@ def error_deg(folder: Path, drawn: Drawn) -> float:
     return float(np.degrees(np.nanmean(2 * np.arcsin(np.clip(apart / 2, 0, 1)))))
 
 
-def test_what_is_said_first_counts():
+def test_what_is_said_first_counts() -> None:
     first, then = StatedSensor(2.2, None, 0.9), StatedSensor(1.8, 0.01)
     assert first.over(then) == StatedSensor(2.2, 0.01, 0.9)
     assert then.over(first) == StatedSensor(1.8, 0.01, 0.9)
@@ -50,7 +52,7 @@ def test_what_is_said_first_counts():
     assert StatedSensor(black_level=0.0).said == {"black_level": 0.0}
 
 
-def test_the_sensor_in_use_and_who_says_it():
+def test_the_sensor_in_use_and_who_says_it() -> None:
     used = sensor_in_use([("a", StatedSensor("srgb")), ("b", StatedSensor(1.8, 0.008)), ("c", StatedSensor(white_level=0.0625))], "here")
     assert used.sensor == Sensor(0.008, 0.0625, "srgb")
     assert used.said_by == {"gamma": "a", "black_level": "b", "white_level": "c"}
@@ -63,7 +65,7 @@ def test_the_sensor_in_use_and_who_says_it():
 @pytest.mark.parametrize(
     "stated", [StatedSensor("srgb"), StatedSensor(2.2, 0.01, 0.9), StatedSensor(flat_field=FlatField(np.eye(3))), StatedSensor()]
 )
-def test_a_calibration_without_a_camera_keeps_the_sensor(tmp_path, stated):
+def test_a_calibration_without_a_camera_keeps_the_sensor(tmp_path: Path, stated: StatedSensor) -> None:
     made = replace(draw(RECIPE, 0).calibration, sensor=stated)
     write_calibration(tmp_path / "c.yaml", made, Provenance())
     found = read_calibration(tmp_path / "c.yaml")
@@ -74,7 +76,7 @@ def test_a_calibration_without_a_camera_keeps_the_sensor(tmp_path, stated):
 
 
 @pytest.mark.parametrize("wrong", ["gamma: -1", "gamma: adobe", "black_level: 2", "white_level: 0", "gamma: 2.2, model: pinhole"])
-def test_a_sensor_that_cannot_be_is_refused(tmp_path, wrong):
+def test_a_sensor_that_cannot_be_is_refused(tmp_path: Path, wrong: str) -> None:
     write_calibration(tmp_path / "c.yaml", draw(RECIPE, 0).calibration, Provenance())
     with (tmp_path / "c.yaml").open("a") as file:
         file.write(f"camera: {{{wrong}}}\n")
@@ -103,7 +105,9 @@ def by_panel(rig: Path) -> tuple[list[str], str]:
 
 
 @pytest.mark.parametrize("state", [by_command, by_capture, by_calibration, by_panel])
-def test_imported_lights_heed_a_gamma_wherever_it_is_stated(lpcal, tmp_path, state):
+def test_imported_lights_heed_a_gamma_wherever_it_is_stated(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, state: Callable[..., Any]
+) -> None:
     drawn = draw(RECIPE, 3)
     write(tmp_path / "cap", drawn)
     assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
@@ -126,7 +130,9 @@ def test_imported_lights_heed_a_gamma_wherever_it_is_stated(lpcal, tmp_path, sta
         ("gamma: srgb", "gamma: srgb", ""),
     ],
 )
-def test_a_panel_changed_over_its_calibration_is_said(lpcal, tmp_path, panel, calibration, words):
+def test_a_panel_changed_over_its_calibration_is_said(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, panel: str, calibration: str, words: str
+) -> None:
     write(tmp_path / "cap", draw(RECIPE, 3))
     assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
     with (tmp_path / "c.yaml").open("a") as file:
@@ -139,7 +145,7 @@ def test_a_panel_changed_over_its_calibration_is_said(lpcal, tmp_path, panel, ca
     assert "which counts" not in stated
 
 
-def test_a_panel_elsewhere_says_nothing_of_this_capture(lpcal, tmp_path):
+def test_a_panel_elsewhere_says_nothing_of_this_capture(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     write(tmp_path / "other/cap", draw(RECIPE, 3))
     (tmp_path / "rig").mkdir()
     (tmp_path / "rig/panel.yaml").write_text("lpcal: 1\ncamera: {gamma: srgb}\n")
@@ -149,7 +155,7 @@ def test_a_panel_elsewhere_says_nothing_of_this_capture(lpcal, tmp_path):
     assert "sensor:" not in told
 
 
-def test_a_linear_capture_says_nothing_of_its_sensor(lpcal, tmp_path):
+def test_a_linear_capture_says_nothing_of_its_sensor(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     write(tmp_path / "cap", draw(replace(RECIPE, gamma=1.0), 3))
     assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
     code, told, wrong = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out")
@@ -164,7 +170,9 @@ def fall_off(shape: tuple[int, int]) -> np.ndarray:
 
 
 @pytest.mark.parametrize("where", ["capture.yaml", "panel.yaml"])
-def test_a_flat_field_without_a_lens_divides_out_of_the_albedo(lpcal, tmp_path, where):
+def test_a_flat_field_without_a_lens_divides_out_of_the_albedo(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, where: str
+) -> None:
     drawn = draw(replace(RECIPE, gamma=1.0, size=56), 3)
     fall = fall_off(drawn.mask.shape)
     dimmed = replace(drawn, raw=replace(drawn.raw, images=drawn.raw.images * fall))
@@ -183,7 +191,7 @@ def test_a_flat_field_without_a_lens_divides_out_of_the_albedo(lpcal, tmp_path, 
     assert np.nanstd(ratio) / np.nanmean(ratio) < 0.02
 
 
-def test_a_flat_field_that_is_not_there(lpcal, tmp_path):
+def test_a_flat_field_that_is_not_there(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     write(tmp_path / "cap", draw(RECIPE, 3), flat_field="none.png")
     assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
     code, _, told = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out")
@@ -191,7 +199,7 @@ def test_a_flat_field_that_is_not_there(lpcal, tmp_path):
     assert "no such file: none.png" in told
 
 
-def test_export_without_a_lens_keeps_what_panel_yaml_states(lpcal, tmp_path):
+def test_export_without_a_lens_keeps_what_panel_yaml_states(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     wings = ", ".join(
         f"L{k}: {{azimuth: {60 * k} deg, joint_angle: 30 deg, disc_spacer: 29 mm, blob_spacer: 40 mm, leds: 19}}" for k in range(6)
     )

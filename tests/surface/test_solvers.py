@@ -18,7 +18,7 @@ from lpcal.surface.sight import Sight
 
 @given(st.integers(0, 10_000))
 @settings(max_examples=25, deadline=None)
-def test_exact_signals_give_b_back(seed):
+def test_exact_signals_give_b_back(seed: int) -> None:
     rng = np.random.default_rng(seed)
     B, b = rng.normal(size=(5, 7, 3)), rng.normal(size=(7, 3))
     signal = np.einsum("kpi,pi->kp", B, b)
@@ -28,7 +28,7 @@ def test_exact_signals_give_b_back(seed):
     assert np.allclose(lambert.three_lights(B, signal, lambert.crosses(B), (0, 2, 4)), b, atol=1e-5)
 
 
-def test_lights_in_a_plane_give_no_normal():
+def test_lights_in_a_plane_give_no_normal() -> None:
     B = np.array([[[1.0, 0, 0]], [[0, 1.0, 0]], [[1.0, 1.0, 0]]])
     assert np.isnan(lambert.weighted(B, np.ones((3, 1)), np.ones((3, 1)))[0]).all()
     assert np.isnan(lambert.three_lights(B, np.ones((3, 1)), lambert.crosses(B), (0, 1, 2))).all()
@@ -41,7 +41,7 @@ def disc(size: int) -> np.ndarray:
     return mask
 
 
-def test_multigrid_solves_what_a_direct_solver_does():
+def test_multigrid_solves_what_a_direct_solver_does() -> None:
     mask = disc(90)
     rng = np.random.default_rng(1)
     grid = Grid.of(mask)
@@ -66,7 +66,7 @@ def sphere_cap(mask: np.ndarray, focal: float) -> tuple[np.ndarray, np.ndarray, 
     return rays, t, (t[:, None] * rays - centre) / radius
 
 
-def test_integration_of_a_spheres_normals_in_a_mask_with_a_hole():
+def test_integration_of_a_spheres_normals_in_a_mask_with_a_hole() -> None:
     mask = disc(100)
     rays, depth, n = sphere_cap(mask, 260.0)
     grid = Grid.of(mask)
@@ -78,7 +78,7 @@ def test_integration_of_a_spheres_normals_in_a_mask_with_a_hole():
     assert weight.min() > 0.3
 
 
-def test_parallel_rays_give_depth_in_pixels():
+def test_parallel_rays_give_depth_in_pixels() -> None:
     mask = disc(60)
     row, column = np.nonzero(mask)
     slope_x, slope_y = 0.3, -0.2  # z = 0.3 x - 0.2 y
@@ -91,7 +91,7 @@ def test_parallel_rays_give_depth_in_pixels():
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])
-def test_a_jump_is_kept_and_parts_the_pieces(seed):
+def test_a_jump_is_kept_and_parts_the_pieces(seed: int) -> None:
     mask = np.ones((60, 80), bool)
     row, column = np.nonzero(mask)
     rays = np.stack([(column - 39.5) / 300, (row - 29.5) / 300, np.ones(len(row))], axis=1)
@@ -131,7 +131,7 @@ def angle_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("lights", [6, 40])
-def test_shadows_and_highlights_do_not_turn_the_normals(lights):
+def test_shadows_and_highlights_do_not_turn_the_normals(lights: int) -> None:
     rng = np.random.default_rng(lights)
     seen, B, n = random_sight(rng, lights, 800, 0.001)
     worst = lights // 6
@@ -147,7 +147,7 @@ def test_shadows_and_highlights_do_not_turn_the_normals(lights):
     assert np.nanmean(error) < 0.3 * angle_deg(lambert.unit(plain)[0], n).mean()
 
 
-def test_the_covariance_of_b_is_honest():
+def test_the_covariance_of_b_is_honest() -> None:
     rng = np.random.default_rng(7)
     seen, B, n = random_sight(rng, 6, 4000, 0.01)
     albedo = np.sum(seen.signal * np.einsum("kpi,pi->kp", B, n), axis=0) / np.sum(np.einsum("kpi,pi->kp", B, n) ** 2, axis=0)
@@ -159,7 +159,7 @@ def test_the_covariance_of_b_is_honest():
     assert np.mean(z**2) == pytest.approx(1.0, abs=0.1)
 
 
-def test_filling_is_smooth_and_keeps_what_is_known():
+def test_filling_is_smooth_and_keeps_what_is_known() -> None:
     mask = np.ones((30, 30), bool)
     grid = Grid.of(mask)
     row, column = np.nonzero(mask)
@@ -170,7 +170,7 @@ def test_filling_is_smooth_and_keeps_what_is_known():
     assert np.abs(found - values).max() < 0.5
 
 
-def test_intensities_that_nobody_measured_are_found_from_the_object():
+def test_intensities_that_nobody_measured_are_found_from_the_object() -> None:
     rng = np.random.default_rng(11)
     seen, B, _ = random_sight(rng, 12, 3000, 0.002)
     true = rng.uniform(0.6, 1.5, 12)

@@ -14,7 +14,7 @@ from lpcal.surface import reconstruct, sight
 
 
 @pytest.mark.parametrize("kind", ["aimed", "parallel", "isotropic"])
-def test_the_sweep_finds_the_distance(kind):
+def test_the_sweep_finds_the_distance(kind: str) -> None:
     given = calibration()
     change = {"aimed": {}, "parallel": {"axis_C": np.array([0.0, 0, 1])}, "isotropic": {"lobe": Lobe()}}[kind]
     given = replace(given, d_object_m=None, focus_C=None, lights=tuple(replace(light, **change) for light in given.lights))

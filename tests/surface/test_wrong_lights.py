@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -27,7 +29,7 @@ def write(folder: Path, order: list[int], signs: tuple[int, int, int] = (1, 1, 1
     (folder / "dome.lp").write_text("\n".join([str(len(rows)), *rows]) + "\n")
 
 
-def said(lpcal, folder: Path) -> str:
+def said(lpcal: Callable[..., Any], folder: Path) -> str:
     """What `reconstruct` says with the .lp of a folder; it ends with 0."""
     assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=folder)[0] == 0
     code, _, err = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out", cwd=folder)
@@ -35,7 +37,7 @@ def said(lpcal, folder: Path) -> str:
     return str(err)
 
 
-def test_the_right_list_is_not_doubted(lpcal, tmp_path: Path) -> None:
+def test_the_right_list_is_not_doubted(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     write(tmp_path, list(range(12)))
     assert "warning" not in said(lpcal, tmp_path)
 
@@ -45,7 +47,7 @@ def test_the_right_list_is_not_doubted(lpcal, tmp_path: Path) -> None:
     [[*range(1, 12), 0], [5, 11, 3, 9, 1, 7, 0, 6, 2, 8, 4, 10], pytest.param([*range(2, 12), 0, 1], marks=pytest.mark.slow)],
     ids=["shifted by one", "mixed", "shifted by two"],
 )
-def test_lights_in_another_order(lpcal, tmp_path: Path, order: list[int]) -> None:
+def test_lights_in_another_order(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, order: list[int]) -> None:
     write(tmp_path, order)
     assert "do not fit the lights" in said(lpcal, tmp_path)
 
@@ -55,13 +57,13 @@ def test_lights_in_another_order(lpcal, tmp_path: Path, order: list[int]) -> Non
     [(range(12), (1, -1, 1)), (range(12), (-1, 1, 1)), ([0, 5, 4, 3, 2, 1, 6, 11, 10, 9, 8, 7], (1, 1, 1))],
     ids=["y down", "x left", "rings the other way round"],
 )
-def test_mirrored_lists(lpcal, tmp_path: Path, order: list[int], signs: tuple[int, int, int]) -> None:
+def test_mirrored_lists(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, order: list[int], signs: tuple[int, int, int]) -> None:
     write(tmp_path, list(order), signs)
     assert "x or y turned over" in said(lpcal, tmp_path)
 
 
 @pytest.mark.parametrize(("one", "other"), [(0, 1), *(pytest.param(*pair, marks=pytest.mark.slow) for pair in ((2, 9), (7, 10)))])
-def test_two_of_a_dozen_exchanged(lpcal, tmp_path: Path, one: int, other: int) -> None:
+def test_two_of_a_dozen_exchanged(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, one: int, other: int) -> None:
     order = list(range(12))
     order[one], order[other] = other, one
     write(tmp_path, order)

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from handeye_rigs import FLIP, image_rig
-from handeye_scene import Noise, stop_and_shoot
-from lpcal.chain.h_op_panel import match_rests, rests_of, track_of
+from handeye_scene import Noise, Session, stop_and_shoot
+from lpcal.chain.h_op_panel import Rests, match_rests, rests_of, track_of
 from lpcal.errors import DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry import se3
 
 
-def recorded(seed, views=24, **kwargs):
+def recorded(seed: int, views: int = 24, **kwargs: Any) -> tuple[Session, npt.NDArray[Any]]:
     session, view = stop_and_shoot(np.random.default_rng(seed), views, noise=Noise(drift=0.3), **kwargs)
     return session, view
 
 
-def right_rests(rests, session):
+def right_rests(rests: Rests, session: Session) -> npt.NDArray[Any]:
     """The rest of each view, by the time that the match does not know."""
     t = session.boards.t_camera_s - session.offset_s
     distance = np.abs(rests.t_s[None] - t[:, None])
@@ -28,7 +32,7 @@ def right_rests(rests, session):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_every_view_finds_its_rest(seed):
+def test_every_view_finds_its_rest(seed: int) -> None:
     session, _ = recorded(seed)
     rests = rests_of(track_of(session.stream))
     assert len(rests.t_s) == 24
@@ -36,7 +40,7 @@ def test_every_view_finds_its_rest(seed):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_rests_without_images_and_flipped_rests(seed):
+def test_rests_without_images_and_flipped_rests(seed: int) -> None:
     session, view = recorded(seed, 30)
     wrong = np.isin(view, [4, 17])
     H_OP = np.where(wrong[:, None, None], session.stream.H_OP @ FLIP, session.stream.H_OP)
@@ -50,7 +54,7 @@ def test_rests_without_images_and_flipped_rests(seed):
     assert np.all(found[sound][found[sound] != right[sound]] == -1)
 
 
-def test_refusals():
+def test_refusals() -> None:
     session, _ = recorded(5)
     rests = rests_of(track_of(session.stream))
     with pytest.raises(DisagreementError, match="do not match the 24 rests"):
@@ -61,7 +65,7 @@ def test_refusals():
         match_rests(rests, session.boards.H_CB[:3])
 
 
-def test_command(tmp_path, lpcal):
+def test_command(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     session, _ = recorded(7)
     image_rig(tmp_path, session)
     text = (tmp_path / "panel.yaml").read_text()
@@ -78,7 +82,7 @@ def test_command(tmp_path, lpcal):
     assert all(view.used for view in found.views)
 
 
-def test_a_rest_in_a_trembling_hand_is_a_rest():
+def test_a_rest_in_a_trembling_hand_is_a_rest() -> None:
     session, view = stop_and_shoot(np.random.default_rng(12), 20, noise=Noise(drift=0.9), dwell_s=0.8)
     found = rests_of(track_of(session.stream))
     period = 0.8 + 0.6

@@ -7,20 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from handeye_scene import Noise, moving_session
+from handeye_scene import Noise, Session, moving_session
 from lpcal.chain.h_op_body import body_of
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving
 from lpcal.geometry import se3
 from lpcal.geometry.pose_track import poses_at
-from lpcal.records.observations import MarkerStream
+from lpcal.records.observations import MarkerStream, PoseStream
 
 PLACES_P = {"A": (0.01, 0.0, 0.0), "B": (0.0, 0.012, 0.002), "C": (-0.01, 0.004, 0.0), "D": (0.1, -0.09, 0.05), "E": (-0.12, -0.09, 0.0)}
 SIGMA_M = 1e-4
 EXACT = Noise(mocap_rad=1e-9, mocap_m=1e-9)
 
 
-def _session(seed):
+def _session(seed: int) -> tuple[Session, PoseStream]:
     """A session whose body is of five markers, the outer two of which are hidden half of the time; and the pose stream made of it."""
     rng = np.random.default_rng(seed)
     session = moving_session(rng, 60, EXACT)
@@ -32,7 +32,7 @@ def _session(seed):
 
 
 @pytest.mark.slow
-def test_poses_count_by_their_own_covariance():
+def test_poses_count_by_their_own_covariance() -> None:
     weighted, alike, nees = [], [], []
     for seed in range(4):
         session, stream = _session(seed)
@@ -46,7 +46,7 @@ def test_poses_count_by_their_own_covariance():
     assert np.mean(nees) < 6 + 4 * np.sqrt(12 / 4)
 
 
-def test_the_variance_of_a_pose_is_that_of_the_samples_around_it():
+def test_the_variance_of_a_pose_is_that_of_the_samples_around_it() -> None:
     _, stream = _session(0)
     track = track_of(stream)
     hidden, whole = poses_at(track, np.array([2.25, 2.75])).variance

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,20 +15,21 @@ from handeye_scene import static_session
 from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_paired
 from lpcal.formats.pasted_transforms import both_ways, matrix_lines, write_easy_handeye
 from lpcal.geometry import se3
+from lpcal.geometry.arrays import Array
 
 FLOAT = r"-?\d+\.\d+"
 
 
 @pytest.fixture(params=range(4))
-def H(request):
+def H(request: pytest.FixtureRequest) -> Array:
     return se3.exp(np.random.default_rng(request.param).normal(0, [1.2, 1.2, 1.2, 0.3, 0.3, 0.3]))
 
 
-def back(R, x):
+def back(R: Array, x: Array | list[float]) -> Array:
     return se3.transform(np.asarray(R), np.asarray(x))
 
 
-def test_every_form_is_the_same_transform(H):
+def test_every_form_is_the_same_transform(H: Array) -> None:
     for name, H_AB in (("H_PC", H), ("H_CP", se3.inv(H)), ("H_OB", H @ H), ("H_BO", se3.inv(H @ H))):
         given = both_ways(H, H @ H, "Panel")[name]
         x = given["translation_m"]
@@ -47,11 +49,11 @@ def test_every_form_is_the_same_transform(H):
     assert both_ways(H, H, "Light Panel")["H_PC"]["ros"].endswith("--frame-id Light_Panel --child-frame-id camera")
 
 
-def test_the_lines_are_python(H):
+def test_the_lines_are_python(H: Array) -> None:
     assert np.abs(np.array(ast.literal_eval("\n".join(matrix_lines(H)))) - H).max() < 1e-6
 
 
-def test_easy_handeye(tmp_path, H):
+def test_easy_handeye(tmp_path: Path, H: Array) -> None:
     write_easy_handeye(tmp_path / "it.yaml", H, "Panel")
     document = yaml.safe_load((tmp_path / "it.yaml").read_text())
     t = document["transformation"]
@@ -60,7 +62,7 @@ def test_easy_handeye(tmp_path, H):
     assert document["parameters"]["robot_effector_frame"] == "Panel"
 
 
-def test_left_out_error_is_that_of_a_solve_without_the_view():
+def test_left_out_error_is_that_of_a_solve_without_the_view() -> None:
     session = static_session(np.random.default_rng(0), 14)
     found = solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions()).handeye
     apart = [view.held_out_m for view in found.views]

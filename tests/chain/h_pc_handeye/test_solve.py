@@ -3,35 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, moving_session, robot_session, static_session
+from handeye_scene import K_TRUE, LENS_TRUE, TYPICAL, Noise, Session, moving_session, robot_session, static_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving, solve_paired
 from lpcal.chain.h_pc_handeye.advice import _turned, advise
 from lpcal.chain.h_pc_handeye.camera_part import turned_by_half
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
-from lpcal.records.calibration import Camera
+from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Camera, HandEye
 
 
-def _nees(H_true, H, covariance):
+def _nees(H_true: Array, H: Array, covariance: Array) -> float:
     xi = se3.log(H_true @ se3.inv(H))
     return float(xi @ np.linalg.solve(covariance, xi))
 
 
-def _static(session, **options):
+def _static(session: Session, **options: Any) -> HandEye:
     return solve_paired(session.boards, session.H_OP, session.camera, HandEyeOptions(**options)).handeye
 
 
-def _moving(session, **options):
+def _moving(session: Session, **options: Any) -> HandEye:
     return solve_moving(session.boards, track_of(session.stream), session.camera, HandEyeOptions(**options)).handeye
 
 
 @pytest.mark.slow
-def test_static_with_flips_is_honest_and_names_them():
+def test_static_with_flips_is_honest_and_names_them() -> None:
     nees, error = [], []
     for seed in range(14):
         session = static_session(np.random.default_rng(seed), 30, flips=0.1)
@@ -46,7 +48,7 @@ def test_static_with_flips_is_honest_and_names_them():
     assert np.sqrt(np.mean(np.square(error))) < 0.7e-3
 
 
-def with_square_stated(session, share):
+def with_square_stated(session: Session, share: float) -> Session:
     """The session as it is where board.square is stated so much of what it is."""
     H_CB = session.boards.H_CB.copy()
     H_CB[:, :3, 3] *= share
@@ -54,7 +56,7 @@ def with_square_stated(session, share):
 
 
 @pytest.mark.parametrize("off", [0.0, 0.015, *(pytest.param(one, marks=pytest.mark.slow) for one in (0.005, -0.02))])
-def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
+def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off: float) -> None:
     nees = []
     for seed in range(3):
         session = static_session(np.random.default_rng(seed), 30)
@@ -70,7 +72,7 @@ def test_a_square_stated_wrong_leaves_H_PC_right_and_is_said(off):
 
 
 @pytest.mark.slow
-def test_the_covariance_holds_whatever_the_square_is_stated():
+def test_the_covariance_holds_whatever_the_square_is_stated() -> None:
     """Over many sessions by chance alone; and of one session nothing but the unit hangs on the square that is stated."""
     sessions = [static_session(np.random.default_rng(seed), 30) for seed in range(60)]
     solved = [(session, _static(session)) for session in sessions]
@@ -82,7 +84,7 @@ def test_the_covariance_holds_whatever_the_square_is_stated():
             assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) == pytest.approx(as_it_is, abs=1.0)
 
 
-def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
+def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves() -> None:
     session = static_session(np.random.default_rng(4), 12, 12.0, Noise(mocap_rad=np.radians(0.5), mocap_m=3e-3))
     found = _static(session)
     assert 1.8e-3 < found.evidence.board_size_by_mocap_std < 8e-3  # no surer than before the data, or little
@@ -92,7 +94,7 @@ def test_the_board_alone_cannot_tell_its_size_where_the_mocap_hardly_moves():
 
 
 @pytest.mark.parametrize("size", [pytest.param((0.0, 0.0), marks=pytest.mark.slow), (0.03, 0.3), (0.1, 0.5)])
-def test_the_covariance_holds_errors_that_hang_on_the_pose(size):
+def test_the_covariance_holds_errors_that_hang_on_the_pose(size: tuple[float, float]) -> None:
     nees = []
     for seed in range(3):
         session = robot_session(np.random.default_rng(seed), *size)
@@ -102,7 +104,7 @@ def test_the_covariance_holds_errors_that_hang_on_the_pose(size):
 
 
 @pytest.mark.parametrize("seeds", [range(4), pytest.param(range(8), marks=pytest.mark.slow)])
-def test_moving_finds_the_offset_and_is_honest(seeds):
+def test_moving_finds_the_offset_and_is_honest(seeds: Any) -> None:
     nees, offset, std = [], [], []
     for seed in seeds:
         session = moving_session(np.random.default_rng(100 + seed), 40, flips=0.05)
@@ -115,14 +117,14 @@ def test_moving_finds_the_offset_and_is_honest(seeds):
     assert np.mean((np.array(offset) / std) ** 2) < 3
 
 
-def test_a_view_at_the_edge_of_a_run_that_settling_loses():
+def test_a_view_at_the_edge_of_a_run_that_settling_loses() -> None:
     found = _moving(session := moving_session(np.random.default_rng(30), 30, flips=0.05))
     assert sum(view.used for view in found.views) >= 20
     assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 25
 
 
 @pytest.mark.slow
-def test_drifting_noise_does_not_make_it_sure_of_itself():
+def test_drifting_noise_does_not_make_it_sure_of_itself() -> None:
     nees = []
     for seed in range(8):
         session = moving_session(np.random.default_rng(seed), 150, Noise(drift=0.6))
@@ -131,7 +133,7 @@ def test_drifting_noise_does_not_make_it_sure_of_itself():
     assert np.mean(nees) < 12  # white noise gives 6, and 0.9 of chance over eight sessions
 
 
-def test_camera_error_is_refined_away():
+def test_camera_error_is_refined_away() -> None:
     session = static_session(np.random.default_rng(7), 40, 30.0)
     found = _static(session)
     off = np.abs(found.evidence.camera_as_refined_here[:2] - [712.4, 713.1]).max()
@@ -142,7 +144,7 @@ def test_camera_error_is_refined_away():
     assert np.linalg.norm(_static(replace(session, camera=wrong)).H_PC[:3, 3] - session.H_PC[:3, 3]) < 1.5e-3
 
 
-def test_boards_found_by_their_other_end_are_turned_back():
+def test_boards_found_by_their_other_end_are_turned_back() -> None:
     session = static_session(np.random.default_rng(9), 24)
     wrong = np.arange(24) % 5 == 0
     turned = turned_by_half(session.boards)
@@ -156,7 +158,7 @@ def test_boards_found_by_their_other_end_are_turned_back():
     assert np.allclose(found.H_PC, _static(session).H_PC, atol=1e-6)
 
 
-def test_a_splined_camera():
+def test_a_splined_camera() -> None:
     session = static_session(np.random.default_rng(10), 24)
     model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=11_Ny=8_fov_x_deg=80"
     core = [712.4, 713.1, 385.1, 230.6]
@@ -171,7 +173,7 @@ def test_a_splined_camera():
     assert _nees(session.H_PC, found.H_PC, found.H_PC_covariance) < 22
 
 
-def test_board_poses_alone():
+def test_board_poses_alone() -> None:
     session = moving_session(np.random.default_rng(3), 100)
     boards = replace(session.boards, corners_px=None, points_B=None)
     found = solve_moving(boards, track_of(session.stream), None, HandEyeOptions()).handeye
@@ -179,13 +181,13 @@ def test_board_poses_alone():
     assert abs(found.clock_offset_s - session.offset_s) < 2e-3
 
 
-def test_stated_offset_is_kept():
+def test_stated_offset_is_kept() -> None:
     session = moving_session(np.random.default_rng(4), 60)
     found = _moving(session, clock_offset_s=session.offset_s)
     assert (found.clock_offset_s, found.clock_offset_std_s) == (session.offset_s, 0.0)
 
 
-def test_a_body_at_rest_shows_no_offset():
+def test_a_body_at_rest_shows_no_offset() -> None:
     rng = np.random.default_rng(5)
     session = static_session(rng, 20)
     rate, dwell = 120, 1.0
@@ -201,7 +203,7 @@ def test_a_body_at_rest_shows_no_offset():
     assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 2e-3
 
 
-def test_refusals():
+def test_refusals() -> None:
     session = static_session(np.random.default_rng(6), 20)
     with pytest.raises(DegenerateError, match="3 views"):
         solve_paired(session.boards.of(np.arange(3)), session.H_OP[:3], session.camera, HandEyeOptions())
@@ -226,7 +228,7 @@ def test_refusals():
 
 
 @pytest.mark.slow
-def test_what_more_views_would_do_is_what_they_do():
+def test_what_more_views_would_do_is_what_they_do() -> None:
     told, done = [], []
     for seed in range(6):
         rng = np.random.default_rng(seed)
@@ -246,7 +248,7 @@ def test_what_more_views_would_do_is_what_they_do():
     assert told[1] == pytest.approx(done[1], rel=0.4)
 
 
-def about_one_axis_mostly(session):
+def about_one_axis_mostly(session: Session) -> Any:
     """The session with the panel turned by much about its z, by little about the rest."""
     rng = np.random.default_rng(1)
     turn = np.concatenate(
@@ -255,7 +257,7 @@ def about_one_axis_mostly(session):
     return seen_from(session, session.H_OP[:1] @ se3.exp(turn))
 
 
-def seen_from(session, H_OP):
+def seen_from(session: Session, H_OP: Array) -> Any:
     """The session from other panel poses."""
     rng = np.random.default_rng(2)
     H_CB = se3.inv(H_OP @ session.H_PC) @ session.H_OB
@@ -270,14 +272,14 @@ def seen_from(session, H_OP):
     return replace(session, boards=boards, H_OP=measured)
 
 
-def _worst_m(found):
+def _worst_m(found: Any) -> Any:
     T = np.eye(6)
     T[3:, :3] = -se3.hat(found.H_PC[:3, 3])
     return float(np.sqrt(np.linalg.eigvalsh((T @ found.H_PC_covariance @ T.T)[3:, 3:])[-1]))
 
 
 @pytest.mark.parametrize(("ppm", "every_s"), [(80.0, 1.0), pytest.param(-25.0, 4.0, marks=pytest.mark.slow)])
-def test_a_clock_that_runs_fast_is_found(ppm, every_s):
+def test_a_clock_that_runs_fast_is_found(ppm: float, every_s: float) -> None:
     session = moving_session(np.random.default_rng(1), 80, every_s=every_s)
     t = session.boards.t_camera_s
     drifting = replace(session, boards=replace(session.boards, t_camera_s=t + 1e-6 * ppm * (t - t.mean())))
@@ -290,6 +292,6 @@ def test_a_clock_that_runs_fast_is_found(ppm, every_s):
 
 
 @pytest.mark.slow
-def test_no_drift_is_seen_where_there_is_none():
+def test_no_drift_is_seen_where_there_is_none() -> None:
     rates = [_moving(moving_session(np.random.default_rng(seed), 60)).clock_drift for seed in range(3)]
     assert rates == [0.0] * 3

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from handeye_scene import moving_session
+from handeye_scene import Session, moving_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving
 
 
-def warnings(session, t_camera_s: np.ndarray) -> str:
+def warnings(session: Session, t_camera_s: np.ndarray) -> str:
     found = solve_moving(replace(session.boards, t_camera_s=t_camera_s), track_of(session.stream), session.camera, HandEyeOptions())
     return "\n".join(found.handeye.warnings)
 
