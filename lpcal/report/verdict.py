@@ -68,7 +68,10 @@ class Verdict:
 def verdicts(report: RigReport) -> list[Verdict]:
     """A line a stage, in the chain's order; of parts that the rig does not have the camera alone: without it rays are parallel."""
     lines = [_camera(report), _handeye(report.handeye), _wings(report.wings), *_distance(report.distance), _lights(report)]
-    lines = [line for line in lines if line.stage not in {"handeye", "wings", "lights"} or not report.left_out(line.stage)]
+    needless = {part for part in ("handeye", "wings", "lights") if report.left_out(part)}
+    if report.left_out("camera") and "lights" in needless:
+        needless.add("camera")  # a hand-eye alone: no rays are taken
+    lines = [line for line in lines if line.stage not in needless]
     return [*lines, *(_surface(surface) for surface in report.surfaces)]
 
 

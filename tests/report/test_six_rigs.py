@@ -77,6 +77,7 @@ def test_a_page_has_the_sections_of_its_rig(kind: str) -> None:
     found = read(render(rigs()[kind]))
     assert found.ids & set(PARTS) == SECTIONS[kind]
     assert {f"#{part}" for part in SECTIONS[kind]} <= set(found.references)
+    assert ("rays are taken as parallel" in " ".join(found.words)) == (kind == "dome without camera"), "a hand-eye alone takes no rays"
 
 
 @pytest.fixture(scope="module")
