@@ -14,8 +14,7 @@ import numpy as np
 from lpcal.api.distance import board_readings
 from lpcal.api.lights import as_drawn
 from lpcal.chain.distance_beam.findings import calibrate, off_drawing
-from lpcal.chain.distance_beam.fit import drawn_in_camera
-from lpcal.chain.distance_beam.through_room import boards_through_room, room_covariance
+from lpcal.chain.distance_beam.fit import boards_through_room, drawn_in_camera, room_covariance
 from lpcal.chain.h_op_panel import track_of
 from lpcal.errors import DisagreementError, InputError, LpcalError
 from lpcal.formats.distance_document import KIND, write_distance

@@ -41,8 +41,8 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.surface.bands import cores
-from lpcal.surface.flatness import flatness
 from lpcal.surface.mask import NO_HINTS, Hints, Keep
+from lpcal.surface.pieces import flatness
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}

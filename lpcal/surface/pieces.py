@@ -1,10 +1,12 @@
-"""The pieces of a surface: where it breaks, what hangs together, and the filling of gaps in between."""
+"""The pieces of a surface: where it breaks, what is connected, the filling of gaps in between, and how flat the largest one is."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.records.figures import Flatness
+from lpcal.records.surface import Surface
 from lpcal.surface import multigrid
 from lpcal.surface.integrate import LEAST_WEIGHT, Grid
 from lpcal.surface.multigrid import Matrix, Pyramid
@@ -15,6 +17,12 @@ SMALLEST_SHARE = 0.02
 SLIVER_PX = 4
 SMALLEST_PIXELS = 60
 FAINT = 1e-6
+NEARLY = 0.2
+"""Share of its extent: a piece whose points stray more from a plane is not meant to be flat."""
+RIM_PX = 3
+FEWEST = 100
+MOST = 2_000_000
+"""Pixels of a piece at most that take part, spread over it."""
 
 
 def fill(grid: Grid, values: Array, known: Mask) -> Array:
@@ -119,3 +127,34 @@ def _joined(label: Indices, kept: Indices, mask: Mask) -> Labels:
     labels[mask] = rank[label]
     nearest = ndimage.distance_transform_edt(labels == 0, return_distances=False, return_indices=True)
     return np.asarray(labels[tuple(nearest)][mask])
+
+
+def flatness(surface: Surface) -> Flatness | None:
+    """Deviation of the largest piece from a plane, mm, its bowl and extent; None where it is not nearly flat, or depth is in pixels.
+
+    Plane by total least squares on the points of the piece, its outermost pixels left out; deviations w along its normal. Bowl: what the
+    best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
+    """
+    from scipy import ndimage
+
+    inside = ndimage.binary_erosion(surface.component == 1, iterations=RIM_PX)
+    if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
+        return None
+    places = np.flatnonzero(inside)
+    places = places[:: max(1, len(places) // MOST)]
+    points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
+    centred = points - points.mean(axis=0)
+    along = np.linalg.svd(centred.T @ centred)[0]
+    deviation = centred @ along[:, 2]
+    extent = float(np.ptp(centred @ along[:, 0]))
+    low, high = np.percentile(deviation, [0.5, 99.5])
+    if high - low > NEARLY * extent:
+        return None
+    round_C = np.sum((centred @ along[:, :2]) ** 2, axis=1)
+    k = np.linalg.lstsq(np.stack([np.ones_like(round_C), round_C], axis=1), deviation, rcond=None)[0][1]
+    return Flatness(
+        bowl_mm=float(1e3 * abs(k) * (extent / 2) ** 2),
+        plane_rms_mm=float(1e3 * deviation.std()),
+        plane_peak_to_valley_mm=float(1e3 * (high - low)),
+        extent_mm=1e3 * extent,
+    )

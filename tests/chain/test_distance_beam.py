@@ -14,8 +14,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from lpcal.chain.distance_beam.findings import calibrate, off_drawing
-from lpcal.chain.distance_beam.fit import drawn_in_camera, solve
-from lpcal.chain.distance_beam.through_room import boards_through_room, room_covariance
+from lpcal.chain.distance_beam.fit import boards_through_room, drawn_in_camera, room_covariance, solve
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.distance_document import beam_document, beam_from_document
 from lpcal.geometry.arrays import Array

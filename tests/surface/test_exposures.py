@@ -15,7 +15,7 @@ from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.formats.documents import plain
 from lpcal.pipeline.reconstruct import _flat_said
 from lpcal.records.observations import RawCapture
-from lpcal.surface.flatness import flatness
+from lpcal.surface.pieces import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 

@@ -9,6 +9,11 @@ A reading's variance is the sensor's noise and what its board's pose adds by dt/
 clock offset, where the board is known through the room) are unknowns with their covariance as prior. The drawing is a prior of origin and
 direction. Readings off the board or on its rim go by where the beam meets its plane, others by Geman and McClure's weights, graduated from
 WIDE to NARROW standard deviations; the last solve is plain least squares of those within LIMIT.
+A board that the camera did not see at a reading is known through the room; with a, e, f, d the errors of H_OP, H_PC, H_OB (left
+perturbations) and of the clock offset, w the twist by which H_OP changes a second::
+
+    H_CB = H_CP H_PO H_OB          xi = Ad(H_CO) (f - a + w d) - Ad(H_CP) e
+
 Source: Gauss-Newton; graduated non-convexity, Blake & Zisserman 1987; line-laser and rangefinder to camera extrinsics from planes, Zhang &
 Pless 2004.
 """
@@ -22,6 +27,7 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import HandEye
 from lpcal.records.distance import BIAS_STD_M, SCALE_STD, BeamDrawn, BoardReadings
 
 WIDE, NARROW = 40.0, 3.0
@@ -209,3 +215,35 @@ def _linear(beam: Beam, readings: BoardReadings, moved: Array, noise_m: float) -
     variance = noise_m**2 + s**2 * np.einsum("ni,nij,nj->n", by_pose, readings.covariance, by_pose)
     residual = readings.distance_m - beam.bias_m - s * met.t_m
     return met, J, residual, np.sqrt(variance)
+
+
+SHARED = 13
+"""Errors that readings through one room share: of H_PC (6), of H_OB (6), of the clock offset."""
+LEAST_CLOCK_S = 1e-5
+"""Seconds within which a clock offset is known at best."""
+
+
+def boards_through_room(handeye: HandEye, H_OP: Array, variance: Array, velocity: Array) -> tuple[Array, Array, Array]:
+    """H_CB (N, 4, 4), each one's own covariance (N, 6, 6), and by what the shared errors act on it (N, 6, 13).
+
+    `variance` (N, 6) is that of the turn and the origin of H_OP (N, 4, 4) an axis, `velocity` (N, 6) of the turn and the origin.
+    """
+    H_CP, H_PO = se3.inv(handeye.H_PC), se3.inv(H_OP)
+    H_CB = H_CP @ H_PO @ handeye.H_OB
+    A = se3.adjoint(H_CP @ H_PO)
+    T = np.linalg.inv(se3.turn_and_origin_jacobian(H_OP))
+    own = (A @ T) @ (variance[:, :, None] * np.swapaxes(A @ T, 1, 2))
+    twist = np.concatenate([velocity[:, :3], velocity[:, 3:] - np.cross(velocity[:, :3], H_OP[:, :3, 3])], axis=1)
+    by_room = np.zeros((len(H_OP), 6, SHARED))
+    by_room[:, :, :6] = -se3.adjoint(H_CP)
+    by_room[:, :, 6:12] = A
+    by_room[:, :, 12] = np.einsum("nij,nj->ni", A, twist)
+    return H_CB, own, by_room
+
+
+def room_covariance(handeye: HandEye) -> Array:
+    """Covariance (13, 13) of the shared errors; that H_PC and H_OB err together is not counted, which makes readings count less."""
+    found = np.zeros((SHARED, SHARED))
+    found[:6, :6], found[6:12, 6:12] = handeye.H_PC_covariance, handeye.H_OB_covariance
+    found[12, 12] = max(handeye.clock_offset_std_s or 0.0, LEAST_CLOCK_S) ** 2
+    return found
