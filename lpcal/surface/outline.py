@@ -18,6 +18,8 @@ from lpcal.surface.sight import Grey, strength
 
 BAND = 2
 """Pixels of a scale on either side of an outline that the next finer scale asks anew."""
+DIM = 4
+"""Coarse pixels on either side of an outline within which what no light reaches is asked anew where there is an image without lights."""
 EVIDENCE = 10.0
 """Difference of costs that is full evidence for or against a pixel in the outline."""
 BY_ROOM = 2.0
@@ -56,12 +58,15 @@ def drawn(apart: Apart, maps: Grey, rays_C: Array, room: Image | None) -> Mask:
         np.stack([_grown(_opened(apart.labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask)
     )
     of_object[0], of_rest[0] = True, False
+    dim = np.zeros(mask.shape, bool) if room is None else _dim(apart)
     while True:
         finer = max(1, factor // 2)
         here = coarse_of(maps, rays_C, finer)
         mask = enlarged(mask, factor / finer, here.shape)
         by = int(np.ceil(BAND * factor / finer))
-        inside, band = cut.shrunk(mask, by), (_grown(mask, by) & ~cut.shrunk(mask, by)).ravel()
+        asked = enlarged(dim, coarse / finer, here.shape)
+        inside = cut.shrunk(mask, by)
+        band = (asked | (_grown(mask, by) & ~inside)).ravel()
         row, column = np.indices(here.shape).reshape(2, -1)[:, band]
         parent = np.minimum(row * finer // coarse, rows - 1) * columns + np.minimum(column * finer // coarse, columns - 1)
         at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
@@ -69,13 +74,19 @@ def drawn(apart: Apart, maps: Grey, rays_C: Array, room: Image | None) -> Mask:
         own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
         evidence = np.clip((rest - own) / EVIDENCE, -1, 1)
         if room is not None:
-            evidence += BY_ROOM * np.clip(_by_room(joined(room, finer), mask, by).ravel()[band] / EVIDENCE, -1, 1)
+            evidence += BY_ROOM * np.clip(_by_room(joined(room, finer), mask, asked, by).ravel()[band] / EVIDENCE, -1, 1)
         said = np.where(inside, 2.0, -2.0).astype(np.float32).ravel()
         said[band] = np.clip(evidence, -1, 1)
         mask = cut.total_variation(said.reshape(here.shape), _log(strength(here.maps)), STIFFNESS)
         if finer == 1:
             return cut.halfway(mask, maps.signal, maps.sigma)
         factor = finer
+
+
+def _dim(apart: Apart) -> Mask:
+    """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: what they are, shadows leave open."""
+    near = _grown(apart.mask, DIM) & ~cut.shrunk(apart.mask, DIM)
+    return np.asarray(near & (apart.labels > len(apart.found.planes)))
 
 
 def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
@@ -88,12 +99,12 @@ def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
     return np.asarray(large > 0.5)
 
 
-def _by_room(room: Image, mask: Mask, by: int) -> Array:
+def _by_room(room: Image, mask: Mask, asked: Mask, by: int) -> Array:
     """Twice the log likelihood ratio (H, W) of the room's light (H, W): as the mask shows it `by` pixels about, or as what lies outside."""
     dark = DIMMEST * float(np.median(room))
     level = np.log(np.maximum(room, max(dark, 1e-12)))
     edge = max(1, by // 2)
-    sides = cut.shrunk(mask, edge), ~_grown(mask, edge)
+    sides = cut.shrunk(mask, edge) & ~asked, ~(_grown(mask, edge) | asked)
     if not all(side.any() for side in sides):
         return np.zeros(mask.shape)
     cost = []
