@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lpcal.errors import UsageError
@@ -25,6 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--spacers", default=SPACERS, metavar="L,L,...", help="lengths that a spacer can have (default 0 to 100 mm)")
     parser.add_argument("--leds", type=int, default=19, choices=(1, 7, 19), help="LEDs lit in a blob (default 19)")
     parser.add_argument("--object", default="100mm", metavar="L", help="side of the object (default 100mm)")
+    parser.add_argument("--rig", type=Path, metavar="PANEL", help="panel.yaml or its folder, for its distance sensor: what it meets there")
     parser.add_argument("--slack", default="10mm", metavar="L", help="how far from the distance the axes may meet (default 10mm)")
 
 
@@ -60,10 +62,36 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
             head,
             *(_line(setting) for setting in found),
             "light angle: from the disc axis, seen from the object; 20 to 30 deg give the least error of the normals",
+            *([] if options.rig is None else _sensor_lines(options.rig, distance_m, length(options.object, "object"))),
         ],
         {"settings": [vars(setting) for setting in found]},
         next_command="lpcal new my_rig, and write the spacers and joint_angle into panel.yaml",
     )
+
+
+def _sensor_lines(panel: Path, distance_m: float, object_m: float) -> list[str]:
+    """What the distance sensor of a panel as drawn meets at the working distance, and how it is calibrated.
+
+    Raises
+    ------
+    InputError
+        The panel states no distance sensor.
+    """
+    from lpcal.errors import InputError
+    from lpcal.formats.panel_yaml import find, read_rig
+    from lpcal.records.distance import CALIBRATING_POSES, beam_at
+
+    rig_file = read_rig(find(panel))
+    section = None if rig_file.rig.panel is None else rig_file.rig.panel.distance_sensor
+    if section is None:
+        needed = "panel.distance_sensor: {position: [...], direction: [...], noise: 3 mm}"
+        raise InputError("no distance sensor", where=rig_file.where("panel"), needed=needed, todo="add it, or leave --rig out")
+    reading_m, beside_m = beam_at(section.position, section.direction, distance_m)
+    on = "on the object" if beside_m < object_m / 2 else "beside the object: turn the sensor towards the axis"
+    return [
+        f"distance sensor: reads {1e3 * reading_m:.1f} mm at {1e3 * distance_m:.0f} mm, {1e3 * beside_m:.1f} mm from the axis, {on}",
+        f"to calibrate it: {CALIBRATING_POSES}",
+    ]
 
 
 def _line(s: WingSetting) -> str:

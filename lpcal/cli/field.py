@@ -32,4 +32,12 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     progress("lights", 1, 1)
     write_field(options.output, x_C, dict(zip(found.names, zip(found.direction_C, found.irradiance, strict=True), strict=True)))
     summary = [f"{options.output}: {len(calibration.lights)} lights at {len(x_C)} points"]
+    sensor = calibration.distance_sensor
+    if sensor is not None and len(x_C):
+        beside = sensor.beside_m(x_C)
+        near, in_words = int(beside.argmin()), ", ".join(f"{1e3 * value:.1f}" for value in x_C[int(beside.argmin())])
+        summary.append(
+            f"distance sensor: its beam passes {1e3 * beside[near]:.1f} mm beside the nearest of them, [{in_words}] mm; "
+            f"a surface there reads {1e3 * sensor.reads_m(float(x_C[near, 2])):.1f} mm"
+        )
     return Outcome(summary, {"file": str(options.output)}, warnings=list(found.warnings))

@@ -2,8 +2,10 @@
 
 ``K``, ``distortion`` (k1 k2 p1 p2 k3 ...), ``image_size`` (width, height), ``H_PC``; a light a row: ``H_CL`` (4 L x 4, one under the
 other), ``source_C`` and ``axis_C`` (L x 3, metres), ``direction_C``, ``intensity`` (L x 1 or L x 3), ``position_std_m``,
-``direction_std_deg``; ``focus_C``, ``d_object_m``; ``lobe_deg`` (A x 1) and ``lobe`` (A x L), each light's intensity over the angle from
-its axis. Pixel centres are at whole numbers from 0; ``K_matlab`` counts them from 1, as MATLAB's `cameraParameters` does.
+``direction_std_deg``; ``focus_C``, ``d_object_m``; of the distance sensor ``distance_position_C``, ``distance_direction_C`` (1 x 3) and
+``distance_bias_scale_noise`` (1 x 3; a reading is bias + scale t at the point position + t direction); ``lobe_deg`` (A x 1) and ``lobe``
+(A x L), each light's intensity over the angle from its axis. Pixel centres are at whole numbers from 0; ``K_matlab`` counts them from 1,
+as MATLAB's `cameraParameters` does.
 """
 
 from __future__ import annotations
@@ -50,6 +52,10 @@ def write_matlab(content: ExchangeContent, folder: Path) -> list[str]:
         stored["focus_C"] = calibration.focus_C[None]
     if calibration.d_object_m is not None:
         stored["d_object_m"] = np.array([[calibration.d_object_m]])
+    if calibration.distance_sensor is not None:
+        beam = calibration.distance_sensor
+        stored |= {"distance_position_C": beam.position_C[None], "distance_direction_C": beam.direction_C[None]}
+        stored["distance_bias_scale_noise"] = np.array([[beam.bias_m, beam.scale, beam.noise_m]])
     if not stored:
         raise InputError("nothing of a calibration", where="--format matlab", needed="a camera, its place or lights")
     savemat(folder / FILE, stored, format="5")

@@ -25,6 +25,8 @@ from lpcal.records.exchange import ExchangeContent
 
 OPTICAL = "camera_optical_frame"
 """ROS's name for a frame with x right, y down, z forward (REP 103)."""
+SENSOR = "distance_sensor"
+"""The distance sensor's link: x along its beam, as ROS has it for a sensor_msgs/Range."""
 MARK = "written by lpcal"
 
 
@@ -73,7 +75,7 @@ def read_tf(path: Path) -> Calibration:
 
 
 def write_urdf(content: ExchangeContent, folder: Path) -> list[str]:
-    """rig.urdf: the body, the camera's optical frame in it, and each light's mechanical frame in the camera's."""
+    """rig.urdf: the body, the camera's optical frame in it, and in the camera's each light's mechanical frame and the distance sensor's."""
     parent = parent_of(content)
     root = ET.Element("robot", name="lpcal_rig")
     root.append(ET.Comment(f" {MARK}; metres, radians; the optical frame has x right, y down, z forward "))
@@ -83,6 +85,8 @@ def write_urdf(content: ExchangeContent, folder: Path) -> list[str]:
     for light in content.calibration.lights:
         if light.H_CL is not None:
             _joint(root, OPTICAL, f"light_{re.sub(r'[^0-9A-Za-z_]', '_', light.name)}", light.H_CL)
+    if content.calibration.distance_sensor is not None:
+        _joint(root, OPTICAL, SENSOR, content.calibration.distance_sensor.H_CR)
     ET.indent(root)
     head = '<?xml version="1.0"?>\n'
     (folder / "rig.urdf").write_text(head + ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")

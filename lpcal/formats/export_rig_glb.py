@@ -45,6 +45,11 @@ def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
         name = "P: the tracked body" if calibration.carries == "camera" else "O: the room"
         inside.append(len(nodes))
         nodes.append({"name": name, **_placed(se3.inv(calibration.H_PC))})
+    beam = calibration.distance_sensor
+    if beam is not None:
+        inside.append(len(nodes))
+        sensor = {"bias_m": beam.bias_m, "scale": beam.scale, "noise_m": beam.noise_m}
+        nodes.append({"name": "distance sensor: x along its beam", **_placed(beam.H_CR), "extras": plain(sensor)})
     spots: list[dict[str, Any]] = []
     worst = 0.0
     for light in calibration.lights:

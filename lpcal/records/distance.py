@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.shown import Shown
 
@@ -19,6 +20,22 @@ CALIBRATING_POSES = (
 """The board's poses that calibrate a sensor, in words."""
 BIAS_STD_M, SCALE_STD = 0.01, 0.02
 """One sigma of a sensor's zero and of its scale before it is calibrated: a housing's front against its datasheet's, air and target."""
+
+
+def beam_at(position_D: Sequence[float], direction_D: Sequence[float], distance_m: float) -> tuple[float, float]:
+    """What a beam as drawn reads of a plane at a distance along the disc's axis, and how far from that axis it meets it, metres.
+
+    Raises
+    ------
+    InputError
+        The beam does not go forward.
+    """
+    origin, direction = np.array(position_D, float), np.array(direction_D, float)
+    direction /= np.linalg.norm(direction)
+    if direction[2] <= 0 or origin[2] >= distance_m:
+        raise InputError("the beam does not meet the working distance", where="panel.distance_sensor", needed="a direction forward, z > 0")
+    t = (distance_m - origin[2]) / direction[2]
+    return float(t), float(np.linalg.norm((origin + t * direction)[:2]))
 
 
 @dataclass(frozen=True)
@@ -78,6 +95,27 @@ class DistanceSensor(Shown):
     def hit(self, reading_m: float) -> Array:
         """The point (3,) in C that a reading means."""
         return np.asarray(self.position_C + self.along_m(reading_m) * self.direction_C)
+
+    @property
+    def H_CR(self) -> Array:
+        """The beam's frame R (4, 4) in C: its origin, x along it, as ROS has a range sensor's; the turn about the beam is any."""
+        x = self.direction_C
+        y = np.cross(np.eye(3)[int(np.argmin(np.abs(x)))], x)
+        y /= np.linalg.norm(y)
+        H = np.eye(4)
+        H[:3, :3], H[:3, 3] = np.stack([x, y, np.cross(x, y)], axis=1), self.position_C
+        return H
+
+    def reads_m(self, depth_m: float) -> float:
+        """What it reads of a plane across the camera's axis at a depth; NaN where the beam does not meet it."""
+        ahead = float(self.direction_C[2])
+        return self.bias_m + self.scale * (depth_m - float(self.position_C[2])) / ahead if ahead > 0 else float("nan")
+
+    def beside_m(self, x_C: Array) -> Array:
+        """How far points (N, 3) lie beside the beam, metres; from its origin where they lie behind that."""
+        by = np.asarray(x_C) - self.position_C
+        along = np.maximum(by @ self.direction_C, 0.0)
+        return np.asarray(np.linalg.norm(by - along[:, None] * self.direction_C, axis=1))
 
     def std_m(self, reading_m: float) -> float:
         """One sigma along the beam of the point that a reading means: the sensor's noise and its calibration."""

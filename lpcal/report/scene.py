@@ -46,7 +46,7 @@ def rig_scene(report: RigReport) -> LineScene | None:
         drawn += _light(light, focus)
         where = _place(light)
         reach.append(_towards(light, focus)[0] if where is None else where)
-    drawn += _designed(report) + _struts(report.wings)
+    drawn += _designed(report) + _struts(report.wings) + _beam(report, focus)
     H_CD = report.lights.H_CD if report.lights is not None and report.lights.H_CD is not None else None
     H_CD = report.wings.H_CD if H_CD is None and report.wings is not None else H_CD
     if H_CD is not None:
@@ -64,7 +64,22 @@ def rig_scene(report: RigReport) -> LineScene | None:
     return replace(scene, field=field)
 
 
+def _beam(report: RigReport, focus: Array | None) -> list[LineItem]:
+    """The distance sensor's beam, as far as the focus' depth."""
+    sensor = report.distance.sensor if report.distance is not None else report.calibration.distance_sensor if report.calibration else None
+    if sensor is None:
+        return []
+    depth_m = DISTANT_M[1] if focus is None else float(focus[2])
+    end = sensor.position_C + (depth_m - sensor.position_C[2]) / max(float(sensor.direction_C[2]), 0.1) * sensor.direction_C
+    return [
+        LineItem(kind="line", points=np.stack([sensor.position_C, end]), tone="poor", layer="beam", dash=True),
+        LineItem(kind="point", points=sensor.position_C[None], tone="poor", r=3, layer="beam"),
+        LineItem(kind="label", points=end[None], text="distance sensor", tone="poor", layer="beam"),
+    ]
+
+
 LAYERS = {
+    "beam": "distance sensor",
     "sources": "sources",
     "sigma": "sigma of place",
     "volume": "working volume",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -55,3 +56,16 @@ def test_the_command_lists_them_and_refuses_a_bare_number(lpcal: Run) -> None:
     code, _, err = lpcal("design", "--distance", "5 m")
     assert code == 4
     assert "--slack" in err
+
+
+def test_the_distance_sensor_of_a_panel(lpcal: Run, tmp_path: Path) -> None:
+    """Where its beam meets the working distance, and what it reads there; a panel without one is said."""
+    panel = tmp_path / "panel.yaml"
+    beam = "{position: [30 mm, 0 mm, 10 mm], direction: [-0.1, 0, 1], noise: 3 mm}"
+    panel.write_text(f"lpcal: 1\npanel: {{disc_radius: 60 mm, joint: 15 mm, blob: 30 mm, distance_sensor: {beam}}}\n")
+    code, out, _ = lpcal("design", "--distance", "350mm", "--rig", str(panel))
+    assert code == 0
+    assert "distance sensor: reads 341.7 mm at 350 mm, 4.0 mm from the axis, on the object" in out
+    assert "to calibrate it: read it at 20 to 30 views" in out
+    panel.write_text("lpcal: 1\npanel: {disc_radius: 60 mm, joint: 15 mm, blob: 30 mm}\n")
+    assert lpcal("design", "--distance", "350mm", "--rig", str(panel))[0] == 3

@@ -201,6 +201,27 @@ def test_urdf_places_camera_and_lights(tmp_path: Path) -> None:
     assert np.abs(lpcal.read_calibration(tmp_path / "rig.urdf").H_PC - H_PC).max() < EXACT
 
 
+def test_the_distance_sensor_goes_with_the_rig(tmp_path: Path) -> None:
+    """Its beam is a frame's x axis in URDF and glTF, and rows in MATLAB."""
+    beam = lpcal.DistanceSensor(np.array([0.04, -0.01, 0.02]), np.array([-0.1, 0.05, 0.99]) / np.sqrt(0.9926), 0.003, 1.01, 0.002)
+    content = replace(calibration(), distance_sensor=beam)
+    assert np.allclose(beam.H_CR[:3, :3] @ beam.H_CR[:3, :3].T, np.eye(3))
+    for name in ("urdf", "rig-glb", "matlab"):
+        export(tmp_path, name, content)
+    root = ET.fromstring((tmp_path / "rig.urdf").read_text())
+    (joint,) = [one for one in root.iter("joint") if one.find("child").get("link") == "distance_sensor"]
+    assert np.allclose([float(value) for value in joint.find("origin").get("xyz").split()], beam.position_C)
+    turn = [float(value) for value in joint.find("origin").get("rpy").split()]
+    assert np.allclose(Rotation.from_euler("xyz", turn).as_matrix()[:, 0], beam.direction_C)
+    text = (tmp_path / "rig.glb").read_bytes()[20:]
+    (node,) = [one for one in json.loads(text)["nodes"] if one["name"].startswith("distance sensor")]
+    assert np.allclose(Rotation.from_quat(node["rotation"]).as_matrix()[:, 0], beam.direction_C)
+    assert node["extras"]["scale"] == 1.01
+    stored = loadmat(tmp_path / "calibration.mat")
+    assert np.allclose(stored["distance_direction_C"][0], beam.direction_C)
+    assert np.allclose(stored["distance_bias_scale_noise"][0], [0.003, 1.01, 0.002])
+
+
 def test_easy_handeye_as_its_publisher_reads_it(tmp_path: Path) -> None:
     export(tmp_path, "easy_handeye", body="tool0")
     stored = yaml.safe_load((tmp_path / "easy_handeye.yaml").read_text())
