@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from lpcal.api.files import write_camera as write_camera
     from lpcal.api.files import write_surface as write_surface
     from lpcal.api.fusing import fuse as fuse
+    from lpcal.api.fusing import refine_rig as refine_rig
     from lpcal.api.handeye import solve_handeye as solve_handeye
     from lpcal.api.handeye_check import check_handeye as check_handeye
     from lpcal.api.lights import assemble_calibration as assemble_calibration
@@ -82,7 +83,10 @@ _HOME = {
         "write_camera",
         "write_surface",
     ),
-    "api.fusing": ("fuse",),
+    "api.fusing": (
+        "fuse",
+        "refine_rig",
+    ),
     "api.handeye": ("solve_handeye",),
     "api.handeye_check": ("check_handeye",),
     "api.lights": ("assemble_calibration", "design_lights", "light_field"),

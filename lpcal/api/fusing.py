@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Sequence
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
 
 from lpcal.api.staged import staged
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.fusion.model import FEWEST, model_of
 from lpcal.fusion.views import PlacedView, view_of
+from lpcal.geometry import se3
 from lpcal.records import screens
-from lpcal.records.model import ObjectModel
+from lpcal.records.calibration import Calibration, Light
+from lpcal.records.model import LightEvidence, ObjectModel
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
 
@@ -19,7 +24,14 @@ LEAST_PIXELS = 200
 
 
 @staged("fusion")
-def fuse(surfaces: Sequence[Surface], *, name: str = "model", step_m: float | None = None, progress: Progress = silent) -> ObjectModel:
+def fuse(
+    surfaces: Iterable[Surface],
+    *,
+    name: str = "model",
+    step_m: float | None = None,
+    calibration: Calibration | None = None,
+    progress: Progress = silent,
+) -> ObjectModel:
     """Fuse surfaces of one object into one model, in the frame that they are placed in.
 
     The tracked poses are priors: each view's pose, distance and slow bending are refined within their standard deviations so that all
@@ -27,12 +39,14 @@ def fuse(surfaces: Sequence[Surface], *, name: str = "model", step_m: float | No
 
     Parameters
     ----------
-    surfaces : sequence of Surface
-        Two or more, each with its placement, metric.
+    surfaces : iterable of Surface
+        Two or more, each with its placement, metric. What is needed of each is kept, so that many may be read one after the other.
     name : str
         What the model is called.
     step_m : float, optional
         Length of the model's edges, metres, about; by default 1.4 pixels on the object.
+    calibration : Calibration, optional
+        The one that the surfaces share: the model then says what the views tell of its lights and H_PC, and whether the rig has moved.
     progress : callable, optional
         Called with what is done, how much of it, and of how many.
 
@@ -62,11 +76,11 @@ def fuse(surfaces: Sequence[Surface], *, name: str = "model", step_m: float | No
     ...     print(error.found)
     is not placed
     """
-    if len(surfaces) < FEWEST:
-        raise DegenerateError(
-            f"{len(surfaces)} surface", where="fuse", needed="two or more, placed", todo="take more captures round the object"
-        )
     views = [_view(surface) for surface in surfaces]
+    if len(views) < FEWEST:
+        raise DegenerateError(
+            f"{len(views)} surface", where="fuse", needed="two or more, placed", todo="take more captures round the object"
+        )
     frames = {view.placement.body for view in views}
     if len(frames) > 1:
         raise DisagreementError(
@@ -77,7 +91,73 @@ def fuse(surfaces: Sequence[Surface], *, name: str = "model", step_m: float | No
         )
     if importlib.util.find_spec("skimage") is None:
         raise InputError("scikit-image is not installed", where="fuse", needed="lpcal[fuse]", todo="uv add 'lpcal[fuse]'")
-    return model_of(name, views, step_m, progress)
+    return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights)
+
+
+def refine_rig(calibration: Calibration, model: ObjectModel) -> Calibration:
+    """The calibration with its lights and H_PC as the views of a model would have them.
+
+    Intensities keep their mean of 1: a factor that all lights share shows in the surfaces' albedo alone.
+
+    Parameters
+    ----------
+    calibration : Calibration
+        The one that `fuse` was given.
+    model : ObjectModel
+        What it made.
+
+    Returns
+    -------
+    Calibration
+        Sources, intensities and H_PC changed, with standard deviations as found.
+
+    Raises
+    ------
+    InputError
+        The model says nothing of its rig: `fuse` was given no calibration.
+
+    Examples
+    --------
+    >>> import lpcal, numpy as np
+    >>> from lpcal.records.model import LightEvidence, ModelFigures, RigEvidence
+    >>> lamp = lpcal.Light("L0", np.array([0, 0, -1.0]), np.ones(1), source_C=np.zeros(3), axis_C=np.array([0, 0, 1.0]))
+    >>> seen = LightEvidence("L0", 0.0, 0.002, np.array([0.001, 0, 0]), np.full(3, 2e-4), 1.2)
+    >>> rig = RigEvidence(np.zeros(6), np.zeros((6, 6)), 0.0, 0.0, 0.003, (seen,), 0.02, 0.015)
+    >>> ones, corners, faces = np.ones(3), np.eye(3), np.array([[0, 1, 2]])
+    >>> figures = ModelFigures(0, 0, 1, 0.5, 1, 0, 1, 0, 3, 0, 0)
+    >>> made = (corners, corners, faces, corners, ones, ones, ones, faces[0], (), figures)
+    >>> model = lpcal.ObjectModel("tile", "the room", *made, rig=rig)
+    >>> refined = lpcal.refine_rig(lpcal.Calibration("rig", (lamp,), H_PC=np.eye(4)), model)
+    >>> refined.lights[0].source_C.tolist()
+    [0.001, 0.0, 0.0]
+    """
+    rig = model.rig
+    if rig is None:
+        raise InputError("says nothing of its rig", where=model.name, needed="a model of fuse with calibration=", todo="fuse anew with it")
+    changes = {one.name: one for one in rig.lights}
+    lights = [_changed(light, changes[light.name]) if light.name in changes else light for light in calibration.lights]
+    mean = float(np.mean([light.intensity for light in lights])) if lights else 1.0
+    lights = [replace(light, intensity=light.intensity / mean) for light in lights]
+    H_PC = calibration.H_PC if calibration.H_PC is None else se3.exp(rig.H_PC_change) @ calibration.H_PC
+    tracking = None if calibration.tracking is None else replace(calibration.tracking, H_PC_covariance=rig.H_PC_covariance)
+    return replace(calibration, lights=tuple(lights), H_PC=H_PC, tracking=tracking)
+
+
+def _changed(light: Light, change: LightEvidence) -> Light:
+    """A light as the views would have it; its axis and mechanical frame go with its source."""
+    assert light.source_C is not None
+    H_CL = light.H_CL
+    if H_CL is not None:
+        H_CL = H_CL.copy()
+        H_CL[:3, 3] += change.source_change_C
+    return replace(
+        light,
+        intensity=light.intensity * (1 + change.intensity_change),
+        source_C=light.source_C + change.source_change_C,
+        H_CL=H_CL,
+        intensity_std=change.intensity_std * float(np.mean(light.intensity)),
+        position_std_m=float(np.sqrt(np.mean(change.source_std_m**2))),
+    )
 
 
 def _view(surface: Surface) -> PlacedView:

@@ -103,6 +103,10 @@ class Watched:
             words, tone = ("exposure is right",), "good"
         return self._noted(Seen(name, "light", tone, words))
 
+    def judge_reading(self, folder: str, words: str, *, well: bool) -> Seen:
+        """What the distance sensor read at a capture, in words, and whether that is well."""
+        return self._noted(Seen(folder, "light", "good" if well else "fair", (words,)))
+
     def judge_sphere(self, folder: str, found: SphereView | LpcalError) -> Seen:
         """A capture of a sphere whose lights have all come, as it was found, or why it was not."""
         if isinstance(found, LpcalError):

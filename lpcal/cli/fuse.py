@@ -25,6 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", type=Path, default=Path("model"), metavar="DIR", help="where to (default: model)")
     parser.add_argument("--step", metavar="LENGTH", help="length of the model's edges, such as 0.5mm (default: 1.4 pixels on the object)")
+    parser.add_argument("--no-pages", action="store_true", help="no model.html")
+    parser.add_argument(
+        "--refine", action="store_true", help="write the rig's calibration as the views would have it beside the model, calibration.yaml"
+    )
     add_rig_option(parser)
 
 
@@ -38,7 +42,9 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         if not options.captures or options.rig != Path():
             raise
         rig = _rig_above(options)
-    return fuse_folders(options.captures, options.output, rig, length(options.step), progress)
+    return fuse_folders(
+        options.captures, options.output, rig, length(options.step), progress, page=not options.no_pages, refine=options.refine
+    )
 
 
 def _rig_above(options: argparse.Namespace) -> Workspace | None:

@@ -25,10 +25,12 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
 
     if options.idle is not None and not options.idle > 0:
         raise UsageError(f"--idle {options.idle}", needed="seconds above 0")
+    home = None
     try:
-        rig = read_rig(find(options.rig or options.folder)).rig
+        panel = find(options.rig or options.folder)
+        rig, home = read_rig(panel).rig, panel.parent
     except InputError:
         if options.rig is not None or not options.folder.is_dir():
             raise
         rig = None
-    return watch(options.folder, rig, complain, port=None if options.port < 0 else options.port, idle_s=options.idle)
+    return watch(options.folder, rig, complain, home=home, port=None if options.port < 0 else options.port, idle_s=options.idle)

@@ -16,15 +16,18 @@ import numpy as np
 
 from lpcal import __version__
 from lpcal.errors import InputError
+from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import summarised, whole
-from lpcal.formats.record_documents import document_of, record_of
-from lpcal.records.model import ModelFigures, ObjectModel, ViewInModel
+from lpcal.formats.record_documents import document_of, known_record_of, record_of
+from lpcal.records.calibration import Calibration
+from lpcal.records.model import Missing, ModelFigures, ObjectModel, RigEvidence, ViewInModel
+from lpcal.records.provenance import Provenance
 from lpcal.surface.mesh import DISPLAY_GAMMA
 
 ARRAYS = ("vertices_A", "normals_A", "faces", "albedo", "sigma_m", "normal_sigma_rad", "disagreement_m", "seen_by")
 SUMMARY = "summary.json"
-FILES = {"mesh.ply", "mesh.glb", "mesh.obj", "model.npz", "model.html", SUMMARY}
+FILES = {"mesh.ply", "mesh.glb", "mesh.obj", "model.npz", "model.html", "calibration.yaml", SUMMARY}
 SINGLE = {"normals_A", "albedo", "sigma_m", "normal_sigma_rad", "disagreement_m"}
 """Arrays that are stored in single precision: the vertices need more, a room being large."""
 
@@ -33,8 +36,10 @@ MODEL = summarised("the folder of a model", "model", SUMMARY, FILES)
 """A model's folder, as an output: one may replace another."""
 
 
-def write_model(folder: Path, model: ObjectModel, summary: Mapping[str, Any], page: str | None = None) -> None:
-    """Write the files of a model; `summary` adds to what the model says of itself.
+def write_model(
+    folder: Path, model: ObjectModel, summary: Mapping[str, Any], page: str | None = None, refined: Calibration | None = None
+) -> None:
+    """Write the files of a model; `summary` adds to what the model says of itself, `refined` is the calibration as its views would have it.
 
     Raises
     ------
@@ -48,6 +53,8 @@ def write_model(folder: Path, model: ObjectModel, summary: Mapping[str, Any], pa
         _write_meshes(draft, model)
         if page is not None:
             (draft / "model.html").write_text(page, encoding="utf-8")
+        if refined is not None:
+            write_calibration(draft / "calibration.yaml", refined, Provenance())
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
         text = json.dumps(plain({**summary_of(model), **summary, "files": files}), indent=1)
         (draft / SUMMARY).write_text(text + "\n", encoding="utf-8")
@@ -63,6 +70,8 @@ def summary_of(model: ObjectModel) -> dict[str, Any]:
         "frame": model.frame,
         "figures": document_of(model.figures),
         "views": [document_of(view) for view in model.views],
+        "missing": None if model.missing is None else document_of(model.missing),
+        "rig": None if model.rig is None else document_of(model.rig),
         "versions": {"lpcal": __version__},
         "notes": list(model.warnings),
     }
@@ -82,10 +91,19 @@ def read_model(folder: Path) -> ObjectModel:
         summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         views = tuple(record_of(ViewInModel, entry) for entry in summary["views"])
         figures = record_of(ModelFigures, summary["figures"])
+        missing = known_record_of(Missing, summary.get("missing"))
+        rig = known_record_of(RigEvidence, summary.get("rig"))
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(f"no whole model ({error})", where=str(folder), needed="what lpcal fuse writes", todo="run lpcal fuse") from error
     return ObjectModel(
-        name=str(summary["name"]), frame=str(summary["frame"]), views=views, figures=figures, warnings=tuple(summary["notes"]), **arrays
+        name=str(summary["name"]),
+        frame=str(summary["frame"]),
+        views=views,
+        figures=figures,
+        warnings=tuple(summary["notes"]),
+        missing=missing,
+        rig=rig,
+        **arrays,
     )
 
 

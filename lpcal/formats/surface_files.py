@@ -146,6 +146,14 @@ def read_surface(folder: Path) -> Surface:
     return Surface(name=name, rays_C=rays_C, components=components, warnings=said, placement=placement, **maps)
 
 
+def is_placed(folder: Path) -> bool:
+    """Whether a surface's folder says where it was taken; of one that cannot be read, that is found when it is."""
+    try:
+        return json.loads((folder / SUMMARY).read_text(encoding="utf-8")).get("placement") is not None
+    except (OSError, ValueError, AttributeError):
+        return True
+
+
 def read_summary(path: Path) -> SurfaceSummary:
     """Read a summary.json.
 

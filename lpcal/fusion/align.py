@@ -65,6 +65,8 @@ class Aligned:
     before_m: float
     """Robust rms of the residuals with the tracked poses alone."""
     after_m: float
+    H_PC_covariance: Array
+    """(6, 6) prior of the error that all views share."""
 
     def shift(self, view: int) -> tuple[Array, Array]:
         """Twist (6,) by which a view moved against its tracked pose, and its prior's covariance."""
@@ -104,7 +106,7 @@ def align(views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progres
     N, _ = problem.normal_equations(state, meetings, max(after_m, floor_m))
     covariance = np.linalg.inv(N + problem.prior(state, x))
     pairs = {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
-    return Aligned(tuple(state), x, covariance, problem.starts, pairs, max(after_m, floor_m), before_m, after_m)
+    return Aligned(tuple(state), x, covariance, problem.starts, pairs, max(after_m, floor_m), before_m, after_m, H_PC_covariance)
 
 
 def compared(views: Sequence[PlacedView], H_PC_covariance: Array) -> dict[tuple[int, int], PairFit]:

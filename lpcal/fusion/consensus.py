@@ -23,6 +23,10 @@ LEAST_AGREEMENT = 0.75
 """Least share of a view's points that the others must confirm: whole sessions had 0.9 and more, a view 20 mm off had under 0.6."""
 BELOW_OTHERS = 0.12
 """How far under the median view's share a view must lie to be left out: where all views are poor, none is the odd one."""
+HEARD = 0.4
+"""Share of a view's points that must be confirmed at its tracked pose for it to be heard again once the others are aligned."""
+MOST_HEARD_SIGMAS = 3.0
+"""By how many of its sigmas the distance of a view that is heard again may have to change: one that is 20 mm too far is not taken in."""
 FEWEST_POINTS = 30
 """Fewest points in common that say anything of a pair."""
 MOST_SIGMAS = 6.0
@@ -37,6 +41,8 @@ class Doubted:
 
     index: int
     why: str
+    agreement: float = 0.0
+    """The share of it that the others confirm at its tracked pose."""
 
 
 def outvoted(count: int, pairs: Mapping[tuple[int, int], PairFit]) -> list[Doubted]:
@@ -52,7 +58,8 @@ def outvoted(count: int, pairs: Mapping[tuple[int, int], PairFit]) -> list[Doubt
         usual = float(np.median(list(judged.values())))
         if judged[worst] >= min(LEAST_AGREEMENT, usual - BELOW_OTHERS):
             break
-        out.append(Doubted(worst, f"the others confirm {100 * judged[worst]:.0f} % of it, and {100 * usual:.0f} % of each other"))
+        why = f"the others confirm {100 * judged[worst]:.0f} % of it, and {100 * usual:.0f} % of each other"
+        out.append(Doubted(worst, why, judged[worst]))
     return out
 
 
@@ -78,15 +85,7 @@ def moved_too_far(aligned: Aligned) -> list[Doubted]:
     """Views that the alignment moved or scaled by far more than their sigmas say, the worst first; only the worst is sure."""
     found: list[tuple[float, Doubted]] = []
     for k, one in enumerate(aligned.placed):
-        xi, covariance = aligned.shift(k)
-        squared = float(xi @ np.linalg.solve(covariance + 1e-16 * np.eye(6), xi))
-        sigmas = float(np.sqrt(max(squared, 0.0) / 6))
-        start = aligned.starts[k] + 6
-        pieces = one.view.pieces
-        sizes = [int((one.view.component == label).sum()) for label, _ in pieces]
-        largest = int(np.argmax(sizes))
-        grown = float(aligned.parameters[start + largest])
-        scale_sigmas = abs(grown) / pieces[largest][1]
+        sigmas, (grown, scale_sigmas) = _moved_sigmas(aligned, k), _grown(aligned, k)
         if sigmas > MOST_SIGMAS:
             at = one.H_AC[:3, 3] - one.view.placement.H_AC[:3, 3]
             why = f"it fits the others {1e3 * np.linalg.norm(at):.1f} mm beside its pose, {sigmas:.0f} sigmas"
@@ -97,6 +96,29 @@ def moved_too_far(aligned: Aligned) -> list[Doubted]:
             )
             found.append((scale_sigmas / MOST_SCALE_SIGMAS, Doubted(k, why)))
     return [doubt for _, doubt in sorted(found, key=lambda each: -each[0])]
+
+
+def fits_after_all(aligned: Aligned, place: int) -> bool:
+    """Whether the others confirm a view once it is aligned with them, and it did not have to move or grow further than its sigmas allow."""
+    count = len(aligned.placed)
+    share = agreement(range(count), aligned.pairs)[place]
+    return share >= LEAST_AGREEMENT and _moved_sigmas(aligned, place) < MOST_SIGMAS and _grown(aligned, place)[1] < MOST_HEARD_SIGMAS
+
+
+def _moved_sigmas(aligned: Aligned, place: int) -> float:
+    """By how many sigmas, over all six parameters of its pose, a view moved."""
+    xi, covariance = aligned.shift(place)
+    squared = float(xi @ np.linalg.solve(covariance + 1e-16 * np.eye(6), xi))
+    return float(np.sqrt(max(squared, 0.0) / 6))
+
+
+def _grown(aligned: Aligned, place: int) -> tuple[float, float]:
+    """By how much the distance of a view's largest piece grew, relative, and in its sigmas."""
+    view, start = aligned.placed[place].view, aligned.starts[place] + 6
+    sizes = [int((view.component == label).sum()) for label, _ in view.pieces]
+    largest = int(np.argmax(sizes))
+    grown = float(aligned.parameters[start + largest])
+    return grown, abs(grown) / view.pieces[largest][1]
 
 
 def _weighted_median(values: Array, weights: Array) -> float:

@@ -2,23 +2,29 @@ r"""From placed surfaces to a model, step by step.
 
 1. Points of every view are looked up in every other at the tracked poses; a view that the others contradict is left out (`consensus`).
 2. All pairs in one least-squares problem: poses, distances, slow bending (`align`); a view that had to move too far is left out as well.
-3. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean with their normals (`vertices`).
+3. A view that was left out by its tracked pose is heard again: it is taken in if, aligned within its sigmas, it fits after all.
+4. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean with their normals (`vertices`).
+5. What no view saw well, and where the panel should stand next (`missing`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import Aligned, align, compared
-from lpcal.fusion.consensus import Doubted, agreement, moved_too_far, outvoted
+from lpcal.fusion.consensus import HEARD, Doubted, agreement, fits_after_all, moved_too_far, outvoted
+from lpcal.fusion.missing import missing
+from lpcal.fusion.rig_evidence import rig_evidence
 from lpcal.fusion.vertices import Vertices, on_the_views
 from lpcal.fusion.views import PlacedView
 from lpcal.fusion.volume import surface_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from lpcal.records.calibration import Light
 from lpcal.records.model import ModelFigures, ObjectModel, ViewInModel
 from lpcal.records.outcome import Progress, silent
 
@@ -30,8 +36,10 @@ CONTRADICTION = 3.0
 """By how many sigmas of a vertex views must differ to be said to disagree there."""
 
 
-def model_of(name: str, views: Sequence[PlacedView], step_m: float | None = None, progress: Progress = silent) -> ObjectModel:
-    """The model of placed views.
+def model_of(
+    name: str, views: Sequence[PlacedView], step_m: float | None = None, progress: Progress = silent, lights: Sequence[Light] | None = None
+) -> ObjectModel:
+    """The model of placed views; with the calibrated lights also what the views tell of them.
 
     Raises
     ------
@@ -57,11 +65,28 @@ def model_of(name: str, views: Sequence[PlacedView], step_m: float | None = None
         if not doubted or len(out) >= len(views) // 2 or len(kept) <= FEWEST + 1:
             break
         out.append(Doubted(kept[doubted[0].index], doubted[0].why))
+    aligned, kept = _heard_again(views, aligned, kept, out, H_PC_covariance, progress)
     rough = surface_of(aligned.placed, step_m)
     progress("surface", 1, 2)
     found = on_the_views(aligned, rough)
     progress("surface", 2, 2)
-    return _model(name, views, kept, out, shares, aligned, found)
+    model = _model(name, views, kept, out, shares, aligned, found)
+    return model if lights is None else replace(model, rig=rig_evidence(aligned, found, lights))
+
+
+def _heard_again(
+    views: Sequence[PlacedView], aligned: Aligned, kept: list[int], out: list[Doubted], H_PC_covariance: Array, progress: Progress
+) -> tuple[Aligned, list[int]]:
+    """The alignment with those taken in that fit after all; they leave `out`."""
+    for doubt in sorted(out, key=lambda one: -one.agreement):
+        if doubt.agreement < HEARD:
+            break
+        tried = sorted([*kept, doubt.index])
+        with_it = align([views[k] for k in tried], H_PC_covariance, progress)
+        if fits_after_all(with_it, tried.index(doubt.index)):
+            aligned, kept = with_it, tried
+            out.remove(doubt)
+    return aligned, kept
 
 
 def shared_covariance(views: Sequence[PlacedView]) -> Array:
@@ -109,6 +134,7 @@ def _model(
         tuple(said),
         _figures(aligned, found),
         tuple(warnings),
+        missing(aligned, found),
     )
 
 

@@ -12,11 +12,12 @@ more than their doubt, the difference stays in the vertex's disagreement and in 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned
 from lpcal.fusion.pairs import Placed
 from lpcal.fusion.views import look
@@ -38,8 +39,11 @@ BIAS_RAD = float(np.radians(1.0))
 """What every normal of a view may be off by at least: light between surfaces shows in no standard deviation of one view."""
 SIGMA_VERTICES = 800
 """Vertices at which the covariance of the views' places is carried over; between them it is the nearest one's."""
-NOT_SEEN_HERE = 3.0
-"""Factor on the disagreement of the fewest views: of two that differ, either may be the right one."""
+HELD = 4_000_000
+"""Vertices times views of which all is held at once: some 250 MB, whatever their number."""
+LOOSE = 0.006
+"""Sigma, as a share of the distance, from which a vertex that one view alone sees is left out: a piece that the light puts there, known to
+a hundredth of its distance and tied to nothing, stood 10 mm beside the surface; where a view holds on to others, sigma is a thousandth."""
 
 
 @dataclass(frozen=True)
@@ -52,11 +56,6 @@ class Evidence:
     """(N, V, 3)."""
     row: Index
     column: Index
-
-    def of(self, some: Index) -> Evidence:
-        """What they say of some of the vertices."""
-        at = (slice(None), some)
-        return Evidence(self.weight[at], self.residual_m[at], self.normals_A[at], self.row[at], self.column[at])
 
 
 @dataclass(frozen=True)
@@ -75,6 +74,8 @@ class Vertices:
     views: Index
     """How many see it."""
     normal_sigma_rad: Array
+    loose_m2: float
+    """Area that was left out: one view alone sees it, and nothing tells well enough how far away it is."""
 
 
 def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
@@ -83,30 +84,95 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
     v, n = rough.vertices_A, rough.normals_A
     footprint_m = float(np.median([one.view.footprint_m for one in state]))
     for _ in range(PASSES):
-        found = evidence(state, v, n, GATE_PX * footprint_m)
-        share = _robust(found, SCALE_PX * footprint_m)
-        v = v + n * np.einsum("nv,nv->v", share, found.residual_m)[:, None]
+        rest = _resting(state, v, n, footprint_m)
+        v = v + n * rest.off_m[:, None]
         n = normals_of(v, faces)
-    v, n_photometric, normal_sigma = _with_detail(found, share, v, n, faces, footprint_m)
-    found = evidence(state, v, n, GATE_PX * footprint_m)
-    seen, faces = rested(found, faces)
-    v, n, n_photometric, normal_sigma = v[seen], n[seen], n_photometric[seen], normal_sigma[seen]
-    found = found.of(seen)
-    share = _robust(found, SCALE_PX * footprint_m)
-    off = np.where(found.weight > 0, found.residual_m - np.einsum("nv,nv->v", share, found.residual_m), 0.0)
-    count = (found.weight > 0).sum(axis=0)
-    disagreement = np.sqrt(np.einsum("nv,nv->v", found.weight > 0, off**2) / np.maximum(count - 1, 1))
-    sigma = _sigma(aligned, found, share, v, n, disagreement, footprint_m)
-    return Vertices(Triangles(v, n, faces), n_photometric, _albedo(state, found), sigma, disagreement, count, normal_sigma)
+    v, n_photometric, normal_sigma = _with_detail(rest, v, n, faces, footprint_m)
+    rest = _resting(state, v, n, footprint_m)
+    seen, faces = rested(rest.count > 0, faces)
+    v, n, n_photometric, normal_sigma, rest = v[seen], n[seen], n_photometric[seen], normal_sigma[seen], rest.of(seen)
+    sigma = _sigma(aligned, rest, v, n, footprint_m)
+    distance_m = float(np.median([one.view.distance_m for one in state]))
+    tied, held = held_together(faces, (rest.count == 1) & (sigma > LOOSE * distance_m))
+    loose_m2 = _area(v, faces) - _area(v[tied], held)
+    v, n, rest = v[tied], n[tied], rest.of(tied)
+    albedo = _albedo(state, v, n, footprint_m)
+    return Vertices(
+        Triangles(v, n, held), n_photometric[tied], albedo, sigma[tied], rest.disagreement_m, rest.count, normal_sigma[tied], loose_m2
+    )
 
 
-def rested(found: Evidence, faces: Index) -> tuple[Index, Index]:
+@dataclass(frozen=True)
+class Resting:
+    """What views say together of vertices (V)."""
+
+    off_m: Array
+    """How far outside them the views' weighted mean lies."""
+    mean_normal_A: Array
+    """(V, 3) the weighted mean of the views' normals: shorter where they differ."""
+    effective: Array
+    """How many views of equal weight it is worth."""
+    count: Index
+    """How many see it."""
+    disagreement_m: Array
+
+    def of(self, some: Index) -> Resting:
+        """What they say of some of the vertices."""
+        return Resting(self.off_m[some], self.mean_normal_A[some], self.effective[some], self.count[some], self.disagreement_m[some])
+
+
+def blocks(views: int, vertices: int) -> Iterator[slice]:
+    """Runs of vertices, slabs of space, of which what all views say is held at once."""
+    size = max(HELD // max(views, 1), 1000)
+    for first in range(0, vertices, size):
+        yield slice(first, min(first + size, vertices))
+
+
+def _resting(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) -> Resting:
+    parts = []
+    for some in blocks(len(state), len(v)):
+        found = evidence(state, v[some], n[some], GATE_PX * footprint_m)
+        share = _robust(found, SCALE_PX * footprint_m)
+        mean = np.einsum("nv,nv->v", share, found.residual_m)
+        off = np.where(found.weight > 0, found.residual_m - mean, 0.0)
+        count = (found.weight > 0).sum(axis=0)
+        disagreement = np.sqrt((off**2).sum(axis=0) / np.maximum(count - 1, 1))
+        effective = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
+        parts.append((mean, np.einsum("nv,nvk->vk", share, found.normals_A), effective, count, disagreement))
+    return Resting(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def held_together(faces: Index, loose: Mask) -> tuple[Index, Index]:
+    """The vertices that stay, and the faces between them by their new numbers: faces with a loose corner go.
+
+    Raises
+    ------
+    DegenerateError
+        None would stay.
+    """
+    stays = faces[~loose[faces].any(axis=1)]
+    if not len(stays):
+        raise DegenerateError(
+            "every part is seen by one view alone and its distance is not known",
+            where="fuse",
+            needed="surfaces that overlap, or distances that are known better",
+            todo="take more captures round the object",
+        )
+    kept, numbers = np.unique(stays, return_inverse=True)
+    return kept, numbers.reshape(stays.shape)
+
+
+def _area(v: Array, faces: Index) -> float:
+    a, b, c = (v[faces[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def rested(rests: Mask, faces: Index) -> tuple[Index, Index]:
     """The vertices that stay, and the faces between them by their new numbers: a patch that no view puts there goes.
 
     Between two views that contradict each other, both seen by no third, the volume's zero lies where neither sees a surface. A face with
     one corner at least that a view sees stays, so that no pinholes open where a surface turns sharply.
     """
-    rests = (found.weight > 0).any(axis=0)
     stays = faces[rests[faces].any(axis=1)]
     kept, numbers = np.unique(stays, return_inverse=True)
     return kept, numbers.reshape(stays.shape)
@@ -146,7 +212,7 @@ def _robust(found: Evidence, scale_m: float) -> Array:
     return np.asarray(share)
 
 
-def _with_detail(found: Evidence, share: Array, v: Array, n: Array, faces: Index, footprint_m: float) -> tuple[Array, Array, Array]:
+def _with_detail(rest: Resting, v: Array, n: Array, faces: Index, footprint_m: float) -> tuple[Array, Array, Array]:
     """Vertices whose faces lie as the photometric normals say, those normals, and their standard deviation.
 
     Least squares over steps h along the normals: ``sum (h / sigma_h)^2 + sum_edges (m . (e + h_b n_b - h_a n_a) / (|e| sigma_n))^2`` with
@@ -155,12 +221,11 @@ def _with_detail(found: Evidence, share: Array, v: Array, n: Array, faces: Index
     from scipy.sparse import coo_array, diags_array
     from scipy.sparse.linalg import cg
 
-    mean = np.einsum("nv,nvk->vk", share, found.normals_A)
+    mean = rest.mean_normal_A
     length = np.linalg.norm(mean, axis=1)
     lit = length > 0.3
     m = np.where(lit[:, None], mean / np.maximum(length, 1e-12)[:, None], n)
-    count = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
-    sigma_n = np.sqrt(BIAS_RAD**2 + (2 * np.maximum(1 - length, 0)) / np.maximum(count, 1))
+    sigma_n = np.sqrt(BIAS_RAD**2 + (2 * np.maximum(1 - length, 0)) / np.maximum(rest.effective, 1))
     edges = np.unique(np.sort(np.concatenate([faces[:, :2], faces[:, 1:], faces[:, ::2]]), axis=1), axis=0)
     a, b = edges.T
     e = v[b] - v[a]
@@ -185,23 +250,23 @@ HOLD_PX = 0.25
 """How far normals may pull a vertex off the views' mean, one standard deviation, in footprints of a pixel."""
 
 
-def _sigma(aligned: Aligned, found: Evidence, share: Array, v: Array, n: Array, disagreement: Array, footprint_m: float) -> Array:
+def _sigma(aligned: Aligned, rest: Resting, v: Array, n: Array, footprint_m: float) -> Array:
     """Standard deviation of each vertex along its normal: the views' places, and what they still differ by."""
     from scipy.spatial import cKDTree
 
     step = max(len(v) // SIGMA_VERTICES, 1)
     some = np.arange(0, len(v), step)
+    found = evidence(aligned.placed, v[some], n[some], GATE_PX * footprint_m)
+    share = _robust(found, SCALE_PX * footprint_m)
     places = np.zeros(len(some))
     for k, vertex in enumerate(some):
-        columns, values = _row(aligned, found, share, int(vertex), v[vertex], n[vertex])
+        columns, values = _row(aligned, found, share, k, v[vertex], n[vertex])
         used, local = np.unique(columns, return_inverse=True)
         row = np.bincount(local, values, len(used))
         places[k] = row @ aligned.covariance[np.ix_(used, used)] @ row
     _, nearest = cKDTree(v[some]).query(v)
-    count = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
-    by = (found.weight > 0).sum(axis=0)
-    lone = np.where(by < 2, aligned.sigma_m**2, 0.0) + np.where(by < 1, (GATE_PX * footprint_m) ** 2, 0.0)
-    left = (disagreement**2 + (0.1 * footprint_m) ** 2) / np.maximum(count, 1)
+    lone = np.where(rest.count < 2, aligned.sigma_m**2, 0.0) + np.where(rest.count < 1, (GATE_PX * footprint_m) ** 2, 0.0)
+    left = (rest.disagreement_m**2 + (0.1 * footprint_m) ** 2) / np.maximum(rest.effective, 1)
     return np.asarray(np.sqrt(places[nearest] + left + lone))
 
 
@@ -220,26 +285,43 @@ def _row(aligned: Aligned, found: Evidence, share: Array, vertex: int, v: Array,
     return np.concatenate(columns), np.concatenate(values)
 
 
-def _albedo(state: Sequence[Placed], found: Evidence) -> Array:
+def _albedo(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) -> Array:
     """Albedo (V, 3) of the vertices, without seams; NaN where none saw it."""
     from scipy.ndimage import distance_transform_edt
 
-    log, fade = np.zeros((*found.weight.shape, 3), np.float32), np.zeros(found.weight.shape, np.float32)
+    inside = [np.clip(distance_transform_edt(one.view.witness) / FADE_PX, 0.02, 1).astype(np.float32) ** 2 for one in state]
+    step = max(len(v) * len(state) // HELD, 1)
+    gain = _gains(*_log_albedo(state, inside, evidence(state, v[::step], n[::step], GATE_PX * footprint_m)))
+    parts = []
+    for some in blocks(len(state), len(v)):
+        log, fade = _log_albedo(state, inside, evidence(state, v[some], n[some], GATE_PX * footprint_m))
+        total = fade.sum(axis=0)
+        blended = np.einsum("nv,nvc->vc", fade, log - gain[:, None, None]) / np.maximum(total, 1e-30)[:, None]
+        parts.append(np.where((total > 0)[:, None], np.exp(blended), np.nan))
+    return np.concatenate(parts)
+
+
+def _log_albedo(state: Sequence[Placed], inside: Sequence[Image], found: Evidence) -> tuple[Image, Image]:
+    """What every view says of the vertices' albedo: its logarithm (N, V, 3), and how much it counts (N, V)."""
+    log: Image = np.zeros((*found.weight.shape, 3), np.float32)
+    fade: Image = np.zeros(found.weight.shape, np.float32)
     for k, one in enumerate(state):
         at = np.flatnonzero(found.weight[k] > 0)
         row, column = found.row[k, at], found.column[k, at]
-        inside = distance_transform_edt(one.view.witness)
         log[k, at] = np.log(np.maximum(one.view.albedo[row, column], 1e-4))
-        fade[k, at] = found.weight[k, at] * np.clip(inside[row, column] / FADE_PX, 0.02, 1) ** 2
-    gain = np.zeros(len(state))
+        fade[k, at] = found.weight[k, at] * inside[k][row, column]
+    return log, fade
+
+
+def _gains(log: Image, fade: Image) -> Array:
+    """How bright each capture came out (N,), logarithms, 0 on the mean."""
+    gain = np.zeros(len(log))
     both: Mask = (fade > 0).sum(axis=0) >= 2
     for _ in range(6 if both.any() else 0):
         mean = np.einsum("nv,nvc->vc", fade[:, both], log[:, both] - gain[:, None, None]) / fade[:, both].sum(axis=0)[:, None]
-        for k in range(len(state)):
+        for k in range(len(log)):
             seen = fade[k, both] > 0
             if seen.any():
                 gain[k] = float(np.median(log[k, both][seen] - mean[seen]))
         gain -= gain.mean()
-    total = fade.sum(axis=0)
-    blended = np.einsum("nv,nvc->vc", fade, log - gain[:, None, None]) / np.maximum(total, 1e-30)[:, None]
-    return np.where((total > 0)[:, None], np.exp(blended), np.nan)
+    return gain

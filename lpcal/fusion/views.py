@@ -28,6 +28,8 @@ MARGIN_PX = 2
 """Pixels beside a break or the mask's edge that bear no witness: normals there mix two surfaces."""
 OUTSIDE_PX = 6
 """Pixels beside the mask from where on a view is taken to see the background: an outline is sure within some."""
+KEPT_PX = OUTSIDE_PX + 2
+"""Pixels beside the mask that a view keeps: beyond them all is background."""
 STEEP = 0.25
 """Least cosine between the normal and the line of sight of a pixel that bears witness, 75 degrees: beyond it a pixel spans too much."""
 UNSURE_DEG = 12.0
@@ -36,7 +38,7 @@ UNSURE_DEG = 12.0
 
 @dataclass(frozen=True)
 class PlacedView:
-    """One surface with its place. Maps are (H, W), NaN outside the mask."""
+    """One surface with its place. Maps are (H, W), NaN outside the mask, of the window of the image that holds the object."""
 
     name: str
     placement: Placement
@@ -55,6 +57,12 @@ class PlacedView:
     depth_std_m: Array
     pieces: tuple[tuple[int, float], ...]
     """Label and relative standard deviation of the distance of each piece."""
+    to_pixels: PixelsOfRays
+    """Pixels of the window by directions."""
+    field: Array
+    """(2, 2) x/z and y/z of the whole image's first pixel, and of its last."""
+    image: tuple[int, int, int, int]
+    """The whole image in pixels of the window: its first column and row, and those after its last."""
 
     @cached_property
     def pixel_rad(self) -> float:
@@ -78,14 +86,9 @@ class PlacedView:
 
         return np.asarray(~binary_dilation(self.component > 0, iterations=OUTSIDE_PX))
 
-    @cached_property
-    def to_pixels(self) -> PixelsOfRays:
-        """Pixels of directions."""
-        return fitted(self.plane)
-
     def points_C(self, row: Index, column: Index) -> Array:
         """Points (N, 3) at pixels, as the view has them."""
-        z = self.depth[row, column]
+        z = self.depth[row, column].astype(float)
         return np.column_stack([self.plane[row, column] * z[:, None], z])
 
 
@@ -103,13 +106,13 @@ class PixelsOfRays:
         return np.asarray(_powers((plane - self.middle) / self.span) @ self.terms)
 
 
-def fitted(plane: Array) -> PixelsOfRays:
-    """The polynomial that maps a view's rays (H, W, 2) to its pixels."""
+def fitted(plane: Array, origin: tuple[int, int] = (0, 0)) -> PixelsOfRays:
+    """The polynomial that maps an image's rays (H, W, 2) to its pixels, counted from a pixel (column, row)."""
     step = max(int(np.sqrt(plane[..., 0].size / FITTED_RAYS)), 1)
     row, column = np.mgrid[0 : plane.shape[0] : step, 0 : plane.shape[1] : step]
     rays = plane[row, column].reshape(-1, 2).astype(float)
     middle, span = rays.mean(axis=0), float(np.ptp(rays[:, 0]) / 2)
-    pixels = np.column_stack([column.ravel(), row.ravel()]).astype(float)
+    pixels = np.column_stack([column.ravel() - origin[0], row.ravel() - origin[1]]).astype(float)
     terms, *_ = np.linalg.lstsq(_powers((rays - middle) / span), pixels, rcond=None)
     return PixelsOfRays(middle, span, terms)
 
@@ -148,9 +151,11 @@ def look(view: PlacedView, x_C: Array) -> LookedUp:
     pixel = np.full((len(x_C), 2), -1.0)
     pixel[near] = view.to_pixels(plane[near])
     height, width = view.depth.shape
-    inside = near & (pixel >= 0).all(axis=1) & (pixel[:, 0] < width - 1) & (pixel[:, 1] < height - 1)
-    column, row = (np.where(inside, pixel[:, k], 0).astype(int) for k in range(2))
-    ok = inside & view.whole[row, column]
+    left, top, right, bottom = view.image
+    inside = near & (pixel >= (left, top)).all(axis=1) & (pixel < (right - 1, bottom - 1)).all(axis=1)
+    kept = inside & (pixel >= 0).all(axis=1) & (pixel < (width - 1, height - 1)).all(axis=1)
+    column, row = (np.where(kept, pixel[:, k], 0).astype(int) for k in range(2))
+    ok = kept & view.whole[row, column]
     at = np.flatnonzero(ok)
     row, column = row[at], column[at]
     fx, fy = pixel[at, 0] - column, pixel[at, 1] - row
@@ -170,15 +175,18 @@ def look(view: PlacedView, x_C: Array) -> LookedUp:
 
 
 def view_of(surface: Surface, placement: Placement) -> PlacedView:
-    """A placed surface as a view."""
+    """A placed surface as a view: what of it lies about the object, in single precision."""
     from scipy.ndimage import binary_dilation, binary_erosion
 
-    mask = surface.mask & np.isfinite(surface.depth) & np.isfinite(surface.normals).all(axis=-1)
-    rays = surface.rays_C[..., :2].astype(float)
-    sight = np.concatenate([rays, np.ones((*mask.shape, 1))], axis=-1)
-    cosine = -np.einsum("ijk,ijk->ij", np.where(mask[..., None], surface.normals, 0.0), sight) / np.linalg.norm(sight, axis=-1)
+    whole_mask = surface.mask & np.isfinite(surface.depth) & np.isfinite(surface.normals).all(axis=-1)
+    rows, columns = _window(whole_mask)
+    at = np.s_[rows, columns]
+    mask, normals = whole_mask[at], surface.normals[at]
+    rays = surface.rays_C[..., :2]
+    sight = np.concatenate([rays[at], np.ones((*mask.shape, 1))], axis=-1)
+    cosine = -np.einsum("ijk,ijk->ij", np.where(mask[..., None], normals, 0.0), sight) / np.linalg.norm(sight, axis=-1)
     broken = np.zeros(mask.shape, bool)
-    right, below = surface.breaks
+    right, below = surface.breaks[:, rows, columns]
     inner_right, inner_below = right[:, :-1] & mask[:, :-1] & mask[:, 1:], below[:-1] & mask[:-1] & mask[1:]
     broken[:, :-1] |= inner_right
     broken[:, 1:] |= inner_right
@@ -187,18 +195,33 @@ def view_of(surface: Surface, placement: Placement) -> PlacedView:
     away = binary_erosion(mask, iterations=MARGIN_PX) & ~binary_dilation(broken, iterations=MARGIN_PX - 1)
     whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
     whole &= ~(right[:-1, :-1] | right[1:, :-1] | below[:-1, :-1] | below[:-1, 1:])
-    albedo = surface.albedo if surface.albedo.ndim == 3 else np.repeat(surface.albedo[..., None], 3, axis=2)
+    albedo = surface.albedo[at] if surface.albedo.ndim == 3 else np.repeat(surface.albedo[at][..., None], 3, axis=2)
+    std_deg = surface.normal_std_deg[at]
+    height, width = surface.mask.shape
+    single = np.float32
     return PlacedView(
         surface.name,
         placement,
-        surface.depth.astype(float),
-        rays,
-        surface.normals.astype(float),
-        albedo.astype(float),
-        surface.component,
-        away & (cosine > STEEP) & (surface.normal_std_deg < UNSURE_DEG),
+        surface.depth[at].astype(single),
+        rays[at].astype(float),
+        normals.astype(single),
+        albedo.astype(single),
+        surface.component[at].copy(),
+        away & (cosine > STEEP) & (std_deg < UNSURE_DEG),
         whole,
-        np.radians(surface.normal_std_deg.astype(float)),
-        surface.depth_std.astype(float),
+        np.radians(std_deg.astype(single)),
+        surface.depth_std[at].astype(single),
         tuple((piece.label, max(piece.scale_std, 1e-4)) for piece in surface.components),
+        fitted(rays, (columns.start, rows.start)),
+        np.stack([rays[0, 0], rays[-1, -1]]).astype(float),
+        (-columns.start, -rows.start, width - columns.start, height - rows.start),
     )
+
+
+def _window(mask: Mask) -> tuple[slice, slice]:
+    """Rows and columns about a mask, KEPT_PX beside it; all where it is empty."""
+    if not mask.any():
+        return slice(0, mask.shape[0]), slice(0, mask.shape[1])
+    ends = [(int(found[0]), int(found[-1])) for found in (np.flatnonzero(mask.any(axis=k)) for k in (1, 0))]
+    first, second = (slice(max(low - KEPT_PX, 0), min(high + KEPT_PX + 1, n)) for (low, high), n in zip(ends, mask.shape, strict=True))
+    return first, second

@@ -3,24 +3,40 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from lpcal.api.fusing import fuse
+from lpcal.api.fusing import fuse, refine_rig
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.model_files import MODEL, summary_of, write_model
 from lpcal.formats.outputs import refuse_place
-from lpcal.formats.surface_files import MAPS_FILE, read_surface
+from lpcal.formats.surface_files import MAPS_FILE, is_placed, read_surface
 from lpcal.pipeline.workspace import Workspace
+from lpcal.records.calibration import Calibration
 from lpcal.records.model import ObjectModel, ViewInModel
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.surface import Surface
+from lpcal.report.model_page import model_html
+from lpcal.report.model_words import missing_words, rig_words
 
 SURFACES = "surfaces"
 """The folder of a rig that holds its surfaces."""
 
 
-def fuse_folders(captures: Sequence[Path], target: Path, rig: Workspace | None, step_m: float | None, progress: Progress) -> Outcome:
+def fuse_folders(
+    captures: Sequence[Path],
+    target: Path,
+    rig: Workspace | None,
+    step_m: float | None,
+    progress: Progress,
+    *,
+    page: bool = True,
+    refine: bool = False,
+) -> Outcome:
     """Fuse surfaces, each its own folder or that of its capture, and write the model.
+
+    `page`: with its page; `refine`: with the rig's calibration as the views would have it.
 
     Raises
     ------
@@ -30,21 +46,43 @@ def fuse_folders(captures: Sequence[Path], target: Path, rig: Workspace | None, 
     folders = surface_folders(captures, rig)
     refuse_place(target, MODEL, folders)
     begun = time.process_time()
-    surfaces = []
-    for done, folder in enumerate(folders):
-        surfaces.append(read_surface(folder))
-        progress("surfaces read", done + 1, len(folders))
-    left = [] if captures else [surface.name for surface in surfaces if surface.placement is None]
-    if len(left) < len(surfaces):  # where none is placed, fuse says what is lacking
-        folders = [folder for folder, surface in zip(folders, surfaces, strict=True) if captures or surface.placement is not None]
-        surfaces = [surface for surface in surfaces if captures or surface.placement is not None]
-    model = fuse(surfaces, name=target.resolve().name, step_m=step_m, progress=progress)
+    unplaced = [] if captures else [folder for folder in folders if not is_placed(folder)]
+    left = [folder.name for folder in unplaced if len(unplaced) < len(folders)]  # where none is placed, fuse says what is lacking
+    folders = [folder for folder in folders if folder.name not in left]
+    calibration = _calibration(rig, needed=refine)
+    model = fuse(_read(folders, progress), name=target.resolve().name, step_m=step_m, calibration=calibration, progress=progress)
     seconds = time.process_time() - begun
     document = {"times_s": {"fuse": seconds}, "inputs": [str(folder) for folder in folders]}
-    write_model(target, model, document)
+    write_model(
+        target, model, document, model_html(model) if page else None, refine_rig(calibration, model) if calibration and refine else None
+    )
     said = _said(target, model) + [f"without {', '.join(left)}: not placed"] * bool(left)
     said.append(f"written to {target}: {', '.join(sorted(path.name for path in target.iterdir()))}")
     return Outcome(said, {**summary_of(model), **document, "folder": str(target)}, list(model.warnings))
+
+
+def _read(folders: Sequence[Path], progress: Progress) -> Iterator[Surface]:
+    """The surfaces, one after the other."""
+    for done, folder in enumerate(folders):
+        yield read_surface(folder)
+        progress("surfaces read", done + 1, len(folders))
+
+
+def _calibration(rig: Workspace | None, *, needed: bool) -> Calibration | None:
+    """The calibration of the rig; None where there is none.
+
+    Raises
+    ------
+    InputError
+        There is none and it is needed, or it cannot be read.
+    """
+    path = None if rig is None else rig.calib("calibration.yaml")
+    if path is not None and path.is_file():
+        return read_calibration(path)
+    if needed:
+        todo = "run lpcal run first, or leave --refine out"
+        raise InputError("no calibration to refine", where=str(path or "--refine"), needed="the rig's calib/calibration.yaml", todo=todo)
+    return None
 
 
 def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Path]:
@@ -95,7 +133,9 @@ def _said(target: Path, model: ObjectModel) -> list[str]:
         f"{100 * figures.seen_by_two:.0f} % of the area is seen by two or more; they disagree on {100 * figures.disagreeing:.1f} % of it; "
         f"{1e3 * figures.open_edges_m:.0f} mm of open edges",
     ]
-    return lines + [_line(view) for view in model.views]
+    lines += [_line(view) for view in model.views]
+    lines += [] if model.missing is None else missing_words(model.missing, model.frame)
+    return lines + ([] if model.rig is None else rig_words(model.rig))
 
 
 def _line(view: ViewInModel) -> str:

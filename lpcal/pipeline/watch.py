@@ -30,6 +30,7 @@ from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.capture import read_capture
 from lpcal.formats.images import read_image
 from lpcal.formats.named_files import hidden, image_endings
+from lpcal.pipeline.watch_room import WatchedRoom
 from lpcal.pipeline.workspace import natural
 from lpcal.records.observations import SphereView
 from lpcal.records.outcome import Outcome
@@ -59,6 +60,9 @@ class Watch:
     done: set[tuple[Path, int, int]] = field(default_factory=set)
     pending: dict[str, Future[SphereView | LpcalError]] = field(default_factory=dict)
     """Spheres that are looked for, by their folders."""
+    room: WatchedRoom = field(default_factory=lambda: WatchedRoom(None))
+    read: set[str] = field(default_factory=set)
+    """Captures whose reading of the distance sensor was looked at."""
     behind_s: float = 0.0
     """The longest that an image has waited from its last change to its verdict."""
 
@@ -111,6 +115,19 @@ class Watch:
             if sphere is not None and self.session.folders.get(name, set()) >= set(self.session.lights):
                 self.pending[name] = executor.submit(sphere_in, folder, self.session.lights, sphere)
 
+    def readings(self, touched: Iterable[Path]) -> list[Seen]:
+        """What the distance sensor read at each of these captures, once all its lights have come."""
+        found = []
+        for folder in sorted(set(touched)):
+            name = folder.relative_to(self.folder).as_posix()
+            if name in self.read or not self.session.lights or not self.session.folders.get(name, set()) >= set(self.session.lights):
+                continue
+            said = self.room.reading(folder)
+            if said is not None:
+                self.read.add(name)
+                found.append(self.session.judge_reading(name, said[0], well=said[1]))
+        return found
+
     def found_spheres(self) -> list[Seen]:
         """The spheres that were looked for and are done."""
         done = [name for name, future in self.pending.items() if future.done()]
@@ -136,6 +153,7 @@ class Watch:
             "spheres": {folder: {"tone": one.tone, "words": "; ".join(one.words)} for folder, one in session.spheres.items()},
             "lacking": {folder or ".": list(names) for folder, names in lacking(session).items()},
             "seen": [{"name": one.name, "tone": one.tone, "words": "; ".join(one.words)} for one in session.seen[-SHOWN:][::-1]],
+            "model": self.room.model,
             "behind_s": round(self.behind_s, 2),
         }
 
@@ -152,9 +170,18 @@ def sphere_in(folder: Path, lights: Sequence[str], sphere: SphereSection) -> Sph
 
 
 def watch(
-    folder: Path, rig: Rig | None, say: Callable[[str], None], *, port: int | None = 0, idle_s: float | None = None, sleep: Any = time.sleep
+    folder: Path,
+    rig: Rig | None,
+    say: Callable[[str], None],
+    *,
+    home: Path | None = None,
+    port: int | None = 0,
+    idle_s: float | None = None,
+    sleep: Any = time.sleep,
 ) -> Outcome:
     """Watch a folder until nothing has come for `idle_s` seconds (None: until it is interrupted).
+
+    `home` is the rig's folder: its calibration tells how far a capture should stand away, its newest model what it still lacks.
 
     Raises
     ------
@@ -167,7 +194,7 @@ def watch(
         raise InputError("no such folder", where=str(folder), needed="a folder that images come into")
     board = None if rig is None or rig.board is None else board_of(rig.board)
     awaited = tuple(str(sphere.images) for sphere in rig.spheres.values()) if rig else ()
-    at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else (), awaited=awaited))
+    at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else (), awaited=awaited), room=WatchedRoom.of(home))
     if board is not None:
         find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
     with _served(at, port) as address, processes(1) as executor:
@@ -183,8 +210,11 @@ def watch(
                 say(line_of(at.judge(path, look=time.monotonic() - begun < BUDGET_S)))
             at.look_for_spheres(executor, [path.parent for path in waiting])
             spheres = at.found_spheres()
-            for seen in spheres:
+            for seen in [*at.readings([path.parent for path in waiting]), *spheres]:
                 say(line_of(seen))
+            if at.room.look_at_models():
+                for line in at.room.model:
+                    say(f"    {line}")
             last = time.monotonic() if waiting or spheres else last
             if (waiting or spheres) and at.session.following() != told:
                 told = at.session.following()

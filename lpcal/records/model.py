@@ -58,6 +58,82 @@ class ModelFigures:
     distance_scale_std: float
 
 
+@dataclass(frozen=True)
+class NextStop:
+    """Where the panel should stand next, and what that would show of what is missing; areas in square metres."""
+
+    H_AC: Array
+    """(4, 4) the camera in the model's frame, metres."""
+    H_AP: Array | None
+    """(4, 4) the tracked panel there; None where no tracked body carries the camera."""
+    beside: str
+    """The stop that is nearest to it."""
+    turn_rad: float
+    """By how much the camera is turned against that stop's."""
+    distance_m: float
+    """From the camera to the object's middle."""
+    unseen_m2: float
+    """Area that no view has seen, about: of flat caps over what is open."""
+    once_m2: float
+    """Area that one view alone has seen."""
+    reset: bool
+    """Whether the wings must be set anew for it: it stands much nearer or farther than the other stops."""
+
+
+@dataclass(frozen=True)
+class Missing:
+    """What no view has seen well; areas in square metres."""
+
+    area_m2: float
+    """The model's own."""
+    open_m2: float
+    """The flat caps' over its open edges: about what no view has seen."""
+    once_m2: float
+    """What one view alone sees."""
+    loose_m2: float
+    """What was left out: one view alone saw it, and how far away it is was not known well enough."""
+    stops: tuple[NextStop, ...] = ()
+    """Where the panel should stand next, the best first, each with what it adds to those before it; empty: nothing is worth a stop."""
+
+
+@dataclass(frozen=True)
+class LightEvidence:
+    """By how much the views would have a light other than calibrated."""
+
+    name: str
+    intensity_change: float
+    """Relative."""
+    intensity_std: float
+    source_change_C: Array
+    """(3,) metres."""
+    source_std_m: Array
+    """(3,)."""
+    sigmas: float
+    """The change in standard deviations of the calibration, the rms over intensity and place."""
+
+
+@dataclass(frozen=True)
+class RigEvidence:
+    """What the views tell of their common calibration."""
+
+    H_PC_change: Array
+    """(6,) twist, rad and metres, by which the views would have H_PC other: left perturbation."""
+    H_PC_covariance: Array
+    """(6, 6) of it: that of H_PC with the views counted in."""
+    H_PC_sigmas: float
+    """The change in standard deviations of the calibration, the rms over its parameters."""
+    distance_scale: float
+    """By how much all distances are other, relative."""
+    distance_scale_std: float
+    lights: tuple[LightEvidence, ...]
+    normals_before_rad: float
+    """What two views' normals of one place differ by, an axis and a view, robust rms."""
+    normals_after_rad: float
+    """The same with the lights as the views would have them."""
+    moved: tuple[str, ...] = ()
+    """What is said to have moved since the calibration, in words; empty: nothing."""
+
+
 @dataclass(frozen=True, repr=False)
 class ObjectModel(Shown):
     """One surface of an object in the room, or in the body that it rides on.
@@ -90,6 +166,10 @@ class ObjectModel(Shown):
         Figures of the whole.
     warnings : tuple of str
         What is to be said of it: the surfaces that were left out, and why.
+    missing : Missing, optional
+        What no view has seen well, and where the panel should stand next.
+    rig : RigEvidence, optional
+        What the views tell of their calibration; None where none was given.
 
     Examples
     --------
@@ -116,6 +196,8 @@ class ObjectModel(Shown):
     views: tuple[ViewInModel, ...]
     figures: ModelFigures
     warnings: tuple[str, ...] = field(default=())
+    missing: Missing | None = None
+    rig: RigEvidence | None = None
 
     @property
     def colours(self) -> Array:

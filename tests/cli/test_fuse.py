@@ -25,7 +25,9 @@ def test_fuse(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: p
     told = json.loads(capsys.readouterr().out)
     assert told["kind"] == "model"
     assert [view["used"] for view in told["views"]] == [True, True, True]
-    assert {path.name for path in (tmp_path / "model").iterdir()} == {"mesh.ply", "mesh.glb", "mesh.obj", "model.npz", "summary.json"}
+    assert {path.name for path in (tmp_path / "model").iterdir()} == {
+        *("mesh.ply", "mesh.glb", "mesh.obj", "model.npz", "model.html", "summary.json")
+    }
     (tmp_path / "session" / "stop_00").mkdir(parents=True)
     assert main(["fuse", "session/stop_00", "-o", "model"]) == 4  # the capture's surface is found; one alone is no model
     assert main(["fuse", "nothing", "-o", "model"]) == 3

@@ -15,7 +15,7 @@ from lpcal.formats.model_files import read_model, write_model
 from lpcal.fusion import align
 from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.model import shared_covariance
-from lpcal.fusion.vertices import Evidence, rested
+from lpcal.fusion.vertices import held_together, rested
 from lpcal.fusion.views import fitted, view_of
 from lpcal.geometry import se3
 from lpcal.records.model import ObjectModel
@@ -69,14 +69,32 @@ def test_what_is_not_seen_stays_open() -> None:
 def test_a_patch_that_no_view_puts_there_goes() -> None:
     """Of a strip of triangles whose far end no view sees, those with a corner that one does see stay."""
     faces = np.array([[k, k + 1, k + 2] for k in range(6)])
-    weight = np.zeros((2, 8))
-    weight[1, :3] = 1.0
-    nothing = np.zeros((2, 8), np.intp)
-    found = Evidence(weight, weight, np.zeros((2, 8, 3)), nothing, nothing)
-    kept, left = rested(found, faces)
+    kept, left = rested(np.arange(8) < 3, faces)
     assert kept.tolist() == [0, 1, 2, 3, 4]
     assert left.tolist() == [[0, 1, 2], [1, 2, 3], [2, 3, 4]]
-    assert found.of(kept).weight.sum(axis=0).tolist() == [1, 1, 1, 0, 0]
+
+
+def test_a_patch_that_one_view_alone_puts_there_and_hardly_knows_goes() -> None:
+    """Faces with a loose corner are left out; where none would stay, that is said."""
+    faces = np.array([[k, k + 1, k + 2] for k in range(6)])
+    kept, left = held_together(faces, np.arange(8) > 4)
+    assert kept.tolist() == [0, 1, 2, 3, 4]
+    assert left.tolist() == [[0, 1, 2], [1, 2, 3], [2, 3, 4]]
+    with pytest.raises(DegenerateError, match="seen by one view alone"):
+        held_together(faces, np.ones(8, bool))
+
+
+def test_what_all_views_say_is_the_same_by_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Held a thousand vertices at a time, or all at once."""
+    found = scene()
+    monkeypatch.setattr("lpcal.fusion.vertices.HELD", 3000)
+    by_blocks = lpcal.fuse(found.surfaces[:3], step_m=0.0024)
+    monkeypatch.undo()
+    at_once = lpcal.fuse(found.surfaces[:3], step_m=0.0024)
+    assert len(at_once.vertices_A) > 1000
+    np.testing.assert_allclose(by_blocks.vertices_A, at_once.vertices_A, atol=1e-9)
+    np.testing.assert_allclose(by_blocks.sigma_m, at_once.sigma_m, rtol=1e-9)
+    np.testing.assert_allclose(by_blocks.albedo, at_once.albedo, rtol=0.05)
 
 
 @pytest.mark.parametrize("kind", ["shifted", "flipped", "other object"])
@@ -92,11 +110,12 @@ def test_a_wrong_view_is_named_and_left_out(kind: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_model_is_unharmed_by_a_wrong_view() -> None:
-    """It is as near the truth as with the view in its place."""
+@pytest.mark.parametrize("kind", ["shifted", "too far", "flipped", "other object"])
+def test_the_model_is_unharmed_by_a_wrong_view(kind: str) -> None:
+    """It is as near the truth as with the view in its place; a view that is heard again is not taken in for that."""
     found, whole = fused()
     surfaces = list(found.surfaces)
-    surfaces[3] = _wrong(surfaces[3], "shifted")
+    surfaces[3] = _wrong(surfaces[3], kind)
     model = lpcal.fuse(surfaces)
     assert [view.name for view in model.views if not view.used] == ["stop_03"]
     assert "stop_03 is left out" in model.warnings[0]
@@ -108,6 +127,8 @@ def _wrong(surface: Surface, kind: str) -> Surface:
     if kind == "other object":
         other = scene("beast").surfaces[5]
         return replace(other, name=surface.name, placement=surface.placement)
+    if kind == "too far":
+        return replace(surface, depth=surface.depth * np.float32(1 + 0.02 / 0.35))
     twist = np.array([0, 0, 0, 0.02, 0, 0]) if kind == "shifted" else np.array([0, 0, 1.3, 0, 0, 0])
     return replace(surface, placement=replace(surface.placement, H_AC=surface.placement.H_AC @ se3.exp(twist)))
 

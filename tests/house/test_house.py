@@ -92,6 +92,7 @@ PAGE_DATA = {
     "report/scene_items.py": 3,
     "report/distant_shape.py": 1,
     "report/mark_page.py": 1,
+    "report/model_page.py": 1,
     "report/relight_page.py": 2,
     "report/side_pages.py": 1,
     "records/outcome.py": 1,

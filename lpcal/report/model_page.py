@@ -1,0 +1,117 @@
+"""model/model.html: the model in space with its views, their way and the stops to come, in one file that opens offline.
+
+The page shows albedo, normals, sigma, disagreement and coverage of every vertex, and measures distances and sections with sigma. The mesh
+comes deflated: positions in 16 bits over its bounds, some micrometres of an object, normals in 8 bits an axis, sigma and disagreement as
+bytes of a logarithm.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from typing import Any
+
+import numpy as np
+
+from lpcal import __version__
+from lpcal.geometry.arrays import Array
+from lpcal.records.model import ObjectModel, ViewInModel
+from lpcal.report.model_words import missing_words
+from lpcal.report.page import script_json
+from lpcal.report.templates import environment, packed_three
+
+STEPS = 16.0
+"""Steps of a byte for a factor of two of a sigma: 4 % each."""
+MOST_FACES = 600_000
+"""Triangles that the page is given: a slow machine turns them at some ten frames a second; of more, some are left out."""
+HALF_VIEW = (0.42, 0.27)
+"""Half width and height over the distance of the pyramids that stand for cameras."""
+
+
+def model_html(model: ObjectModel) -> str:
+    """The page."""
+    thinned = max(-(-len(model.faces) // MOST_FACES), 1)
+    missing = [] if model.missing is None else missing_words(model.missing, model.frame)
+    return (
+        environment()
+        .get_template("model.html")
+        .render(
+            name=model.name,
+            frame=model.frame,
+            version=__version__,
+            data=script_json(pack(model, thinned)),
+            three=packed_three(),
+            missing=missing,
+            views=[_line(view) for view in model.views],
+            notes=model.warnings,
+            thinned=thinned if thinned > 1 else 0,
+        )
+    )
+
+
+def pack(model: ObjectModel, thinned: int = 1) -> dict[str, Any]:
+    """What the page's script reads."""
+    v, faces = model.vertices_A, model.faces[::thinned]
+    low, high = v.min(axis=0), v.max(axis=0)
+    span = np.maximum(high - low, 1e-9)
+    known = model.sigma_m[model.sigma_m > 0]
+    least = float(np.percentile(known, 1)) if len(known) else 1e-6
+    most = float(np.percentile(known, 99)) if len(known) else 1e-3
+    parts = [
+        np.rint(65535 * (v - low) / span).astype("<u2"),
+        faces.astype("<u4"),
+        np.rint(127 * np.nan_to_num(model.normals_A)).astype(np.int8),
+        np.rint(255 * np.sqrt(model.colours)).astype(np.uint8),
+        _logarithm(model.sigma_m, least),
+        _logarithm(model.disagreement_m, least),
+        np.minimum(model.seen_by, 255).astype(np.uint8),
+    ]
+    centre = (low + high) / 2
+    packer = zlib.compressobj(6)
+    packed = b"".join([*(packer.compress(np.ascontiguousarray(part).tobytes()) for part in parts), packer.flush()])
+    cameras = [view.H_AC for view in model.views if view.H_AC is not None]
+    return {
+        "name": model.name,
+        "vertices": len(v),
+        "faces": len(faces),
+        "mesh": base64.b64encode(packed).decode("ascii"),
+        "low": low.tolist(),
+        "span": span.tolist(),
+        "centre": centre.tolist(),
+        "radius": float(np.linalg.norm(span) / 2),
+        "least": least,
+        "steps": STEPS,
+        "top": int(np.clip(2 + STEPS * np.log2(max(most / least, 1.0)), 3, 255)),
+        "scale": model.figures.distance_scale_std,
+        "half": HALF_VIEW,
+        "up": _up(cameras).tolist(),
+        "from": _from(cameras, centre).tolist(),
+        "views": [
+            {"name": view.name, "used": view.used, "H": np.round(view.H_AC, 6).tolist()} for view in model.views if view.H_AC is not None
+        ],
+        "next": [] if model.missing is None else [{"name": "next", "H": np.round(stop.H_AC, 6).tolist()} for stop in model.missing.stops],
+    }
+
+
+def _logarithm(values_m: Array, least: float) -> Any:
+    """Bytes of lengths: 0 for none, else 1 and up in steps of a logarithm."""
+    code = 1 + STEPS * np.log2(np.maximum(np.nan_to_num(values_m), least) / least)
+    return np.where(values_m > 0, np.clip(np.rint(code), 1, 255), 0).astype(np.uint8)
+
+
+def _up(cameras: list[Array]) -> Array:
+    """Which way is up: what is up in the images, on the mean."""
+    up = -np.mean([H[:3, 1] for H in cameras], axis=0) if cameras else np.array([0, 0, 1.0])
+    return up / max(float(np.linalg.norm(up)), 1e-9)
+
+
+def _from(cameras: list[Array], centre: Array) -> Array:
+    """From where the model is seen at first: the first camera's side."""
+    by = cameras[0][:3, 3] - centre if cameras else np.array([1.0, 0, 0])
+    return np.asarray(by / max(float(np.linalg.norm(by)), 1e-9))
+
+
+def _line(view: ViewInModel) -> str:
+    if not view.used:
+        return f"{view.name}: left out, {view.why}"
+    return f"{view.name}: moved {1e3 * (view.moved_m or 0):.2f} mm, within {1e3 * (view.residual_m or 0):.2f} mm of the others"
