@@ -41,6 +41,10 @@ UNKNOWN_INTENSITY, UNKNOWN_PLACE_M = 0.02, 0.003
 """Standard deviations of an intensity and of a source of which the calibration states none."""
 ROBUST = 2.5
 """Scale of the loss, in standard deviations of a difference."""
+RELAXED = 30.0
+"""By how much the prior is widened for the fit that tells the noise."""
+USUAL_SIZE = 1.18
+"""The median length of a difference across a normal, of two directions with a standard deviation of 1: the square root of 2 ln 2."""
 MOVED_SIGMAS = 5.0
 """Prior sigmas from which on the rig is said to have moved: of six lights and H_PC one in a million does so by chance."""
 CONVINCED = 3.0
@@ -115,17 +119,27 @@ def _lights(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> tuple
 
 
 def _solved(J: Array, d: Array, w: Array, prior_std: Array) -> tuple[Array, Array]:
-    """Errors (4 L,) of the lights and their covariance, of differences (N, 3), robustly."""
-    x, prior = np.zeros(len(prior_std)), np.diag(prior_std**-2.0)
-    for _ in range(4):
-        r = d - J @ x
-        size = np.sqrt(w) * np.linalg.norm(r, axis=1)
-        # a shape's own errors count as noise: the weights follow what is left
-        unit = max(float(1.4826 * np.median(size)) / 1.5, 1.0)
+    """Errors (4 L,) of the lights and their covariance, of differences (N, 3), robustly.
+
+    How large the noise is, a shape's own errors among it, is what a fit leaves that the prior hardly holds: by a fit that it holds, lights
+    that have moved would pass for noise.
+    """
+    x, prior = np.zeros(len(prior_std)), np.diag((RELAXED * prior_std) ** -2.0)
+    u = w / TOGETHER
+    for _ in range(5):
+        N, g = _normal_equations(J, d, u)
+        x = np.linalg.solve(N + prior, g)
+        size = np.sqrt(w) * np.linalg.norm(d - J @ x, axis=1)
+        unit = max(float(np.median(size)) / USUAL_SIZE, 1.0)
         u = w / unit**2 / (1 + (size / unit / ROBUST) ** 2) ** 2 / TOGETHER
-        N = np.einsum("nka,n,nkb->ab", J, u, J) + prior
-        x = np.linalg.solve(N, np.einsum("nka,n,nk->a", J, u, d))
-    return x, np.linalg.inv(N)
+    N, g = _normal_equations(J, d, u)
+    N = N + np.diag(prior_std**-2.0)
+    return np.linalg.solve(N, g), np.linalg.inv(N)
+
+
+def _normal_equations(J: Array, d: Array, u: Array) -> tuple[Array, Array]:
+    wide = (J * u[:, None, None]).reshape(-1, J.shape[2])
+    return J.reshape(-1, J.shape[2]).T @ wide, wide.T @ d.ravel()
 
 
 def _turns(one: Placed, seen: Evidence, k: int, v_A: Array, lights: Sequence[Light]) -> Array:
