@@ -46,21 +46,21 @@ RELAXED = 30.0
 USUAL_SIZE = 1.18
 """The median length of a difference across a normal, of two directions with a standard deviation of 1: the square root of 2 ln 2."""
 MOVED_SIGMAS = 5.0
-"""Prior sigmas from which on the rig is said to have moved: of six lights and H_PC one in a million does so by chance."""
-CONVINCED = 3.0
-"""By how many sigmas of what was found a change must differ from nothing to say that it moved."""
+"""Surprise from which on the rig is said to have moved: of six lights and H_PC one in a million does so by chance."""
+TOLD = 0.02
+"""Share of a prior's variance that the data must take away along a direction for it to count: less is rounding."""
 
 
 def rig_evidence(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> RigEvidence:
     """What the views tell of H_PC, of a scale of all distances, and of near lights."""
     H_PC_change, covariance = aligned.parameters[:6], aligned.covariance[:6, :6]
     prior = aligned.H_PC_covariance
-    handeye_sigmas = _sigmas(H_PC_change, prior)
+    handeye_sigmas = surprise(H_PC_change, prior, covariance)
     near = [light for light in lights if light.source_C is not None]
     said, before, after = _lights(aligned, found, near) if len(near) >= 3 else ((), float("nan"), float("nan"))
     scale, scale_std = float(aligned.parameters[6]), float(np.sqrt(aligned.covariance[6, 6]))
     moved = [f"{one.name} differs by {one.sigmas:.0f} sigmas from its calibration" for one in said if one.sigmas > MOVED_SIGMAS]
-    if handeye_sigmas > MOVED_SIGMAS and _sigmas(H_PC_change, covariance) > CONVINCED:
+    if handeye_sigmas > MOVED_SIGMAS:
         shift, turn = 1e3 * np.linalg.norm(H_PC_change[3:]), np.degrees(np.linalg.norm(H_PC_change[:3]))
         moved.append(f"H_PC differs by {shift:.1f} mm and {turn:.2f} deg, {handeye_sigmas:.0f} sigmas, from its calibration")
     if abs(scale) > MOVED_SIGMAS * SHARED_SCALE_STD:
@@ -70,13 +70,18 @@ def rig_evidence(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> 
     return RigEvidence(H_PC_change, covariance, handeye_sigmas, scale, scale_std, said, before, after, tuple(moved))
 
 
-def _sigmas(change: Array, covariance: Array) -> float:
-    """A change (n,) in standard deviations, the rms over its parameters; 0 where it is not free."""
-    if not covariance.any():
+def surprise(change: Array, prior: Array, posterior: Array) -> float:
+    """How far a change (n,) is from what its prior (n, n) let expect, in standard deviations, the rms over what the data tell of.
+
+    The change scatters by ``prior - posterior``: little where the data are weak, so that a small change may be a large surprise.
+    """
+    if not prior.any():
         return 0.0
-    floor = 1e-18 * np.eye(len(change))
-    squared = float(change @ np.linalg.solve(covariance + floor, change))
-    return float(np.sqrt(max(squared, 0.0) / len(change)))
+    L = np.linalg.cholesky(prior + 1e-12 * np.trace(prior) / len(prior) * np.eye(len(prior)))
+    told, axes = np.linalg.eigh(np.eye(len(prior)) - np.linalg.solve(L, np.linalg.solve(L, posterior).T))
+    some = told > TOLD
+    y = (axes.T @ np.linalg.solve(L, change))[some]
+    return float(np.sqrt(np.mean(y**2 / told[some]))) if some.any() else 0.0
 
 
 def _lights(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> tuple[tuple[LightEvidence, ...], float, float]:
@@ -106,14 +111,9 @@ def _lights(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> tuple
     said = []
     for k, light in enumerate(lights):
         at = slice(4 * k, 4 * k + 4)
-        sigmas = float(np.sqrt(np.mean((x[at] / prior_std[at]) ** 2)))
-        convinced = _sigmas(x[at], covariance[at, at]) > CONVINCED
+        sigmas = surprise(x[at], np.diag(prior_std[at] ** 2), covariance[at, at])
         std = np.sqrt(np.diag(covariance)[at])
-        said.append(
-            LightEvidence(
-                light.name, float(x[at][0]), float(std[0]), x[at][1:], std[1:], sigmas if convinced else min(sigmas, MOVED_SIGMAS)
-            )
-        )
+        said.append(LightEvidence(light.name, float(x[at][0]), float(std[0]), x[at][1:], std[1:], sigmas))
     robust = [float(1.4826 * np.median(np.abs(one))) / np.sqrt(2) for one in (d, left)]
     return tuple(said), robust[0], robust[1]
 

@@ -109,7 +109,7 @@ class LightEvidence:
     source_std_m: Array
     """(3,)."""
     sigmas: float
-    """The change in standard deviations of the calibration, the rms over intensity and place."""
+    """How far it is from what the calibration let expect, in standard deviations, the rms over what the views tell of."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class RigEvidence:
     H_PC_covariance: Array
     """(6, 6) of it: that of H_PC with the views counted in."""
     H_PC_sigmas: float
-    """The change in standard deviations of the calibration, the rms over its parameters."""
+    """How far it is from what the calibration let expect, in standard deviations, the rms over what the views tell of."""
     distance_scale: float
     """By how much all distances are other, relative."""
     distance_scale_std: float

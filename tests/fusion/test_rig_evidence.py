@@ -9,7 +9,7 @@ import pytest
 
 import lpcal
 from fusion_views import scene
-from lpcal.fusion.rig_evidence import normal_turns
+from lpcal.fusion.rig_evidence import normal_turns, surprise
 from lpcal.records.model import LightEvidence, RigEvidence
 from lpcal.records.surface import Surface
 
@@ -30,6 +30,20 @@ def lights(position_std_m: float = 0.001, intensity_std: float = 0.01) -> tuple[
             )
         )
     return tuple(made)
+
+
+def test_a_surprise_is_one_sigma_on_the_mean() -> None:
+    """For changes as their prior lets expect; one far beyond the prior is a large surprise even where the data are weak."""
+    rng = np.random.default_rng(0)
+    prior = np.diag([3e-3, 5e-4, 5e-4, 5e-4]) ** 2
+    J, noise = rng.standard_normal((3, 4)) * [1, 8, 8, 8], 0.011
+    gain = prior @ J.T @ np.linalg.inv(J @ prior @ J.T + noise**2 * np.eye(3))
+    posterior = prior - gain @ J @ prior
+    true = np.sqrt(np.diag(prior)) * rng.standard_normal((1000, 4))
+    seen = true @ J.T + noise * rng.standard_normal((1000, 3))
+    squared = [surprise(gain @ y, prior, posterior) ** 2 for y in seen]
+    assert np.mean(squared) == pytest.approx(1.0, abs=0.15)
+    assert surprise(gain @ J @ np.array([0.18, 0, 0, 0]), prior, posterior) > 5
 
 
 def test_the_turn_of_normals_is_that_of_least_squares() -> None:
