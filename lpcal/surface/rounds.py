@@ -23,6 +23,7 @@ from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
+from lpcal.surface.scales import Blocks
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Around
 
@@ -44,6 +45,10 @@ SLANTED = 0.1
 SPAN = float(np.log(4))
 """Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
 FEWEST_PIXELS = 50
+CARRIED_ROUNDS = 4
+"""Rounds of the field at full size, from estimates of single pixels."""
+FULL_ROUNDS = 3
+"""Rounds at full size at most after those of the blocks."""
 
 
 @dataclass(frozen=True)
@@ -104,17 +109,51 @@ class Scene:
 
 
 def run(scene: Scene, begin: Array, progress: Progress) -> State:
-    """All rounds, from log depths `begin` (P,)."""
-    state = once(scene, begin, None, 0)
+    """All rounds, from log depths `begin` (P,); of many pixels by blocks of them first, which settle what pixels have in common."""
+    scene = scene.closely()
+    blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
+    if blocks is None:
+        return _until_settled(scene, once(scene, begin, None, 0), 1, progress)
+    coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid)
+
+    def in_blocks(what: str, done: int, total: int) -> None:
+        progress(f"{what} in coarse pixels", done, total)
+
+    settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
+    return _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True)
+
+
+def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
+    """The state after rounds from the one of number `first` on, until one changes next to nothing."""
     rounds = ROUNDS if scene.near else 1
-    for k in range(1, rounds):
+    for k in range(first, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
-        before, state = state, once(scene, state.u, state, k)
+        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known)
         state = replace(state, moved=np.abs(state.u - before.u))
         if k > SHAPE_ROUND and _settled(scene, state):
             break
     progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
+
+
+def _carried(blocks: Blocks, state: State) -> State:
+    """The state of the blocks at their pixels."""
+    lit = blocks.lit(state.lit)
+    seen, before = blocks.seen, blocks.estimate(state.found)
+    usable = normals.candidates(seen, lit.E) & before.inliers
+    start = normals.estimate(seen, lit, usable, normals.variances(seen)).b
+    b = np.where(np.isfinite(start[:, :1]), start, blocks.between(state.field.b))
+    whole = Field(b, blocks.estimate(state.field.estimate), state.field.gloss)
+    return State(
+        blocks.front(state.u, state.normals),
+        blocks.edges(state.weight),
+        lambert.unit(whole.b)[0],
+        before,
+        blocks.own(state.own),
+        lit,
+        whole,
+        state.reflects,
+    )
 
 
 def _settled(scene: Scene, state: State) -> bool:
@@ -125,8 +164,8 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State:
-    """One round from u (P,) and the state before.
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
+    """One round from u (P,) and the state before, whose thrown light stays where it is known.
 
     Raises
     ------
@@ -141,10 +180,15 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS) -> State
     reflects = hidden = None
     if shaped is not None:
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
-        lit, reflects = _thrown(scene, depth, shaped, lit, by_object, hidden)
+        if thrown_known:
+            lit, reflects = replace(lit, thrown=shaped.lit.thrown, unseen=shaped.lit.unseen), shaped.reflects
+        else:
+            lit, reflects = _thrown(scene, depth, shaped, lit, by_object, hidden)
     usable = normals.candidates(seen, lit.E, hidden)
     glossy = bounce.COMMON if reflects is None else reflects.median
-    whole = _estimated(scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None)
+    whole = _estimated(
+        scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None, CARRIED_ROUNDS if thrown_known else None
+    )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
     if scene.near:
@@ -201,11 +245,13 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
     return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 
-def _estimated(scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None) -> Field:
+def _estimated(
+    scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None, rounds: int | None = None
+) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
     if before is not None:
-        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy)
+        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy, rounds)
     start = normals.estimate(seen, lit, usable, normals.variances(seen))
     lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:
