@@ -13,7 +13,7 @@ MIDDLE = np.array([40.0, 30.0])
 
 
 @pytest.fixture
-def blocks(monkeypatch):
+def blocks(monkeypatch: pytest.MonkeyPatch) -> scales.Blocks:
     monkeypatch.setattr(scales, "PIXELS", 500)
     row, column = np.indices(SHAPE)
     mask = (row - 29) ** 2 + (column - 37) ** 2 < 26**2
@@ -27,7 +27,7 @@ def blocks(monkeypatch):
     return found
 
 
-def test_blocks_hold_the_means_of_their_pixels(blocks):
+def test_blocks_hold_the_means_of_their_pixels(blocks: scales.Blocks) -> None:
     assert blocks.side == 2
     one = blocks.of_pixel == 100
     coarse, seen = blocks.coarse, blocks.seen
@@ -40,7 +40,7 @@ def test_blocks_hold_the_means_of_their_pixels(blocks):
     assert np.allclose(blocks.means(seen.signal[0]), coarse.signal[0])
 
 
-def test_what_is_linear_over_the_image_is_carried_as_it_is(blocks):
+def test_what_is_linear_over_the_image_is_carried_as_it_is(blocks: scales.Blocks) -> None:
     whole = np.bincount(blocks.of_pixel) == 4
     inside = (whole[blocks.around] | (blocks.share == 0)).all(axis=1) & (blocks.share > 0).all(axis=1)
     assert inside.mean() > 0.7
@@ -49,7 +49,7 @@ def test_what_is_linear_over_the_image_is_carried_as_it_is(blocks):
     assert np.abs(carried - blocks.seen.rays_C).max() < 2 / 300  # at the rim by a block at most
 
 
-def test_a_plane_is_carried_as_it_is(blocks):
+def test_a_plane_is_carried_as_it_is(blocks: scales.Blocks) -> None:
     n = np.array([0.3, -0.2, -0.9])
     n /= np.linalg.norm(n)
     u = np.log(-0.35 / (blocks.coarse.rays_C @ n))
@@ -57,7 +57,7 @@ def test_a_plane_is_carried_as_it_is(blocks):
     assert np.abs(blocks.front(u, np.tile(n, (len(u), 1))) - wanted).max() < 1e-12
 
 
-def test_breaks_stand_between_blocks_where_they_were(blocks):
+def test_breaks_stand_between_blocks_where_they_were(blocks: scales.Blocks) -> None:
     column = np.nonzero(blocks.coarse.mask)[1]
     grid = blocks.coarse_grid
     broken = (column[grid.a] == 17) & (column[grid.b] == 18)
@@ -72,7 +72,7 @@ def test_breaks_stand_between_blocks_where_they_were(blocks):
     assert LEAST_WEIGHT not in weight
 
 
-def test_few_pixels_are_not_joined():
+def test_few_pixels_are_not_joined() -> None:
     mask = np.ones((40, 40), bool)
     seen = Sight(mask, np.ones((1600, 3)), np.ones((3, 1600)), np.ones((3, 1600)), np.ones((3, 1600), bool), True)
     assert Blocks.of(seen, Grid.of(mask)) is None
