@@ -288,7 +288,7 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, foun
 
 
 def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
-    found = []
+    found: list[Component] = []
     for one in np.unique(label):
         inside = label == one
         middle = float(depth[inside].mean())
@@ -299,6 +299,7 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
             model = state.anchors[int(one)].std if int(one) in state.anchors else _model_std(state, inside)
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
             std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
+            std = float(np.hypot(std, uncertainty.BROKEN_OFF * np.log(middle / found[0].mean_depth_m))) if found else std
         else:
             std = UNKNOWN_DISTANCE
         others = basins_found.others() if basins_found is not None and one == 1 else []
