@@ -178,7 +178,7 @@ def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance() -> None:
         x_C = wrong * (rays_C * depth[..., None])[object_mask]
         found = shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 0.05})
         assert found[1].seen * wrong == pytest.approx(1.0, abs=0.008)
-        assert found[1].std < 0.007
+        assert found[1].std < 0.015
     assert shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 1e-4}) == {}  # near light knows better
 
 
