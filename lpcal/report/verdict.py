@@ -27,7 +27,7 @@ GATES = {
     "distance_mm": (5.0, 15.0),
     "light_deg": (0.2, 0.6),
     "light_percent": (2.0, 5.0),
-    "surface_percent": (1.0, 3.0),
+    "surface_percent": (1.5, 5.0),
 }
 GATE_WORDS = {
     "camera_rms_px": "rms ≤ {:g} px",
