@@ -104,7 +104,7 @@ def test_a_warning_lowers_good_to_fair_and_is_shown() -> None:
 
 
 def test_a_surface_without_a_camera_is_not_judged_by_its_distance() -> None:
-    lines = verdicts(report_of({}, surface(units="pixels"), surface(0.05)))
+    lines = verdicts(report_of({}, surface(units="pixels"), surface(0.06)))
     assert [line.tone for line in lines[-2:]] == ["none", "poor"]
 
 
