@@ -181,7 +181,7 @@ def _tried(one: _Try) -> Trial | LpcalError:
         return error
 
 
-def _trials(tries: Sequence[_Try], engine: Engine | None, told: Progress) -> list[Trial]:
+def _trials(tries: Sequence[_Try], engine: Engine | None, progress: Progress) -> list[Trial]:
     """All of them, here or where the engine says.
 
     Raises
@@ -196,7 +196,7 @@ def _trials(tries: Sequence[_Try], engine: Engine | None, told: Progress) -> lis
         if isinstance(one, LpcalError):
             raise one
         found[number] = one
-        told("trials", len(found), len(tries))
+        progress("trials", len(found), len(tries))
     return [found[number] for number in range(len(tries))]
 
 

@@ -258,8 +258,8 @@ def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str], p
         (draft / OUTPUTS["ply"]).write_bytes(ply_bytes(columns, mesh.faces, [f"frame {ply_frame}, {unit}"]))
     if "glb" in outputs:
         linear = (mesh.colours / 255) ** DISPLAY_GAMMA
-        told = {"POSITION": vertices * turn, "NORMAL": normals * turn, "COLOR_0": linear}
-        (draft / OUTPUTS["glb"]).write_bytes(glb_bytes(told, mesh.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
+        attributes = {"POSITION": vertices * turn, "NORMAL": normals * turn, "COLOR_0": linear}
+        (draft / OUTPUTS["glb"]).write_bytes(glb_bytes(attributes, mesh.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
 
 
 def _plain_words(text: str) -> str:

@@ -47,7 +47,7 @@ USUAL_SIZE = 1.18
 """The median length of a difference across a normal, of two directions with a standard deviation of 1: the square root of 2 ln 2."""
 MOVED_SIGMAS = 5.0
 """Surprise from which on the rig is said to have moved: of six lights and H_PC one in a million does so by chance."""
-TOLD = 0.02
+GAINED = 0.02
 """Share of a prior's variance that the data must take away along a direction for it to count: less is rounding."""
 
 
@@ -78,10 +78,10 @@ def surprise(change: Array, prior: Array, posterior: Array) -> float:
     if not prior.any():
         return 0.0
     L = np.linalg.cholesky(prior + 1e-12 * np.trace(prior) / len(prior) * np.eye(len(prior)))
-    told, axes = np.linalg.eigh(np.eye(len(prior)) - np.linalg.solve(L, np.linalg.solve(L, posterior).T))
-    some = told > TOLD
+    gained, axes = np.linalg.eigh(np.eye(len(prior)) - np.linalg.solve(L, np.linalg.solve(L, posterior).T))
+    some = gained > GAINED
     y = (axes.T @ np.linalg.solve(L, change))[some]
-    return float(np.sqrt(np.mean(y**2 / told[some]))) if some.any() else 0.0
+    return float(np.sqrt(np.mean(y**2 / gained[some]))) if some.any() else 0.0
 
 
 def _lights(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> tuple[tuple[LightEvidence, ...], float, float]:

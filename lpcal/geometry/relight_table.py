@@ -67,15 +67,15 @@ def table(directions: Array, images: Image, gamma: float, components: int, insid
     rows = np.arange(height * width) if inside is None or not inside.any() else np.flatnonzero(inside)
     law = _Law(directions, nodes(RESOLUTION), gamma)
     sample = rows[np.linspace(0, len(rows) - 1, min(SAMPLED, len(rows))).astype(int)]
-    told = law.at_nodes(flat[:, sample])
-    mean = told.mean(axis=0)
-    _, V = np.linalg.eigh((told - mean).T @ (told - mean))
+    at_nodes = law.at_nodes(flat[:, sample])
+    mean = at_nodes.mean(axis=0)
+    _, V = np.linalg.eigh((at_nodes - mean).T @ (at_nodes - mean))
     V = V[:, ::-1][:, :components].T
     planes = np.zeros((components, height * width), np.float32)
     for first in range(0, height * width, BLOCK):
         part = slice(first, first + BLOCK)
         planes[:, part] = V @ (law.at_nodes(flat[:, part]) - mean).T
-    left = told - mean - (told - mean) @ V.T @ V
+    left = at_nodes - mean - (at_nodes - mean) @ V.T @ V
     basis = np.concatenate([mean[None], V]).reshape(components + 1, -1, 3)
     held = rows[np.linspace(0, len(rows) - 1, min(HELD_OUT, len(rows))).astype(int)]
     return RelightTable(
@@ -97,8 +97,8 @@ class _Law:
         """Encoded values (N, 3 M) of pixels (L, N, 3), a pixel a row, nodes first."""
         values = images.reshape(len(images), -1).astype(float)
         b = _lambert(self.directions, values**self.gamma)
-        told = self._shown(self.asked, b) + self.weights @ (values - self._shown(self.directions, b))
-        return np.asarray(np.clip(told, 0, 1).reshape(len(self.asked), -1, 3).transpose(1, 0, 2).reshape(images.shape[1], -1))
+        shown = self._shown(self.asked, b) + self.weights @ (values - self._shown(self.directions, b))
+        return np.asarray(np.clip(shown, 0, 1).reshape(len(self.asked), -1, 3).transpose(1, 0, 2).reshape(images.shape[1], -1))
 
     def _shown(self, directions: Array, b: Array) -> Array:
         return np.asarray(np.clip(directions @ b, 0, 1) ** (1 / self.gamma))
@@ -147,6 +147,6 @@ def _held_out(directions: Array, images: Image, gamma: float) -> Array:
     for k in np.unique(np.linspace(0, count - 1, min(count, MOST_HELD_OUT)).astype(int)):
         others = np.arange(count) != k
         at, weights = _about(directions[k])
-        told = _Law(directions[others], at, gamma).at_nodes(images[others]).reshape(-1, len(at), 3)
-        missed.append(float(np.sqrt(np.mean((np.einsum("n,pnc->pc", weights, told) - images[k]) ** 2))))
+        at_nodes = _Law(directions[others], at, gamma).at_nodes(images[others]).reshape(-1, len(at), 3)
+        missed.append(float(np.sqrt(np.mean((np.einsum("n,pnc->pc", weights, at_nodes) - images[k]) ** 2))))
     return np.array(missed)
