@@ -5,8 +5,9 @@
     python tools/bench_fuse.py rig model
 
 Prints, of the model: rms and quantiles of the distance along the true normal, the part of the true surface that two views see and the model
-has within a millimetre, angles of the normals, how many vertices lie within two of their sigmas; of the single surfaces as they were
-placed: the same rms; and how far each camera is from where it was, as placed and as aligned.
+has within a millimetre, angles of the normals, how many vertices lie within two of their sigmas, and the errors in sigmas, the part that
+all vertices share apart; of the single surfaces as they were placed: the same rms, and how far their distances are off, before and after;
+and how far each camera is from where it was, as placed and as aligned.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -23,9 +25,40 @@ from scipy.spatial import cKDTree
 import lpcal
 from lpcal.formats.model_files import read_model
 from lpcal.geometry import se3
+from lpcal.records.model import ObjectModel
+from lpcal.records.surface import Surface
 
 NEAR_M = 0.001
 """How near the model must be to a place to have it, metres."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What a simulated session was made of."""
+
+    folder: Path
+    vertices_O: np.ndarray
+    normals_O: np.ndarray
+    tree: cKDTree
+    H_OC: dict[str, np.ndarray]
+
+    @classmethod
+    def of(cls, rig: Path) -> Truth:
+        """The truth of a rig's session."""
+        folder = rig / "truth" / "session"
+        mesh = trimesh.load(folder / "mesh.ply", process=False)
+        vertices_O = np.asarray(mesh.vertices)
+        cameras = {row["image"]: pose(row) for row in csv.DictReader((folder / "H_OC.csv").open(encoding="utf-8"))}
+        return cls(folder, vertices_O, np.asarray(mesh.vertex_normals), cKDTree(vertices_O), cameras)
+
+    def along(self, x_O: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How far points are outside the true surface, and its normals there."""
+        _, nearest = self.tree.query(x_O)
+        return ((x_O - self.vertices_O[nearest]) * self.normals_O[nearest]).sum(axis=1), self.normals_O[nearest]
+
+    def maps(self, name: str) -> np.lib.npyio.NpzFile:
+        """The true maps of a stop."""
+        return np.load(self.folder / f"{name}.npz")
 
 
 def main() -> None:
@@ -33,55 +66,90 @@ def main() -> None:
     parser.add_argument("rig", type=Path)
     parser.add_argument("model", type=Path)
     options = parser.parse_args()
-    truth = options.rig / "truth" / "session"
-    mesh = trimesh.load(truth / "mesh.ply", process=False)
-    true_O, n_O = np.asarray(mesh.vertices), np.asarray(mesh.vertex_normals)
-    tree, model = cKDTree(true_O), read_model(options.model)
-    cameras = {row["image"]: pose(row) for row in csv.DictReader((truth / "H_OC.csv").open(encoding="utf-8"))}
-    off, normals = along(tree, true_O, n_O, model.vertices_A)
+    truth, model = Truth.of(options.rig), read_model(options.model)
+    surfaces = [lpcal.read_surface(Path(folder)) for folder in inputs(options.model)]
+    said = of_model(truth, model)
+    said |= of_mesh(truth, model.vertices_A, twice_seen(truth, surfaces), model.figures.step_m)
+    print(json.dumps(said | of_views(truth, model, surfaces), indent=1))
+
+
+def of_model(truth: Truth, model: ObjectModel) -> dict:
+    """Errors of the normals, and all errors in their sigmas."""
+    off, normals = truth.along(model.vertices_A)
     angle = np.degrees(np.arccos(np.clip((normals * model.normals_A).sum(axis=1), -1, 1)))
-    said = {
+    common = shared_part(model.vertices_A, normals, off)
+    return {
+        "normals_median_deg": float(np.median(angle)),
+        "within_2_sigma_percent": 100 * float(np.mean(np.abs(off) < 2 * model.sigma_m)),
+        "sigma_median_mm": 1e3 * float(np.median(model.sigma_m)),
+        "rms_in_sigmas": rms(off / model.sigma_m),
+        "shared_rms_mm": 1e3 * rms(common),
+        "own_rms_mm": 1e3 * rms(off - common),
+        "own_median_mm": 1e3 * float(np.median(np.abs(off - common))),
+        "left_out": [view.name for view in model.views if not view.used],
+        "before_mm": 1e3 * model.figures.before_m,
+        "after_mm": 1e3 * model.figures.after_m,
+    }
+
+
+def of_mesh(truth: Truth, x_O: np.ndarray, twice_O: np.ndarray, step_m: float = NEAR_M) -> dict:
+    """Errors of points (N, 3), and how much of what two views see (M, 3) they have."""
+    off, _ = truth.along(x_O)
+    gap, _ = cKDTree(x_O).query(twice_O)
+    return {
         "vertices": len(off),
         "rms_mm": 1e3 * rms(off),
         "median_mm": 1e3 * float(np.median(np.abs(off))),
         "p95_mm": 1e3 * float(np.percentile(np.abs(off), 95)),
         "mean_mm": 1e3 * float(off.mean()),
-        "normals_median_deg": float(np.median(angle)),
-        "within_2_sigma_percent": 100 * float(np.mean(np.abs(off) < 2 * model.sigma_m)),
+        "completeness_percent": 100 * float(np.mean(gap < max(NEAR_M, 1.5 * step_m))),
     }
-    surfaces = [lpcal.read_surface(Path(folder)) for folder in inputs(options.model)]
-    seen, single = np.zeros(len(true_O), int), []
-    for surface in surfaces:
-        stored = np.load(truth / f"{surface.name}.npz")
+
+
+def of_views(truth: Truth, model: ObjectModel, surfaces: list[Surface]) -> dict:
+    """The single surfaces as placed, and what became of their distances and cameras."""
+    single, before, after = [], [], []
+    for surface, view in zip(surfaces, model.views, strict=True):
         points = se3.apply(surface.placement.H_AC, (surface.rays_C * surface.depth[..., None])[surface.mask].astype(float))
-        single.append(rms(along(tree, true_O, n_O, points)[0]))
+        single.append(rms(truth.along(points)[0]))
+        stored = truth.maps(surface.name)
         both = stored["mask"] & surface.mask
-        there = se3.apply(cameras[surface.name], (surface.rays_C * stored["depth"][..., None])[both].astype(float))
-        seen[np.unique(tree.query(there)[1])] += 1
-    twice = true_O[seen >= 2]
-    gap, _ = cKDTree(model.vertices_A).query(twice)
-    step = model.figures.step_m
-    said |= {
-        "completeness_percent": 100 * float(np.mean(gap < max(NEAR_M, 1.5 * step))),
+        off = surface.depth[both].astype(float) - stored["depth"][both]
+        before.append(float(np.median(off)))
+        after.append(before[-1] + (view.distance_change_m or 0.0))
+    used = [k for k, view in enumerate(model.views) if view.used]
+    off, _ = truth.along(model.vertices_A)
+    return {
         "singles_rms_mm": [round(1e3 * one, 3) for one in single],
         "singles_median_rms_mm": 1e3 * float(np.median(single)),
         "gain": float(np.median(single)) / rms(off),
+        "distances_rms_mm": 1e3 * rms(np.array(before)[used]),
+        "fused_distances_rms_mm": 1e3 * rms(np.array(after)[used]),
         "cameras_mm": {
-            view.name: round(1e3 * float(np.linalg.norm(view.H_AC[:3, 3] - cameras[view.name][:3, 3])), 3)
+            view.name: round(1e3 * float(np.linalg.norm(view.H_AC[:3, 3] - truth.H_OC[view.name][:3, 3])), 3)
             for view in model.views
             if view.used
         },
-        "left_out": [view.name for view in model.views if not view.used],
-        "before_mm": 1e3 * model.figures.before_m,
-        "after_mm": 1e3 * model.figures.after_m,
     }
-    print(json.dumps(said, indent=1))
 
 
-def along(tree: cKDTree, true_O: np.ndarray, n_O: np.ndarray, x_O: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How far points are outside the true surface, and its normals there."""
-    _, nearest = tree.query(x_O)
-    return ((x_O - true_O[nearest]) * n_O[nearest]).sum(axis=1), n_O[nearest]
+def shared_part(x_O: np.ndarray, n_O: np.ndarray, off: np.ndarray) -> np.ndarray:
+    """The part of errors along normals that one motion and one growth of the whole explain."""
+    away = x_O - x_O.mean(axis=0)
+    A = np.column_stack([n_O, np.cross(away, n_O), (away * n_O).sum(axis=1)])
+    found, *_ = np.linalg.lstsq(A, off, rcond=None)
+    return A @ found
+
+
+def twice_seen(truth: Truth, surfaces: list[Surface]) -> np.ndarray:
+    """Places (M, 3) of the true surface that two surfaces at least show."""
+    seen = np.zeros(len(truth.vertices_O), int)
+    for surface in surfaces:
+        stored = truth.maps(surface.name)
+        both = stored["mask"] & surface.mask
+        there = se3.apply(truth.H_OC[surface.name], (surface.rays_C * stored["depth"][..., None])[both].astype(float))
+        seen[np.unique(truth.tree.query(there)[1])] += 1
+    return truth.vertices_O[seen >= 2]
 
 
 def pose(row: dict[str, str]) -> np.ndarray:
@@ -96,7 +164,7 @@ def inputs(model: Path) -> list[str]:
 
 
 def rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+    return float(np.sqrt(np.mean(np.asarray(values) ** 2)))
 
 
 if __name__ == "__main__":

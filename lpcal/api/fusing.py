@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from functools import partial
+from typing import overload
 
 import numpy as np
 
+from lpcal.api.engines import Engine, Lost, each
 from lpcal.api.staged import staged
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.fusion.model import FEWEST, model_of
+from lpcal.fusion.tiles import Tile, TileFaces
 from lpcal.fusion.views import PlacedView, view_of
+from lpcal.fusion.volume import TileWork, in_turn
 from lpcal.geometry import se3
 from lpcal.records import screens
 from lpcal.records.calibration import Calibration, Light
@@ -30,6 +35,7 @@ def fuse(
     name: str = "model",
     step_m: float | None = None,
     calibration: Calibration | None = None,
+    engine: Engine | None = None,
     progress: Progress = silent,
 ) -> ObjectModel:
     """Fuse surfaces of one object into one model, in the frame that they are placed in.
@@ -47,6 +53,9 @@ def fuse(
         Length of the model's edges, metres, about; by default 1.4 pixels on the object.
     calibration : Calibration, optional
         The one that the surfaces share: the model then says what the views tell of its lights and H_PC, and whether the rig has moved.
+    engine : Engine, optional
+        Where the tiles of the model's space are worked on, of `lpcal.api.engines.engine_of`; None: one after the other, here. The model is
+        the same.
     progress : callable, optional
         Called with what is done, how much of it, and of how many.
 
@@ -91,7 +100,41 @@ def fuse(
         )
     if importlib.util.find_spec("skimage") is None:
         raise InputError("scikit-image is not installed", where="fuse", needed="lpcal[fuse]", todo="uv add 'lpcal[fuse]'")
-    return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights)
+    over = in_turn if engine is None else partial(_over, engine)
+    return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights, over)
+
+
+class _Tasks(Sequence[tuple[TileWork, Tile]]):
+    """Tiles to work on, each with what a worker needs of it, made when it is handed over."""
+
+    def __init__(self, work: TileWork, tiles: Sequence[Tile]) -> None:
+        self.work, self.tiles = work, tiles
+
+    def __len__(self) -> int:
+        return len(self.tiles)
+
+    @overload
+    def __getitem__(self, at: int) -> tuple[TileWork, Tile]: ...
+    @overload
+    def __getitem__(self, at: slice) -> Sequence[tuple[TileWork, Tile]]: ...
+    def __getitem__(self, at: int | slice) -> tuple[TileWork, Tile] | Sequence[tuple[TileWork, Tile]]:
+        if isinstance(at, slice):
+            return _Tasks(self.work, self.tiles[at])
+        return self.work.narrowed(self.tiles[at]), self.tiles[at]
+
+
+def _worked(task: tuple[TileWork, Tile]) -> TileFaces:
+    """One tile, on a worker."""
+    work, tile = task
+    return work(tile)
+
+
+def _over(engine: Engine, work: TileWork, tiles: Sequence[Tile]) -> list[TileFaces]:
+    """The tiles' triangles by the workers of an engine; of one whose workers were lost, here."""
+    found: list[TileFaces | None] = [None] * len(tiles)
+    for number, faces in each(_worked, _Tasks(work, tiles), engine):
+        found[number] = None if isinstance(faces, Lost) else faces
+    return [work(tile) if faces is None else faces for tile, faces in zip(tiles, found, strict=True)]
 
 
 def refine_rig(calibration: Calibration, model: ObjectModel) -> Calibration:

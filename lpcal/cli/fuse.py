@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lpcal.cli.engine_words import add_engine_words, engine_of_words, jobs_of
 from lpcal.cli.rig_option import add_rig_option, length, open_workspace
 from lpcal.errors import InputError
 from lpcal.records.outcome import Outcome, Progress
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--refine", action="store_true", help="write the rig's calibration as the views would have it beside the model, calibration.yaml"
     )
+    add_engine_words(parser, "tiles of the model's space")
     add_rig_option(parser)
 
 
@@ -42,9 +44,9 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         if not options.captures or options.rig != Path():
             raise
         rig = _rig_above(options)
-    return fuse_folders(
-        options.captures, options.output, rig, length(options.step), progress, page=not options.no_pages, refine=options.refine
-    )
+    engine = engine_of_words(options.on, jobs_of(options.jobs), options.output)
+    page, refine = not options.no_pages, options.refine
+    return fuse_folders(options.captures, options.output, rig, length(options.step), progress, page=page, refine=refine, engine=engine)
 
 
 def _rig_above(options: argparse.Namespace) -> Workspace | None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.formats.diligent_views import view_of_set
 from lpcal.formats.document_numbers import covariance, number, numbers, rigid
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry import se3
@@ -60,8 +61,17 @@ def placement_from_document(document: dict[str, Any]) -> Placement:
 
 
 def stated_place(section: CaptureSection, folder: Path) -> StatedPlace:
-    """What the capture.yaml of a folder says of its place."""
+    """What the capture.yaml of a folder says of its place; where it says nothing, what the data set says of which the folder is a view.
+
+    Raises
+    ------
+    InputError
+        The data set's file of poses cannot be read or lacks this one.
+    """
     pose = section.pose
+    view = view_of_set(folder) if pose is None and section.time is None else None
+    if view is not None:
+        return StatedPlace(H_OC=se3.inv(view.H_CO))
     return StatedPlace(
         t_camera_s=section.time,
         H_OP=None if pose is None or pose.H_OP is None else _matrix(pose.H_OP),

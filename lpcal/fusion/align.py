@@ -19,7 +19,7 @@ import numpy as np
 
 from lpcal.fusion.bending import bending_of
 from lpcal.fusion.pairs import Meeting, Placed, meet
-from lpcal.fusion.views import PlacedView
+from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index
 from lpcal.records.outcome import Progress, silent
@@ -121,7 +121,7 @@ def all_meetings(state: Sequence[Placed], gate_m: float) -> dict[tuple[int, int]
     found = {}
     for i in range(len(state)):
         for j in range(len(state)):
-            met = meet(points[i], state[j], gate_m) if i != j else None
+            met = meet(points[i], state[j], gate_m) if i != j and may_see(state[j].view, state[j].H_AC, points[i][0]) else None
             if met is not None:
                 found[i, j] = met
     return found

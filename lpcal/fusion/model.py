@@ -21,7 +21,7 @@ from lpcal.fusion.missing import missing
 from lpcal.fusion.rig_evidence import rig_evidence
 from lpcal.fusion.vertices import Vertices, on_the_views
 from lpcal.fusion.views import PlacedView
-from lpcal.fusion.volume import surface_of
+from lpcal.fusion.volume import Over, in_turn, surface_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
@@ -37,9 +37,14 @@ CONTRADICTION = 3.0
 
 
 def model_of(
-    name: str, views: Sequence[PlacedView], step_m: float | None = None, progress: Progress = silent, lights: Sequence[Light] | None = None
+    name: str,
+    views: Sequence[PlacedView],
+    step_m: float | None = None,
+    progress: Progress = silent,
+    lights: Sequence[Light] | None = None,
+    over: Over = in_turn,
 ) -> ObjectModel:
-    """The model of placed views; with the calibrated lights also what the views tell of them.
+    """The model of placed views; with the calibrated lights also what the views tell of them. `over` has its tiles of space worked on.
 
     Raises
     ------
@@ -66,7 +71,7 @@ def model_of(
             break
         out.append(Doubted(kept[doubted[0].index], doubted[0].why))
     aligned, kept = _heard_again(views, aligned, kept, out, H_PC_covariance, progress)
-    rough = surface_of(aligned.placed, step_m)
+    rough = surface_of(aligned.placed, step_m, over)
     progress("surface", 1, 2)
     found = on_the_views(aligned, rough)
     progress("surface", 2, 2)

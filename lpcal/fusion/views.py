@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
+from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Labels, Mask
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Surface
@@ -30,6 +31,8 @@ OUTSIDE_PX = 6
 """Pixels beside the mask from where on a view is taken to see the background: an outline is sure within some."""
 KEPT_PX = OUTSIDE_PX + 2
 """Pixels beside the mask that a view keeps: beyond them all is background."""
+CONE_SPARE_RAD = 0.01
+"""By how much the cone about an image is wider than its corners' rays, radians: some pixels, for lenses whose rim bends."""
 STEEP = 0.25
 """Least cosine between the normal and the line of sight of a pixel that bears witness, 75 degrees: beyond it a pixel spans too much."""
 UNSURE_DEG = 12.0
@@ -80,6 +83,15 @@ class PlacedView:
         return self.pixel_rad * self.distance_m
 
     @cached_property
+    def cone(self) -> tuple[Array, float]:
+        """Axis (3,) in C and half angle, radians, of a cone that holds all rays of the image: its corners' are the farthest apart."""
+        (left, top), (right, bottom) = self.field
+        rays = np.array([[left, top, 1], [right, top, 1], [left, bottom, 1], [right, bottom, 1]])
+        rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+        axis = rays.mean(axis=0) / np.linalg.norm(rays.mean(axis=0))
+        return axis, float(np.arccos(np.clip(rays @ axis, -1, 1)).max()) + CONE_SPARE_RAD
+
+    @cached_property
     def far_outside(self) -> Mask:
         """Pixels well outside the object: the background."""
         from scipy.ndimage import binary_dilation
@@ -128,6 +140,17 @@ def _up_to(x: Array) -> list[Array]:
     for _ in range(DEGREE):
         found.append(found[-1] * x)
     return found
+
+
+def may_see(view: PlacedView, H_AC: Array, x_A: Array) -> bool:
+    """Whether any of some points (N, 3) may lie in a view's image: whether a ball about them meets the cone about its rays."""
+    low, high = x_A.min(axis=0), x_A.max(axis=0)
+    middle_C = se3.apply(se3.inv(H_AC), ((low + high) / 2)[None])[0]
+    radius, away = float(np.linalg.norm(high - low)) / 2, float(np.linalg.norm(middle_C))
+    if away <= radius:
+        return True
+    axis, half = view.cone
+    return bool(np.arccos(np.clip(middle_C @ axis / away, -1, 1)) < half + np.arcsin(radius / away))
 
 
 @dataclass(frozen=True)

@@ -5,21 +5,22 @@ Symbols: x a grid point, q what a view shows in its direction, n the view's norm
     d(x) = n . (x - q)                  signed distance to the view's tangent plane: the measured normal carries the detail
     D(x) = sum_i w_i clip(d_i, -T, T) / sum_i w_i          views for which x is not hidden: d_i > -T
 
-w falls with the view's own doubt: the normal's standard deviation, the slant. Only boxes near points of any view are computed, and
-triangles are made only where every corner was seen: what nobody saw stays open. Source: B. Curless and M. Levoy, A volumetric method for
-building complex models from range images (1996); marching cubes are scikit-image's.
+w falls with the view's own doubt: the normal's standard deviation, the slant. Only boxes near points of any view are computed, tile by tile
+of space (`tiles`), and triangles are made only where every corner was seen: what nobody saw stays open. Source: B. Curless and M. Levoy, A
+volumetric method for building complex models from range images (1996); marching cubes are scikit-image's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.pairs import Placed
-from lpcal.fusion.views import look
+from lpcal.fusion.tiles import BOX, MOST_BOXES, Tile, TileFaces, VoxelGrid, joined, parts_of, tiles_of
+from lpcal.fusion.views import look, may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Image, Index, Mask
 from lpcal.geometry.isosurface import isosurface
@@ -27,24 +28,11 @@ from lpcal.geometry.isosurface import isosurface
 TRUNCATION = 3.0
 """Truncation in grid steps: further away than this a plane is no longer the surface."""
 STEP_PX = 1.4
-"""VoxelGrid step in footprints of a pixel: finer ones cost the cube and show only what the vertices get from the views afterwards."""
-BOX = 4
-"""Edge of a box of grid points that is computed as a whole, in grid steps."""
-MOST_POINTS = 320**3
-"""Most points of the grid, 33 million: 260 MB for distance and weight. A finer grid is coarsened until it fits."""
+"""Grid step in footprints of a pixel: finer ones cost the cube and show only what the vertices get from the views afterwards."""
 AT_ONCE = 1 << 18
-"""VoxelGrid points that are looked up in a view at a time."""
+"""Grid points that are looked up in a view at a time."""
 CARVING = 0.1
 """Weight of a view that looks through a grid point at a surface far behind it, over that of one that shows a surface there."""
-
-
-@dataclass(frozen=True)
-class VoxelGrid:
-    """Points ``origin + step index``."""
-
-    origin_A: Array
-    step_m: float
-    size: tuple[int, int, int]
 
 
 @dataclass(frozen=True)
@@ -56,7 +44,16 @@ class Triangles:
     faces: Index
 
 
-def surface_of(state: Sequence[Placed], step_m: float | None = None) -> Triangles:
+def in_turn(work: TileWork, tiles: Sequence[Tile]) -> Iterable[TileFaces]:
+    """Every tile, one after the other."""
+    return map(work, tiles)
+
+
+type Over = Callable[[TileWork, Sequence[Tile]], Iterable[TileFaces]]
+"""Has every tile worked on, somewhere; in the tiles' order."""
+
+
+def surface_of(state: Sequence[Placed], step_m: float | None = None, over: Over = in_turn) -> Triangles:
     """Triangles of the surface that placed views share.
 
     Raises
@@ -64,31 +61,15 @@ def surface_of(state: Sequence[Placed], step_m: float | None = None) -> Triangle
     DegenerateError
         No two neighbouring grid points were seen.
     """
-    points_A = np.concatenate([_all_points(one) for one in state])
-    grid = grid_about(points_A, step_m or STEP_PX * float(np.median([one.view.footprint_m for one in state])))
-    distance, weight = _distances(state, grid, _near(points_A, grid))
-    seen = weight > 0
-    cells = seen[:-1, :-1, :-1].copy()
-    for i, j, k in np.ndindex(2, 2, 2):
-        cells &= seen[i : seen.shape[0] - 1 + i, j : seen.shape[1] - 1 + j, k : seen.shape[2] - 1 + k]
-    if not cells.any() or not (distance[seen].min() < 0 < distance[seen].max()):
+    points_A = [_all_points(one) for one in state]
+    step_m = step_m or STEP_PX * float(np.median([one.view.footprint_m for one in state]))
+    low, high = np.min([x.min(axis=0) for x in points_A], axis=0), np.max([x.max(axis=0) for x in points_A], axis=0)
+    step_m = max(step_m, float((high - low).max()) / (BOX * (MOST_BOXES - 4)))
+    grid = VoxelGrid(low - (TRUNCATION + 2 + BOX) * step_m, step_m)
+    found = [part for part in over(TileWork(tuple(state), grid), tiles_of(points_A, grid)) if len(part.faces)]
+    if not found:
         raise DegenerateError("the views show no surface in common", where="fuse", needed="surfaces of one object that overlap")
-    distance[~seen] = TRUNCATION
-    vertices, faces = isosurface(distance)
-    middle = np.floor(vertices[faces].mean(axis=1)).astype(int)
-    faces = faces[cells[tuple(middle.T)]]
-    return _clean(grid.origin_A + grid.step_m * vertices, faces)
-
-
-def grid_about(points_A: Array, step_m: float) -> VoxelGrid:
-    """A grid about points (N, 3) with some steps to spare, coarser where it would be too large."""
-    low, high = points_A.min(axis=0), points_A.max(axis=0)
-    while True:
-        spare = (TRUNCATION + 2) * step_m
-        size = np.ceil((high - low + 2 * spare) / step_m / BOX).astype(int) * BOX
-        if float(np.prod(size.astype(float))) <= MOST_POINTS:
-            return VoxelGrid(low - spare, step_m, (int(size[0]), int(size[1]), int(size[2])))
-        step_m *= 1.05
+    return _clean(*joined(found, grid))
 
 
 def _all_points(one: Placed) -> Array:
@@ -100,31 +81,52 @@ def _all_points(one: Placed) -> Array:
     return se3.apply(one.H_AC, one.view.points_C(row, column) * np.exp(delta)[:, None])
 
 
-def _near(points_A: Array, grid: VoxelGrid) -> Index:
-    """Flat places of the grid points whose box, or one beside it, holds a point."""
-    from scipy.ndimage import binary_dilation
+@dataclass(frozen=True)
+class TileWork:
+    """What is done of each tile."""
 
-    boxes = np.zeros(tuple(n // BOX for n in grid.size), bool)
-    at = np.clip(np.floor((points_A - grid.origin_A) / (BOX * grid.step_m)).astype(int), 0, np.array(boxes.shape) - 1)
-    boxes[tuple(at.T)] = True
-    boxes = binary_dilation(boxes, structure=np.ones((3, 3, 3), bool))
-    near = np.repeat(np.repeat(np.repeat(boxes, BOX, axis=0), BOX, axis=1), BOX, axis=2)
-    return np.flatnonzero(near)
+    state: tuple[Placed, ...]
+    grid: VoxelGrid
 
+    def __call__(self, tile: Tile) -> TileFaces:
+        """The triangles of a tile; none where no cell of it was seen from all corners, or where the surface does not pass."""
+        none = TileFaces(np.zeros((0, 3), np.int64), np.zeros((0, 3), np.intp))
+        distance, weight = self.distances(tile)
+        seen = weight > 0
+        if min(seen.shape) < 2:
+            return none
+        cells = seen[:-1, :-1, :-1].copy()
+        for i, j, k in np.ndindex(2, 2, 2):
+            cells &= seen[i : seen.shape[0] - 1 + i, j : seen.shape[1] - 1 + j, k : seen.shape[2] - 1 + k]
+        if not cells.any() or not distance[seen].min() < 0 < distance[seen].max():
+            return none
+        distance[~seen] = TRUNCATION
+        vertices, faces = isosurface(distance)
+        middle = np.floor(vertices[faces].mean(axis=1)).astype(int)
+        faces = faces[cells[tuple(middle.T)]]
+        used, numbers = np.unique(faces, return_inverse=True)
+        return TileFaces(parts_of(vertices[used], tile), numbers.reshape(-1, 3))
 
-def _distances(state: Sequence[Placed], grid: VoxelGrid, near: Index) -> tuple[Image, Image]:
-    """Mean signed distance and weight at every grid point, in steps."""
-    total, weight = np.zeros(grid.size, np.float32), np.zeros(grid.size, np.float32)
-    flat_total, flat_weight = total.reshape(-1), weight.reshape(-1)
-    for start in range(0, len(near), AT_ONCE):
-        some = near[start : start + AT_ONCE]
-        x_A = grid.origin_A + grid.step_m * np.stack(np.unravel_index(some, grid.size), axis=1)
-        for one in state:
-            at, d, w = _one_view(one, x_A, grid.step_m)
-            flat_total[some[at]] += (w * d).astype(np.float32)
-            flat_weight[some[at]] += w.astype(np.float32)
-    np.divide(total, weight, out=total, where=weight > 0)
-    return total, weight
+    def narrowed(self, tile: Tile) -> TileWork:
+        """The same with the views alone that may see a tile: what a worker needs of it."""
+        ends = self.grid.origin_A + self.grid.step_m * (tile.first + np.array([np.zeros(3), tile.size]))
+        return replace(self, state=tuple(one for one in self.state if may_see(one.view, one.H_AC, ends)))
+
+    def distances(self, tile: Tile) -> tuple[Image, Image]:
+        """Mean signed distance and weight at every grid point of a tile, in steps."""
+        near, size = tile.points(), tile.size
+        total, weight = np.zeros(size, np.float32), np.zeros(size, np.float32)
+        flat_total, flat_weight = total.reshape(-1), weight.reshape(-1)
+        for start in range(0, len(near), AT_ONCE):
+            some = near[start : start + AT_ONCE]
+            x_A = self.grid.origin_A + self.grid.step_m * (np.stack(np.unravel_index(some, size), axis=1) + tile.first)
+            for one in self.state:
+                if may_see(one.view, one.H_AC, x_A):
+                    at, d, w = _one_view(one, x_A, self.grid.step_m)
+                    flat_total[some[at]] += (w * d).astype(np.float32)
+                    flat_weight[some[at]] += w.astype(np.float32)
+        np.divide(total, weight, out=total, where=weight > 0)
+        return total, weight
 
 
 def _one_view(one: Placed, x_A: Array, step_m: float) -> tuple[Index, Array, Array]:

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from lpcal.api.engines import Engine
 from lpcal.api.fusing import fuse, refine_rig
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
@@ -33,10 +34,11 @@ def fuse_folders(
     *,
     page: bool = True,
     refine: bool = False,
+    engine: Engine | None = None,
 ) -> Outcome:
     """Fuse surfaces, each its own folder or that of its capture, and write the model.
 
-    `page`: with its page; `refine`: with the rig's calibration as the views would have it.
+    `page`: with its page; `refine`: with the rig's calibration as the views would have it; `engine`: where tiles of space are worked on.
 
     Raises
     ------
@@ -50,7 +52,8 @@ def fuse_folders(
     left = [folder.name for folder in unplaced if len(unplaced) < len(folders)]  # where none is placed, fuse says what is lacking
     folders = [folder for folder in folders if folder.name not in left]
     calibration = _calibration(rig, needed=refine)
-    model = fuse(_read(folders, progress), name=target.resolve().name, step_m=step_m, calibration=calibration, progress=progress)
+    surfaces = _read(folders, progress)
+    model = fuse(surfaces, name=target.resolve().name, step_m=step_m, calibration=calibration, engine=engine, progress=progress)
     seconds = time.process_time() - begun
     document = {"times_s": {"fuse": seconds}, "inputs": [str(folder) for folder in folders]}
     write_model(
