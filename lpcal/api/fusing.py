@@ -14,7 +14,7 @@ from lpcal.api.engines import Engine, Lost, each
 from lpcal.api.staged import staged
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.fusion.model import FEWEST, model_of
-from lpcal.fusion.tiles import Tile, TileFaces
+from lpcal.fusion.tiles import SpaceTile, TileFaces
 from lpcal.fusion.views import PlacedView, view_of
 from lpcal.fusion.volume import TileWork, in_turn
 from lpcal.geometry import se3
@@ -104,32 +104,32 @@ def fuse(
     return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights, over)
 
 
-class _Tasks(Sequence[tuple[TileWork, Tile]]):
+class _Tasks(Sequence[tuple[TileWork, SpaceTile]]):
     """Tiles to work on, each with what a worker needs of it, made when it is handed over."""
 
-    def __init__(self, work: TileWork, tiles: Sequence[Tile]) -> None:
+    def __init__(self, work: TileWork, tiles: Sequence[SpaceTile]) -> None:
         self.work, self.tiles = work, tiles
 
     def __len__(self) -> int:
         return len(self.tiles)
 
     @overload
-    def __getitem__(self, at: int) -> tuple[TileWork, Tile]: ...
+    def __getitem__(self, at: int) -> tuple[TileWork, SpaceTile]: ...
     @overload
-    def __getitem__(self, at: slice) -> Sequence[tuple[TileWork, Tile]]: ...
-    def __getitem__(self, at: int | slice) -> tuple[TileWork, Tile] | Sequence[tuple[TileWork, Tile]]:
+    def __getitem__(self, at: slice) -> Sequence[tuple[TileWork, SpaceTile]]: ...
+    def __getitem__(self, at: int | slice) -> tuple[TileWork, SpaceTile] | Sequence[tuple[TileWork, SpaceTile]]:
         if isinstance(at, slice):
             return _Tasks(self.work, self.tiles[at])
         return self.work.narrowed(self.tiles[at]), self.tiles[at]
 
 
-def _worked(task: tuple[TileWork, Tile]) -> TileFaces:
+def _worked(task: tuple[TileWork, SpaceTile]) -> TileFaces:
     """One tile, on a worker."""
     work, tile = task
     return work(tile)
 
 
-def _over(engine: Engine, work: TileWork, tiles: Sequence[Tile]) -> list[TileFaces]:
+def _over(engine: Engine, work: TileWork, tiles: Sequence[SpaceTile]) -> list[TileFaces]:
     """The tiles' triangles by the workers of an engine; of one whose workers were lost, here."""
     found: list[TileFaces | None] = [None] * len(tiles)
     for number, faces in each(_worked, _Tasks(work, tiles), engine):

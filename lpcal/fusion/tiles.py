@@ -33,7 +33,7 @@ class VoxelGrid:
 
 
 @dataclass(frozen=True)
-class Tile:
+class SpaceTile:
     """A part of the grid."""
 
     first: Index
@@ -44,7 +44,7 @@ class Tile:
     """Grid points each way, the shared layer among them."""
 
     @classmethod
-    def of(cls, at: Index, boxes: Index) -> Tile:
+    def of(cls, at: Index, boxes: Index) -> SpaceTile:
         """The tile at (3,) of the tiles, with the boxes (B, 3) of the grid that it computes."""
         within = boxes - TILE * at
         extent = np.minimum(BOX * (within.max(axis=0) + 1), BOX * TILE + 1)
@@ -60,7 +60,7 @@ class Tile:
         return np.flatnonzero(held[: size[0], : size[1], : size[2]])
 
 
-def tiles_of(points_A: Iterable[Array], grid: VoxelGrid) -> list[Tile]:
+def tiles_of(points_A: Iterable[Array], grid: VoxelGrid) -> list[SpaceTile]:
     """The tiles of a grid that views' points, (N, 3) of each, lie in or beside, in the order of their places."""
     keys = np.unique(np.concatenate([_keys(np.floor((x - grid.origin_A) / (BOX * grid.step_m)).astype(np.int64)) for x in points_A]))
     around = _keys(np.array(list(np.ndindex(3, 3, 3)), np.int64) - 1)
@@ -78,7 +78,7 @@ def tiles_of(points_A: Iterable[Array], grid: VoxelGrid) -> list[Tile]:
             at = (one[0], one[1], one[2])
             if back == (0, 0, 0) or at in found:  # one without boxes of its own has no cell
                 found.setdefault(at, []).append(part)
-    return [Tile.of(np.array(at), np.concatenate(parts)) for at, parts in sorted(found.items())]
+    return [SpaceTile.of(np.array(at), np.concatenate(parts)) for at, parts in sorted(found.items())]
 
 
 def _keys(boxes: Index) -> Index:
@@ -111,6 +111,6 @@ def joined(found: Sequence[TileFaces], grid: VoxelGrid) -> tuple[Array, Index]:
     return grid.origin_A + grid.step_m / FINE * vertices[order][new], faces[whole]
 
 
-def parts_of(vertices: Array, tile: Tile) -> Index:
+def parts_of(vertices: Array, tile: SpaceTile) -> Index:
     """Vertices (V, 3) in grid steps, counted from a tile's first point, as parts of a step counted from the grid's origin."""
     return np.asarray(np.rint(FINE * vertices).astype(np.int64) + FINE * tile.first)

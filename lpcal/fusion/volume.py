@@ -19,7 +19,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.pairs import Placed
-from lpcal.fusion.tiles import BOX, MOST_BOXES, Tile, TileFaces, VoxelGrid, joined, parts_of, tiles_of
+from lpcal.fusion.tiles import BOX, MOST_BOXES, SpaceTile, TileFaces, VoxelGrid, joined, parts_of, tiles_of
 from lpcal.fusion.views import look, may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Image, Index, Mask
@@ -44,12 +44,12 @@ class Triangles:
     faces: Index
 
 
-def in_turn(work: TileWork, tiles: Sequence[Tile]) -> Iterable[TileFaces]:
+def in_turn(work: TileWork, tiles: Sequence[SpaceTile]) -> Iterable[TileFaces]:
     """Every tile, one after the other."""
     return map(work, tiles)
 
 
-type Over = Callable[[TileWork, Sequence[Tile]], Iterable[TileFaces]]
+type Over = Callable[[TileWork, Sequence[SpaceTile]], Iterable[TileFaces]]
 """Has every tile worked on, somewhere; in the tiles' order."""
 
 
@@ -88,7 +88,7 @@ class TileWork:
     state: tuple[Placed, ...]
     grid: VoxelGrid
 
-    def __call__(self, tile: Tile) -> TileFaces:
+    def __call__(self, tile: SpaceTile) -> TileFaces:
         """The triangles of a tile; none where no cell of it was seen from all corners, or where the surface does not pass."""
         none = TileFaces(np.zeros((0, 3), np.int64), np.zeros((0, 3), np.intp))
         distance, weight = self.distances(tile)
@@ -107,12 +107,12 @@ class TileWork:
         used, numbers = np.unique(faces, return_inverse=True)
         return TileFaces(parts_of(vertices[used], tile), numbers.reshape(-1, 3))
 
-    def narrowed(self, tile: Tile) -> TileWork:
+    def narrowed(self, tile: SpaceTile) -> TileWork:
         """The same with the views alone that may see a tile: what a worker needs of it."""
         ends = self.grid.origin_A + self.grid.step_m * (tile.first + np.array([np.zeros(3), tile.size]))
         return replace(self, state=tuple(one for one in self.state if may_see(one.view, one.H_AC, ends)))
 
-    def distances(self, tile: Tile) -> tuple[Image, Image]:
+    def distances(self, tile: SpaceTile) -> tuple[Image, Image]:
         """Mean signed distance and weight at every grid point of a tile, in steps."""
         near, size = tile.points(), tile.size
         total, weight = np.zeros(size, np.float32), np.zeros(size, np.float32)
