@@ -1,4 +1,4 @@
-"""How this house stands beside others: ``python tools/compare_houses.py PACKAGE_FOLDER...``, a row a package, read from its source alone.
+"""How this package compares with others: ``python tools/compare_houses.py PACKAGE_FOLDER...``, a column each, read from the source alone.
 
 Get others by ``pip install --no-deps --target THERE mrcal pytransform3d scikit-image caliscope`` and name the folders. Counted are the
 functions and classes at the top of a module whose names do not begin with an underscore, nor their modules', unless an ``__init__`` exports
@@ -9,7 +9,7 @@ them; tests are left out.
 - the face: the same of the names that the package's ``__init__`` exports, or those of its folders where it exports none itself
 - single importer: share of lines in modules that exactly one other module imports
 - keys: look-ups of a literal string, by subscription or ``get``, a thousand lines
-- same names: classes that another module's public class shares its name with
+- same names: public classes of one name in two modules
 """
 
 from __future__ import annotations
@@ -62,8 +62,14 @@ def modules_of(folder: Path) -> list[Module]:
     return found
 
 
-def share(marks: list[bool]) -> str:
-    return f"{100 * sum(marks) / len(marks):.0f} %" if marks else "-"
+def share(marks: list[bool]) -> float | None:
+    """Per cent of the marks that are set; None of none."""
+    return 100 * sum(marks) / len(marks) if marks else None
+
+
+def per_cent(value: float | None) -> str:
+    """Whole per cent, rounded down, so that 100 means every one; below twenty with a digit."""
+    return "-" if value is None else f"{value:.1f} %" if value < 20 else f"{int(value)} %"
 
 
 def takes_arguments(node: ast.FunctionDef | ast.ClassDef) -> bool:
@@ -73,10 +79,21 @@ def takes_arguments(node: ast.FunctionDef | ast.ClassDef) -> bool:
     return bool(every)
 
 
-def told(nodes: list[ast.FunctionDef | ast.ClassDef]) -> tuple[str, str, str]:
-    texts = [ast.get_docstring(node) or "" for node in nodes]
-    with_arguments = [bool(SECTION.search(text)) for text, node in zip(texts, nodes, strict=True) if takes_arguments(node)]
-    return share([bool(text) for text in texts]), share(with_arguments), share([bool(EXAMPLE.search(text)) for text in texts])
+@dataclass(frozen=True)
+class Documented:
+    """How many names there are, and per cent of them with a docstring, with a section of parameters, with an example."""
+
+    count: int
+    any: float | None
+    parameters: float | None
+    example: float | None
+
+    @classmethod
+    def of(cls, nodes: list[Definition]) -> Documented:
+        texts = [ast.get_docstring(node) or "" for node in nodes]
+        with_arguments = [bool(SECTION.search(text)) for text, node in zip(texts, nodes, strict=True) if takes_arguments(node)]
+        examples = [bool(EXAMPLE.search(text)) for text in texts]
+        return cls(len(nodes), share([bool(text) for text in texts]), share(with_arguments), share(examples))
 
 
 def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
@@ -139,7 +156,23 @@ def faces(folder: Path, modules: list[Module]) -> tuple[list[Definition], set[tu
     return own or [known[one] for one in sorted(anywhere) if one in known], anywhere
 
 
-def row(folder: Path) -> list[str]:
+@dataclass(frozen=True)
+class House:
+    """What is counted of a package."""
+
+    name: str
+    public: Documented
+    face: Documented
+    median_module: float
+    longest_function: int
+    single_importer: float
+    """Per cent of the lines."""
+    keys: float
+    """A thousand lines."""
+    same_names: int
+
+
+def house(folder: Path) -> House:
     modules = modules_of(folder)
     own, anywhere = faces(folder, modules)
     nodes = [
@@ -153,32 +186,39 @@ def row(folder: Path) -> list[str]:
     lines = sum(module.lines for module in modules)
     single = sum(module.lines for module in modules if importers[module.name] == 1)
     classes = Counter(node.name for node in nodes if isinstance(node, ast.ClassDef))
-    longest = max(length(one) for module in modules for one in functions(module.tree))
-    sizes = [module.lines for module in modules if module.path.stem != "__init__"]
-    return [
+    return House(
         folder.name,
-        str(len(nodes)),
-        *told(nodes),
-        str(len(own)),
-        *told(own),
-        f"{median(sizes):.0f}" if sizes else "-",
-        str(longest),
-        f"{100 * single / lines:.0f} %",
-        f"{1000 * sum(keys(module.tree) for module in modules) / lines:.1f}",
-        str(sum(count > 1 for count in classes.values())),
+        Documented.of(nodes),
+        Documented.of(own),
+        median([module.lines for module in modules if module.path.stem != "__init__"]),
+        max(length(one) for module in modules for one in functions(module.tree)),
+        100 * single / lines,
+        1000 * sum(keys(module.tree) for module in modules) / lines,
+        sum(count > 1 for count in classes.values()),
+    )
+
+
+def table(houses: list[House]) -> list[str]:
+    """The table in Markdown, a column a package."""
+    rows = [("", [one.name for one in houses]), ("---", ["---"] * len(houses))]
+    for title, of in (("of all", "public"), ("of those", "face")):
+        found: list[Documented] = [getattr(one, of) for one in houses]
+        what = "public functions and classes" if of == "public" else "names that the package exports"
+        rows += [
+            (what, [str(one.count) for one in found]),
+            (f"{title}, documented", [per_cent(one.any) for one in found]),
+            (f"{title}, with a section of parameters", [per_cent(one.parameters) for one in found]),
+            (f"{title}, with an example", [per_cent(one.example) for one in found]),
+        ]
+    rows += [
+        ("median module, lines", [f"{one.median_module:.0f}" for one in houses]),
+        ("longest function, lines", [str(one.longest_function) for one in houses]),
+        ("lines in modules with one importer", [per_cent(one.single_importer) for one in houses]),
+        ("look-ups of a literal string, a thousand lines", [f"{one.keys:.1f}" for one in houses]),
+        ("public classes that share a name", [str(one.same_names) for one in houses]),
     ]
-
-
-HEAD = ["package", "public", "documented", "parameters", "example", "face", "documented", "parameters", "example"]
-HEAD += ["median module", "longest function", "single importer", "keys / 1000 lines", "same names"]
-
-
-def main(folders: list[Path]) -> None:
-    """Print the table in Markdown."""
-    print("| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
-    for folder in folders:
-        print("| " + " | ".join(row(folder)) + " |")
+    return [f"| {title} | {' | '.join(cells)} |" if title != "---" else "|" + "---|" * (len(houses) + 1) for title, cells in rows]
 
 
 if __name__ == "__main__":
-    main([Path(one) for one in sys.argv[1:]])
+    print("\n".join(table([house(Path(one)) for one in sys.argv[1:]])))

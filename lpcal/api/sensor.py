@@ -44,7 +44,10 @@ def contradictions(saying: Statements) -> tuple[str, ...]:
     """In words, where what counts is a calibration's and panel.yaml says otherwise: one was changed after the other."""
     found = []
     for key in ("gamma", "black_level", "white_level"):
-        (who, value), *others = [(name, one.said[key]) for name, one in saying if key in one.said] or [("", None)]
+        stated = [(name, one.said[key]) for name, one in saying if key in one.said]
+        if not stated:
+            continue
+        (who, value), *others = stated
         found += [
             f"{other} says {worded_value(key, unlike)}, {who} {worded_value(key, value)}, which counts: "
             f"if {other} is right, calibrate or import anew"

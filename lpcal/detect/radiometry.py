@@ -52,7 +52,7 @@ def sensor_with(sensor: Sensor, stated: StatedSensor, where: str) -> Sensor:
     DisagreementError
         Black is not below white.
     """
-    found = replace(sensor, **stated.said)
+    found = stated.onto(sensor)
     if found.black_level >= found.white_level:
         raise DisagreementError(
             f"black level {100 * found.black_level:g} %, white level {100 * found.white_level:g} %", where=where, needed="black below white"

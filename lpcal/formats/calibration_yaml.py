@@ -11,7 +11,7 @@ see `records.sensor.FlatField`), and for a splined camera ``camera.lensmodel`` a
 black_level, white_level, gamma and flat_field alone, which a person may add to imported lights. ``lights: []`` stands where only a camera
 or its place is known; ``H_OC``, the camera in the room, stands for ``H_PC`` where the tracked body carries the board. ``tracking`` says
 how well it, the clocks and the tracked poses are known (`records.placement.RoomTracking`), which places captures in the room.
-``distance_sensor`` is a beam in C (`formats.distance_document`). A lobe is one of
+``distance_sensor`` is a beam in C (`formats.distance_files`). A lobe is one of
 
 - ``{kind: isotropic}``
 - ``{kind: cosine, exponent: m}``: cos(angle)^m; other kinds of one parameter are those of `records.lobes`
@@ -37,7 +37,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import sane_camera
 from lpcal.formats.camera_yaml import camera_document, camera_from_document
-from lpcal.formats.distance_document import beam_document, beam_from_document
+from lpcal.formats.distance_files import beam_document, beam_from_document
 from lpcal.formats.document_numbers import covariance, rigid, sigma
 from lpcal.formats.documents import read_document, write_document
 from lpcal.formats.light_tables import FARTHEST_M, sane_lights

@@ -22,6 +22,7 @@ from lpcal.formats.sensor_document import sensor_from_document
 from lpcal.records.calibration import Camera, CameraSolution, ViewVerdict
 from lpcal.records.evidence import CameraEvidence
 from lpcal.records.provenance import Provenance
+from lpcal.records.sensor import PLAIN
 
 KIND = "camera"
 COEFFICIENTS = {"opencv4": 4, "opencv5": 5, "opencv8": 8, "splined": -1}
@@ -120,12 +121,16 @@ def camera_from_document(document: dict[str, Any]) -> Camera:
     spline = document.get("spline")
     if document["model"] == "splined" and spline is None:
         raise KeyError("spline")
+    sensor = sensor_from_document(document).onto(PLAIN)
     return Camera(
         image_size=(width, height),
         model=document["model"],
         K=numbers(document, "K", 3, 3),
         distortion=numbers(document, "distortion", COEFFICIENTS[document["model"]]),
-        **sensor_from_document(document).said,
+        gamma=sensor.gamma,
+        black_level=sensor.black_level,
+        white_level=sensor.white_level,
+        flat_field=sensor.flat_field,
         rms_px=sigma(document, "rms_px"),
         parameters=parameters,
         covariance=None if document.get("covariance") is None else covariance(document, "covariance", len(parameters)),

@@ -15,7 +15,6 @@ from lpcal.formats import (
     export_cameras,
     export_lights,
     export_matlab,
-    export_meshroom,
     export_poses,
     export_rig_glb,
     export_rti,
@@ -147,9 +146,9 @@ CAMERAS = (
         ("camera",),
         "image size, K, k1 k2 k3 p1 p2, a view a light",
         f"{NO_LIGHT}, H_PC; k4 to k6 and a splined lens (fitted)",
-        export_meshroom.write_meshroom,
-        export_meshroom.read_meshroom,
-        export_meshroom.is_meshroom,
+        export_cameras.write_meshroom,
+        export_cameras.read_meshroom,
+        export_cameras.is_meshroom,
     ),
 )
 POSES = (

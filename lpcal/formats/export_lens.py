@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.geometry.lens_fit import fit_lens
+from lpcal.geometry.lens_models import fit_lens
 from lpcal.records.camera import COEFFICIENTS, Camera
 
 MODELS = {4: "opencv4", 5: "opencv5", 8: "opencv8"}

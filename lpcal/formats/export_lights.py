@@ -17,7 +17,7 @@ import numpy as np
 
 from lpcal import __version__
 from lpcal.errors import InputError
-from lpcal.formats.export_cameras import camera_of, number
+from lpcal.formats.export_cameras import camera_of, file_names, number
 from lpcal.formats.export_lobe import CosineLobe, cosine_of
 from lpcal.formats.import_near_ps import nominal_point
 from lpcal.formats.light_tables import C_FROM_UP, distant, of_light
@@ -60,11 +60,6 @@ def directions_up(content: ExchangeContent) -> tuple[Array, list[str]]:
     if near:
         said = [*said, "near lights become directions, which hold at one point: elsewhere on the object they are off by degrees"]
     return np.array(towards) * C_FROM_UP, said
-
-
-def file_names(content: ExchangeContent) -> list[str]:
-    """The names of the lights' images: those of the capture's files as they are written beside, else ``<light>.png``."""
-    return [f"{light.name}.png" for light in content.calibration.lights]
 
 
 def rgb(light: Light) -> Array:

@@ -17,7 +17,7 @@ KEYS = ("black_level", "white_level", "gamma", "flat_field")
 
 def sensor_document(stated: StatedSensor) -> dict[str, Any]:
     """What is said of a sensor, as it is written."""
-    found = stated.said
+    found: dict[str, Any] = {**stated.said}
     if stated.flat_field is not None:
         found["flat_field"] = stated.flat_field.coefficients
     return found

@@ -17,8 +17,7 @@ from lpcal.chain.distance_beam.findings import calibrate, off_drawing
 from lpcal.chain.distance_beam.fit import boards_through_room, drawn_in_camera, room_covariance
 from lpcal.chain.h_op_panel import track_of
 from lpcal.errors import DisagreementError, InputError, LpcalError
-from lpcal.formats.distance_document import KIND, write_distance
-from lpcal.formats.distance_readings import ReadingRow, read_distances
+from lpcal.formats.distance_files import KIND, ReadingRow, read_distances, write_distance
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.geometry.pose_track import poses_at

@@ -12,7 +12,7 @@ from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import KIND, write_calibration
 from lpcal.formats.camera_yaml import read_camera
-from lpcal.formats.distance_document import read_distance
+from lpcal.formats.distance_files import read_distance
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.lights_yaml import read_lights
 from lpcal.formats.wings_yaml import read_wings

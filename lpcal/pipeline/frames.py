@@ -7,7 +7,7 @@ from pathlib import Path
 from lpcal.formats.outputs import Kind, refuse_place, whole
 from lpcal.formats.video import read_frames
 from lpcal.records.outcome import Outcome, Progress
-from lpcal.report.pictures import png
+from lpcal.records.pictures import png
 
 TABLE = "images.csv"
 HEAD = "file,time_s"

@@ -18,8 +18,7 @@ from lpcal.records.calibration import Calibration
 from lpcal.records.model import ObjectModel, ViewInModel
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.surface import Surface
-from lpcal.report.model_page import model_html
-from lpcal.report.model_words import missing_words, rig_words
+from lpcal.report.model_page import missing_words, model_html, rig_words
 
 SURFACES = "surfaces"
 """The folder of a rig that holds its surfaces."""

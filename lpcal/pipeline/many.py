@@ -28,7 +28,8 @@ from lpcal.pipeline.reconstruct import MASK_WORDS, Task, Wishes, line_of, of_rig
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress, silent
-from lpcal.report.pictures import data_uri, png, shaded, shrink
+from lpcal.records.pictures import data_uri, png
+from lpcal.report.pictures import shaded, shrink
 from lpcal.report.side_pages import COLLECTION_MARK, Row, collection_html
 
 logger = logging.getLogger("lpcal")

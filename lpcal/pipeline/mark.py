@@ -29,9 +29,11 @@ from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.pipeline.watch import LOOPBACK
 from lpcal.records.outcome import Outcome
+from lpcal.records.pictures import png
 from lpcal.records.rig import BoardSection, RigFile
-from lpcal.report.mark_page import mark_html
-from lpcal.report.pictures import block_sum, png
+from lpcal.report.page_data import MarkData
+from lpcal.report.pictures import block_sum
+from lpcal.report.side_pages import mark_html
 
 LARGEST_PX = 2400
 """Pixels along the longer side that the page is shown: a screen's, and quick to send; a larger image is averaged over blocks."""
@@ -76,7 +78,7 @@ class Marking:
         """The rig's lights."""
         return () if self.rig is None else tuple(self.rig.rig.lights)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> MarkData:
         """What the page is given."""
         section = self.rig.rig.spheres[self.sphere] if self.rig is not None and self.sphere else None
         return {

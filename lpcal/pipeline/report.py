@@ -13,7 +13,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_yaml import read_camera_solution
-from lpcal.formats.distance_document import read_distance
+from lpcal.formats.distance_files import read_distance
 from lpcal.formats.documents import read_provenance, sha256
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.h_op_yaml import read_h_op
@@ -26,9 +26,10 @@ from lpcal.formats.wings_yaml import read_wings
 from lpcal.geometry.arrays import Mask
 from lpcal.pipeline.workspace import Stage, Workspace
 from lpcal.records.outcome import Outcome, Progress
+from lpcal.records.pictures import png
 from lpcal.records.rig import Rig
 from lpcal.report.page import render
-from lpcal.report.pictures import doubtful, png, shaded, shrink
+from lpcal.report.pictures import doubtful, shaded, shrink
 from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
 from lpcal.report.verdict import headline, verdicts
 

@@ -27,7 +27,7 @@ def stated_in_panel(workspace: Workspace) -> StatedSensor:
 
 def sensor_of_panel(workspace: Workspace) -> Sensor:
     """The sensor as panel.yaml states it."""
-    return replace(PLAIN, **stated_in_panel(workspace).said)
+    return stated_in_panel(workspace).onto(PLAIN)
 
 
 def sweep_path(workspace: Workspace) -> Path | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lpcal.geometry import camera as central
-from lpcal.geometry import splined
+from lpcal.geometry import lens_models
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma
 from lpcal.records.evidence import CameraEvidence
@@ -106,19 +106,19 @@ class Camera(Shown):
     def project(self, x_C: Array) -> Array:
         """Pixels (..., 2) of points x_C (..., 3)."""
         if self.spline is not None:
-            return splined.project(x_C, self.lensmodel, self.spline)
+            return lens_models.project(x_C, self.lensmodel, self.spline)
         return central.project(x_C, self.K, self.distortion)
 
     def unproject(self, pixels: Array) -> Array:
         """Unit rays (..., 3) of pixels (..., 2)."""
         if self.spline is not None:
-            return splined.unproject(pixels, self.lensmodel, self.spline)
+            return lens_models.unproject(pixels, self.lensmodel, self.spline)
         return central.unproject(pixels, self.K, self.distortion)
 
     def projection_jacobian(self, x_C: Array) -> Array:
         """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
         if self.spline is not None:
-            return splined.projection_jacobian(x_C, self.lensmodel, self.spline)
+            return lens_models.projection_jacobian(x_C, self.lensmodel, self.spline)
         return central.projection_jacobian(x_C, self.K, self.distortion)
 
 

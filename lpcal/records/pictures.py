@@ -1,4 +1,4 @@
-"""Small pictures for notebooks: maps as PNG, lights and corners as SVG, each one HTML element that needs nothing else."""
+"""Pictures as PNG and data: URIs; in notebooks maps are PNG, lights and corners SVG, each one HTML element that needs nothing else."""
 
 from __future__ import annotations
 
@@ -17,6 +17,20 @@ WIDTH_PX = 320
 """Width of a picture on a notebook's page, in its pixels: two stand side by side."""
 MARGIN = 0.15
 """Share of a drawing's size that is left free at each side for names."""
+
+
+def png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """Pixels (H, W), (H, W, 3) or (H, W, 4) as a PNG file's content."""
+    from PIL import Image as Pillow
+
+    stored = io.BytesIO()
+    Pillow.fromarray(pixels).save(stored, "png", optimize=True)
+    return stored.getvalue()
+
+
+def data_uri(content: bytes, media: str = "image/png") -> str:
+    """Content as a data: URI."""
+    return f"data:{media};base64,{base64.b64encode(content).decode('ascii')}"
 
 
 def surface(found: Surface) -> str:
@@ -71,9 +85,6 @@ def _svg(inside: str, height: float, title: str) -> str:
 def _png(pixels: npt.NDArray[np.uint8], title: str) -> str:
     from PIL import Image as Pillow
 
-    stored = io.BytesIO()
     small = Pillow.fromarray(pixels)
     small.thumbnail((2 * WIDTH_PX, 2 * WIDTH_PX))
-    small.save(stored, "png")
-    data = base64.b64encode(stored.getvalue()).decode("ascii")
-    return f"<img width='{WIDTH_PX}' alt='{html.escape(title)}' title='{html.escape(title)}' src='data:image/png;base64,{data}'/>"
+    return f"<img width='{WIDTH_PX}' alt='{html.escape(title)}' title='{html.escape(title)}' src='{data_uri(png(np.asarray(small)))}'/>"

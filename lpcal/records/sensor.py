@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, field, fields
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -70,10 +70,24 @@ class StatedSensor:
 
     def over(self, other: StatedSensor) -> StatedSensor:
         """What is said here, and what the other says where nothing is."""
-        return replace(other, **self.said)
+        return StatedSensor(
+            gamma=other.gamma if self.gamma is None else self.gamma,
+            black_level=other.black_level if self.black_level is None else self.black_level,
+            white_level=other.white_level if self.white_level is None else self.white_level,
+            flat_field=other.flat_field if self.flat_field is None else self.flat_field,
+        )
+
+    def onto(self, sensor: Sensor) -> Sensor:
+        """The sensor with what is stated here in its place."""
+        return Sensor(
+            gamma=sensor.gamma if self.gamma is None else self.gamma,
+            black_level=sensor.black_level if self.black_level is None else self.black_level,
+            white_level=sensor.white_level if self.white_level is None else self.white_level,
+            flat_field=sensor.flat_field if self.flat_field is None else self.flat_field,
+        )
 
     @property
-    def said(self) -> dict[str, Any]:
+    def said(self) -> dict[str, Gamma | FlatField]:
         """What is said, by its key."""
         found = {each.name: getattr(self, each.name) for each in fields(self)}
         return {key: value for key, value in found.items() if value is not None}
@@ -115,6 +129,17 @@ PLAIN = Sensor()
 """A linear sensor that is black at 0 and white at full scale."""
 
 
+class SensorDocument(TypedDict):
+    """The sensor as summary.json states it; `in_words` names what is not plain."""
+
+    gamma: Gamma
+    black_level: float
+    white_level: float
+    flat_field: bool
+    said_by: dict[str, str]
+    in_words: str
+
+
 @dataclass(frozen=True)
 class SensorInUse:
     """A sensor and where each thing that is not plain comes from."""
@@ -123,11 +148,17 @@ class SensorInUse:
     said_by: dict[str, str] = field(default_factory=dict)
     """Who says it, by what is said: gamma, black_level, white_level, flat_field."""
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> SensorDocument:
         """What summary.json says, and in words what is not plain."""
-        levels: dict[str, Any] = {key: getattr(self.sensor, key) for key in ("gamma", "black_level", "white_level")}
         found = [f"{text} ({who})" for key, who in self.said_by.items() if (text := self._worded(key))]
-        return levels | {"flat_field": self.sensor.flat_field is not None, "said_by": self.said_by, "in_words": ", ".join(found)}
+        return {
+            "gamma": self.sensor.gamma,
+            "black_level": self.sensor.black_level,
+            "white_level": self.sensor.white_level,
+            "flat_field": self.sensor.flat_field is not None,
+            "said_by": self.said_by,
+            "in_words": ", ".join(found),
+        }
 
     def _worded(self, key: str) -> str:
         if key == "flat_field":

@@ -1,5 +1,7 @@
 """model/model.html: the model in space with its views, their way and the stops to come, in one file that opens offline.
 
+What is missing of the model and what its views show of the rig, in words, is also for the terminal and for `lpcal watch`.
+
 The page shows albedo, normals, sigma, disagreement and coverage of every vertex, and measures distances and sections with sigma. The mesh
 comes deflated: positions in 16 bits over its bounds, some micrometres of an object, normals in 8 bits an axis, sigma and disagreement as
 bytes of a logarithm.
@@ -9,15 +11,16 @@ from __future__ import annotations
 
 import base64
 import zlib
+from math import degrees
 from typing import Any
 
 import numpy as np
 
 from lpcal import __version__
 from lpcal.geometry.arrays import Array
-from lpcal.records.model import ObjectModel, ViewInModel
-from lpcal.report.model_words import missing_words
+from lpcal.records.model import Missing, NextStop, ObjectModel, RigEvidence, ViewInModel
 from lpcal.report.page import script_json
+from lpcal.report.page_data import ModelData, ViewData
 from lpcal.report.templates import environment, packed_three
 
 STEPS = 16.0
@@ -49,7 +52,7 @@ def model_html(model: ObjectModel) -> str:
     )
 
 
-def pack(model: ObjectModel, thinned: int = 1) -> dict[str, Any]:
+def pack(model: ObjectModel, thinned: int = 1) -> ModelData:
     """What the page's script reads."""
     v, faces = model.vertices_A, model.faces[::thinned]
     low, high = v.min(axis=0), v.max(axis=0)
@@ -87,9 +90,9 @@ def pack(model: ObjectModel, thinned: int = 1) -> dict[str, Any]:
         "up": _up(cameras).tolist(),
         "from": _from(cameras, centre).tolist(),
         "views": [
-            {"name": view.name, "used": view.used, "H": np.round(view.H_AC, 6).tolist()} for view in model.views if view.H_AC is not None
+            ViewData(name=view.name, used=view.used, H=np.round(view.H_AC, 6).tolist()) for view in model.views if view.H_AC is not None
         ],
-        "next": [] if model.missing is None else [{"name": "next", "H": np.round(stop.H_AC, 6).tolist()} for stop in model.missing.stops],
+        "next": [] if model.missing is None else [ViewData(name="next", H=np.round(stop.H_AC, 6).tolist()) for stop in model.missing.stops],
     }
 
 
@@ -115,3 +118,52 @@ def _line(view: ViewInModel) -> str:
     if not view.used:
         return f"{view.name}: left out, {view.why}"
     return f"{view.name}: moved {1e3 * (view.moved_m or 0):.2f} mm, within {1e3 * (view.residual_m or 0):.2f} mm of the others"
+
+
+def missing_words(missing: Missing, frame: str) -> list[str]:
+    """What no view has seen well, and where the panel should stand next, a line each."""
+    parts = [f"some {1e4 * missing.open_m2:.1f} cm2 that no view has seen", f"{1e4 * missing.once_m2:.1f} cm2 that one view alone has"]
+    if missing.loose_m2 > 0:
+        parts.append(f"{1e4 * missing.loose_m2:.1f} cm2 left out, seen by one view alone at a distance that is not known well")
+    lines = [f"missing, of {1e4 * missing.area_m2:.1f} cm2: {'; '.join(parts)}"]
+    return lines + ([_stop_words(stop, k, frame) for k, stop in enumerate(missing.stops)] or ["no further stop would show much more"])
+
+
+def _stop_words(stop: NextStop, number: int, frame: str) -> str:
+    H, what = (stop.H_AC, "the camera") if stop.H_AP is None else (stop.H_AP, "the panel")
+    place = ", ".join(f"{1e3 * value:.0f}" for value in H[:3, 3])
+    shows = f"shows {1e4 * stop.unseen_m2:.1f} cm2 of the first and {1e4 * stop.once_m2:.1f} of the second"
+    wings = (
+        f"the wings set anew (lpcal design --distance {1e3 * stop.distance_m:.0f}mm) and calibrated" if stop.reset else "wings as they are"
+    )
+    begins = "next:" if number == 0 else "then:"
+    return (
+        f"{begins} {what} at {place} mm in {frame}, {degrees(stop.turn_rad):.0f} deg from {stop.beside}, "
+        f"{1e3 * stop.distance_m:.0f} mm from the object, {wings}: {shows}"
+    )
+
+
+NAMED_SIGMAS = 1.0
+"""Lights that the views would have other by at least so many sigmas of the calibration are named."""
+
+
+def rig_words(rig: RigEvidence) -> list[str]:
+    """What the views tell of the rig's calibration, a line each."""
+    shift_m, turn_rad = (float((part @ part) ** 0.5) for part in (rig.H_PC_change[3:], rig.H_PC_change[:3]))
+    lines = [
+        f"rig: the views would have H_PC other by {1e3 * shift_m:.2f} mm and {degrees(turn_rad):.3f} deg "
+        f"({rig.H_PC_sigmas:.1f} sigmas), all distances by {100 * rig.distance_scale:+.2f} +- {100 * rig.distance_scale_std:.2f} %"
+    ]
+    if rig.lights:
+        lines.append(
+            f"     normals of two views differ by {degrees(rig.normals_before_rad):.2f} deg a view, "
+            f"{degrees(rig.normals_after_rad):.2f} with the lights as the views would have them"
+        )
+    for light in rig.lights:
+        if light.sigmas >= NAMED_SIGMAS:
+            place = ", ".join(f"{1e3 * value:+.1f}" for value in light.source_change_C)
+            lines.append(
+                f"     {light.name}: intensity {100 * light.intensity_change:+.2f} +- {100 * light.intensity_std:.2f} %, "
+                f"source {place} mm ({light.sigmas:.1f} sigmas)"
+            )
+    return lines + ([f"the rig has moved: {'; '.join(rig.moved)}"] if rig.moved else ["nothing says that the rig has moved"])

@@ -1,14 +1,6 @@
-"""Small pictures for the pages: cropping, shrinking, and PNG.
-
-A PNG is a signature and chunks (length, name, content, CRC-32); its rows are filtered (here: by the row above) and deflated.
-Source: W3C, Portable Network Graphics specification.
-"""
+"""Small pictures for the pages: cropping, shrinking, shading and colouring; `records.pictures` writes them as PNG."""
 
 from __future__ import annotations
-
-import base64
-import struct
-import zlib
 
 import numpy as np
 import numpy.typing as npt
@@ -21,18 +13,6 @@ RAMP = np.array([[0x17, 0x32, 0x4D], [0x2E, 0x7D, 0x86], [0x9B, 0xC2, 0x6C], [0x
 """Colours (5, 3) of doubt, from none to much, told apart by the colour-blind too, as lightness rises before it falls to red."""
 
 type Bytes = npt.NDArray[np.uint8]
-
-
-def png(pixels: Bytes) -> bytes:
-    """Pixels (H, W, 3) or (H, W, 4) as a PNG file's content."""
-    height, width, channels = pixels.shape
-    above = np.vstack([np.zeros_like(pixels[:1]), pixels[:-1]])
-    rows = np.column_stack([np.full(height, 2, np.uint8), (pixels - above).reshape(height, width * channels)])
-    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content)) for name, content in chunks
-    )
 
 
 def bounds(mask: Mask, margin: int = 2) -> tuple[slice, slice]:
@@ -77,8 +57,3 @@ def doubtful(sigma: Image, high: float) -> Image:
     at = np.clip(np.nan_to_num(sigma) / max(high, 1e-30), 0, 1)
     knots = np.linspace(0, 1, len(RAMP))
     return np.stack([np.interp(at, knots, RAMP[:, c]) for c in range(3)], axis=-1).astype(np.float32)
-
-
-def data_uri(content: bytes, media: str = "image/png") -> str:
-    """Content as a data: URI."""
-    return f"data:{media};base64,{base64.b64encode(content).decode('ascii')}"

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array
+from lpcal.report.page_data import FieldData, ItemData, LightValues, SceneData
 
 type Kind = Literal["line", "point", "label", "arrow", "ellipsoid"]
 
@@ -35,13 +36,26 @@ class LineItem:
     bold: bool = False
     hollow: bool = False
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> ItemData:
         """The item as the page's script reads it: what is not set is left out."""
+        item = ItemData(kind=self.kind, tone=self.tone, layer=self.layer)
         points = np.round(self.points, DIGITS).tolist()
-        place = {"p": points} if self.by is None else {"from": points[0], "by": np.round(self.by, DIGITS).tolist()}
-        look = {name: value for name in LOOK if (value := getattr(self, name)) not in {None, False}}
-        half = {} if self.axes is None else {"axes": np.round(self.axes, DIGITS + 2).tolist()}
-        return {"kind": self.kind, **place, **half, "tone": self.tone, "layer": self.layer, **look}
+        if self.by is None:
+            item["p"] = points
+        else:
+            item["from"], item["by"] = points[0], np.round(self.by, DIGITS).tolist()
+        if self.axes is not None:
+            item["axes"] = np.round(self.axes, DIGITS + 2).tolist()
+        if self.text is not None:
+            item["text"] = self.text
+        if self.r is not None:
+            item["r"] = self.r
+        if self.fill is not None:
+            item["fill"] = self.fill
+        for flag in FLAGS:
+            if getattr(self, flag):
+                item[flag] = True
+        return item
 
 
 FIELD_CELLS = 24
@@ -56,9 +70,9 @@ class FieldPlane:
     values: dict[str, Array]
     """By light, of a surface that faces it, as a share of its own largest."""
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> FieldData:
         """The plane as the page's script reads it; values are per cent."""
-        lights = [{"name": name, "values": np.round(100 * value).astype(int).ravel().tolist()} for name, value in self.values.items()]
+        lights = [LightValues(name=name, values=np.round(100 * one).astype(int).ravel().tolist()) for name, one in self.values.items()]
         return {"size": FIELD_CELLS, "corners": np.round(self.corners, DIGITS).tolist(), "lights": lights}
 
 
@@ -75,7 +89,7 @@ class LineScene:
     field: FieldPlane | None = None
     """The lights' field over a plane."""
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> SceneData:
         """The scene as the page's script reads it."""
         return {
             "items": [item.document() for item in self.items],
@@ -88,7 +102,7 @@ class LineScene:
         }
 
 
-LOOK = ("text", "r", "fill", "closed", "thin", "dash", "bold", "hollow")
-"""Fields of an item that the page's script knows under the same name."""
+FLAGS: tuple[Literal["closed", "thin", "dash", "bold", "hollow"], ...] = ("closed", "thin", "dash", "bold", "hollow")
+"""Fields of an item that are given to the page's script only where they are true."""
 DIGITS = 5
 """Decimals of a metre that the page is given: hundredths of a millimetre."""

@@ -1,8 +1,8 @@
 """The pages beside the report, each one file that opens offline, and the plot of a study.
 
 `lpcal diff`: two rigs drawn over each other, and the table of what has changed. Many surfaces: surfaces.html, worst first, beside the
-surfaces' folders. `lpcal watch`: what was judged and what comes next; it asks for the state once a second. `lpcal study`: the error of
-the normals against what was varied.
+surfaces' folders. `lpcal watch`: what was judged and what comes next; it asks for the state once a second. `lpcal mark`: a capture's
+images, on which a sphere, a board or a mask is marked. `lpcal study`: the error of the normals against what was varied.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from lpcal import __version__
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 from lpcal.records.comparison import CalibrationChange
 from lpcal.report.page import script_json
+from lpcal.report.page_data import MarkData, WatchData
 from lpcal.report.rig_report import RigReport
 from lpcal.report.scene import rig_scene
 from lpcal.report.scene_items import LineItem, LineScene
@@ -143,6 +143,12 @@ def collection_html(name: str, rows: Sequence[Row]) -> str:
     return environment().get_template("collection.html").render(mark=COLLECTION_MARK, name=name, rows=rows, said=said, doubtful=doubtful)
 
 
-def watch_html(state: dict[str, Any]) -> str:
+def watch_html(state: WatchData) -> str:
     """The page."""
     return environment().get_template("watch.html").render(state=script_json(state))
+
+
+def mark_html(document: MarkData, token: str) -> str:
+    """The page on which the images of a capture are marked; it sends `token` with each message."""
+    template = environment().get_template("mark.html")
+    return template.render(document=script_json({**document, "token": token}), about=document, version=__version__)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from lpcal.records.pictures import data_uri
 from lpcal.records.surface import Component
-from lpcal.report.pictures import data_uri
 from lpcal.report.rig_report import SurfaceReport
 from lpcal.report.wording import with_sigma
 

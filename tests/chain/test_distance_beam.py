@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from lpcal.chain.distance_beam.findings import calibrate, off_drawing
 from lpcal.chain.distance_beam.fit import boards_through_room, drawn_in_camera, room_covariance, solve
 from lpcal.errors import DegenerateError, DisagreementError
-from lpcal.formats.distance_document import beam_document, beam_from_document
+from lpcal.formats.distance_files import beam_document, beam_from_document
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import HandEye
 from lpcal.records.distance import BeamDrawn, BoardReadings

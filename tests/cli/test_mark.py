@@ -21,8 +21,8 @@ from browser_pages import Opened, chromium, findings
 from lpcal.cli.main import main
 from lpcal.errors import InputError, UsageError
 from lpcal.formats.capture import read_capture
+from lpcal.formats.marks import with_value
 from lpcal.formats.panel_yaml import read_rig
-from lpcal.formats.yaml_edit import with_value
 from lpcal.pipeline.mark import Marking, mark
 
 PANEL = """# my panel

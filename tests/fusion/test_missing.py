@@ -12,7 +12,7 @@ from fusion_views import scene
 from lpcal.fusion.missing import caps_of, carrier_of, loops_of
 from lpcal.geometry import se3
 from lpcal.records.model import Missing, ObjectModel
-from lpcal.report.model_words import missing_words
+from lpcal.report.model_page import missing_words
 
 pytest.importorskip("skimage")
 

@@ -12,8 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import lpcal
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.distance_document import read_distance
-from lpcal.formats.distance_readings import read_distances
+from lpcal.formats.distance_files import read_distance, read_distances
 from lpcal.formats.h_cb_yaml import write_h_cb
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.pipeline import distance

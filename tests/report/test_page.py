@@ -11,10 +11,11 @@ import pytest
 from lpcal.geometry import se3
 from lpcal.records.calibration import Lobe
 from lpcal.records.evidence import CameraEvidence, ChosenModel, TriedModel
+from lpcal.records.pictures import png
 from lpcal.report import charts
 from lpcal.report.chain_sections import camera_section, handeye_section, lens_choice
 from lpcal.report.page import lights_section, render, sphere_disagreement, spheres_section
-from lpcal.report.pictures import png, shrink
+from lpcal.report.pictures import shrink
 from lpcal.report.rig_report import origin_sigmas
 from lpcal.report.scene import half_angle, rig_scene, room_scene
 from lpcal.report.verdict import GATE_WORDS, GATES, headline, verdicts

@@ -12,8 +12,7 @@ import pytest
 
 from browser_pages import WAIT_MS, Opened, chromium, findings, opened
 from lpcal.report.page import render
-from lpcal.report.scene import rig_scene
-from lpcal.report.scene_volumes import DEPTHS, FIELD_CELLS, ellipsoids, field_plane, working_volume
+from lpcal.report.scene import DEPTHS, FIELD_CELLS, ellipsoids, field_plane, rig_scene, working_volume
 from report_rig import documents, report_of, surface
 
 

@@ -18,8 +18,8 @@ from lpcal.formats.surface_files import summary_from_document
 from lpcal.formats.wings_yaml import wings_from_document
 from lpcal.geometry import camera as central
 from lpcal.geometry import se3
+from lpcal.records.pictures import png
 from lpcal.records.provenance import Provenance
-from lpcal.report.pictures import png
 from lpcal.report.rig_report import RigReport, SurfaceReport
 
 K = np.array([[700.0, 0, 320], [0, 701.0, 240], [0, 0, 1]])

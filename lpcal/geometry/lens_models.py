@@ -1,7 +1,11 @@
-"""A lens in another model: the parameters of OpenCV's that come nearest to given projections over the image.
+"""Lenses other than OpenCV's: mrcal's splined one, and the nearest of OpenCV's to any.
 
-Symbols: rays x_C (N, 3) through pixels u (N, 2) of the lens as it is; K and k1 k2 p1 p2 [k3 [k4 k5 k6]] with ``u = project(x_C, K, k)``
-in least squares of pixels. Source: mrcal's documentation, "lens model conversion"; the fit is without uncertainty, as there.
+mrcal's is a stereographic core and a grid of corrections, projected by mrcal itself. Symbols: ``lensmodel`` mrcal's name of the model with
+its configuration, ``spline`` the vector fx fy cx cy and all knots. Source: mrcal's documentation, "splined stereographic".
+
+The nearest of OpenCV's: rays x_C (N, 3) through pixels u (N, 2) of the lens as it is; K and k1 k2 p1 p2 [k3 [k4 k5 k6]] with
+``u = project(x_C, K, k)`` in least squares of pixels. Source: mrcal's documentation, "lens model conversion"; the fit is without
+uncertainty, as there.
 """
 
 from __future__ import annotations
@@ -10,10 +14,31 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from lpcal.geometry import camera as central
 from lpcal.geometry.arrays import Array
+
+
+def project(x_C: Array, lensmodel: str, spline: Array) -> Array:
+    """Pixels (..., 2) of points x_C (..., 3)."""
+    import mrcal
+
+    return np.asarray(mrcal.project(np.ascontiguousarray(x_C, dtype=float), lensmodel, spline))
+
+
+def unproject(pixels: Array, lensmodel: str, spline: Array) -> Array:
+    """Unit rays (..., 3) of pixels (..., 2)."""
+    import mrcal
+
+    return np.asarray(mrcal.unproject(np.ascontiguousarray(pixels, dtype=float), lensmodel, spline, normalize=True))
+
+
+def projection_jacobian(x_C: Array, lensmodel: str, spline: Array) -> Array:
+    """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
+    import mrcal
+
+    return np.asarray(mrcal.project(np.ascontiguousarray(x_C, dtype=float), lensmodel, spline, get_gradients=True)[1])
+
 
 COLUMNS = 41
 """Rays across the image: more change no parameter, the lens being smooth."""
@@ -36,6 +61,8 @@ def fit_lens(unproject: Callable[[Array], Array], K: Array, image_size: tuple[in
 
     `K` (3, 3) and `start` (the first coefficients, up to count) are where the search begins.
     """
+    from scipy.optimize import least_squares
+
     width, height = image_size
     rows = max(2, round(COLUMNS * height / width))
     across, down = np.meshgrid(np.linspace(0, width - 1, COLUMNS), np.linspace(0, height - 1, rows))
