@@ -10,7 +10,7 @@ Read the chain in the file list of ``lpcal/chain``, the frames in README.md.
 
 __version__ = "0.1.0"
 
-TYPE_CHECKING = False  # as `typing` has it, which would be the dearest import here
+TYPE_CHECKING = False  # as `typing` has it, which would be the slowest import here
 
 if TYPE_CHECKING:
     from lpcal import errors as errors

@@ -152,9 +152,9 @@ def _weighted(shading: Shading, weight: Array) -> Array:
     N = np.einsum("lp,lpi,lpj->pij", weight, shading.B, shading.B)
     g = np.einsum("lp,lp,lpi->pi", weight, shading.signal, shading.B)
     scale = np.maximum(np.trace(N, axis1=1, axis2=2), 1e-30)
-    told = ((weight > 0).sum(axis=0) >= FEWEST) & (np.linalg.det(N / scale[:, None, None]) > 1e-9)
+    determined = ((weight > 0).sum(axis=0) >= FEWEST) & (np.linalg.det(N / scale[:, None, None]) > 1e-9)
     b = np.full_like(g, np.nan)
-    b[told] = np.linalg.solve(N[told], g[told][..., None])[..., 0]
+    b[determined] = np.linalg.solve(N[determined], g[determined][..., None])[..., 0]
     return b
 
 

@@ -1,4 +1,4 @@
-"""Normals under imported lights of unknown powers, by lpcal beside plain least squares, over drawn captures (tools/lit_heights.py).
+"""Normals under imported lights of unknown powers, by lpcal beside plain least squares, over simulated captures (tools/lit_heights.py).
 
 ``python tools/bench_gains.py [COUNT] [KIND...]``: COUNT captures a kind (default 20). Mean errors in degrees over the object:
 
@@ -87,7 +87,7 @@ def main(count: int, wanted: list[str]) -> None:
         for seed in range(count):
             drawn = draw(recipe, seed)
             try:
-                settled = settle_sensor(drawn.raw, drawn.calibration, [("told", StatedSensor(recipe.gamma))] if stated else [])
+                settled = settle_sensor(drawn.raw, drawn.calibration, [("stated", StatedSensor(recipe.gamma))] if stated else [])
             except DisagreementError:
                 refused += 1
                 continue

@@ -2,7 +2,7 @@
 
 rig_a    the rendered rig of LPCAL_DATA, from its images: one to four chrome spheres, without matte, with the LEDs unknown
 speed    12 lights, 8 chrome and 8 matte spheres: time and peak memory of the solve, and of ``lpcal refine`` from images
-rigs     100 drawn rigs that know more than the model: errors beside their sigmas; of 30 of them, what more spheres do
+rigs     100 simulated rigs that know more than the model: errors beside their sigmas; of 30 of them, what more spheres do
 whole    8 of them from whole images instead of windows about the spheres
 exact    50 rigs without model error: errors beside the Bayesian Cramer-Rao bound
 clicks   50 joints stated one click off, and as many rigs without: found, and falsely found
@@ -174,7 +174,7 @@ def rigs(count: int = RIGS, ladder: int = LADDER_RIGS) -> None:
     """Errors beside sigmas, and what more spheres do."""
     most = [(4, 0), (4, 4)]
     found = _solved(drawn, range(ladder), LADDER)
-    print(f"{ladder} drawn rigs of 6 lights; NEES wanted 0.5-1.2\n{HEADER}")
+    print(f"{ladder} simulated rigs of 6 lights; NEES wanted 0.5-1.2\n{HEADER}")
     for (chrome, matte), errors in found.items():
         print(table_row(f"{chrome} chrome, {matte} matte", errors))
     print("more spheres: rms error after over before, wanted <= 1.05        direction  position")
@@ -188,7 +188,7 @@ def rigs(count: int = RIGS, ladder: int = LADDER_RIGS) -> None:
             f"  {before[0]} chrome, {before[1]} matte -> {after[0]} chrome, {after[1]} matte {ratio[0]:38.3f}{ratio[1]:10.3f}", flush=True
         )
     more = _solved(drawn, range(ladder, count), most)
-    print(f"{count} drawn rigs\n{HEADER}")
+    print(f"{count} simulated rigs\n{HEADER}")
     for chrome, matte in most:
         print(table_row(f"{chrome} chrome, {matte} matte", found[chrome, matte] + more[chrome, matte]))
 

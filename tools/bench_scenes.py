@@ -43,10 +43,10 @@ def reconstructed(capture: Path, calibration: Path, target: Path, words: list[st
     command = [sys.executable, "-m", "lpcal", "reconstruct", str(capture), "-c", str(calibration), "-o", str(target), *words]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
-        told = process.stderr.read()
+        stderr = process.stderr.read()
         _, status, used = os.wait4(process.pid, 0)  # its own processor time, whatever runs beside it
         process.returncode = os.waitstatus_to_exitcode(status)
-    said = (told.strip().splitlines() or [f"exit code {process.returncode}"])[-1] if process.returncode else ""
+    said = (stderr.strip().splitlines() or [f"exit code {process.returncode}"])[-1] if process.returncode else ""
     return said, used.ru_utime + used.ru_stime
 
 

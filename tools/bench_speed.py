@@ -127,7 +127,7 @@ def integration() -> Row:
 
 
 def reweighted(B: np.ndarray, signal: np.ndarray) -> np.ndarray:
-    """b (P, 3) of least absolute residuals, by least squares weighted anew, a pixel at a time in plain Python."""
+    """b (P, 3) of least absolute residuals, by least squares weighted again, a pixel at a time in plain Python."""
     found = np.empty((signal.shape[1], 3))
     for p in range(signal.shape[1]):
         weight = np.ones(len(B))

@@ -34,7 +34,7 @@ PARTS = {
 HEAD = f"/*! three.js {THREE}, MIT License, Copyright 2010-2026 three.js authors; by tools/bundle_three.py, esbuild {ESBUILD} */\n"
 """First line of the file."""
 WORDS = "--bundle --minify --format=iife --global-name=THREE --target=es2020 --charset=utf8 --legal-comments=none --outfile=three.js"
-"""What the bundler is told."""
+"""What the bundler is given."""
 
 
 def main() -> int:

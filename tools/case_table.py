@@ -233,12 +233,12 @@ def judged(case: Case, cases: Path) -> tuple[int, float, str, bool]:
         found = re.search(case.said, said)
         right = code == case.code and found is not None and seconds < case.seconds
         line = next((line for line in said.splitlines() if case.said and re.search(case.said.split("(.|")[0], line)), "")
-        told = line.strip()[:MOST_SAID]
+        measured = line.strip()[:MOST_SAID]
         if case.figure is not None and code == 0:
             value, unit = case.figure(folder)
             right = right and value < case.most
-            told = f"{value:.2f} {unit} (right: under {case.most:g}); {told}".rstrip("; ")
-        return code, seconds, told or said.strip().splitlines()[0][:MOST_SAID], right
+            measured = f"{value:.2f} {unit} (right: under {case.most:g}); {measured}".rstrip("; ")
+        return code, seconds, measured or said.strip().splitlines()[0][:MOST_SAID], right
 
 
 def main() -> int:
@@ -252,11 +252,11 @@ def main() -> int:
     print("| case | commands | code | s | said or measured | right |\n|---|---|---|---|---|---|")
     wrong = 0
     for case in chosen:
-        code, seconds, told, right = judged(case, options.cases.resolve())
+        code, seconds, measured, right = judged(case, options.cases.resolve())
         wrong += not right
         edited = f" ({case.edit[0]} -> {case.edit[1] or 'nothing'})" if case.edit[0] else ""
         print(
-            f"| {case.folder}{edited} | {'; '.join(case.commands)} | {code} | {seconds:.1f} | {told} | {'yes' if right else 'NO'} |",
+            f"| {case.folder}{edited} | {'; '.join(case.commands)} | {code} | {seconds:.1f} | {measured} | {'yes' if right else 'NO'} |",
             flush=True,
         )
     print(f"{len(chosen) - wrong} of {len(chosen)} right")

@@ -176,7 +176,7 @@ def validated(examples: list[Example], rng: np.random.Generator) -> tuple[list[f
     return found, wrong, loss
 
 
-def told(name: str, values: list[float]) -> str:
+def line_of(name: str, values: list[float]) -> str:
     """A line of figures."""
     x = np.array(values)
     shares = f">= .93 {np.mean(x >= 0.93):.0%}, < .9 {np.mean(x < WRONG):.0%}"
@@ -204,9 +204,11 @@ def report(examples: list[Example]) -> None:
     for kind, some in (("whole", whole), ("crops", ~whole)):
         print(f"{kind}: {some.sum()}")
         print(
-            told("  IoU with the weights as they stand", [iou(one.now, one.true) for one, here in zip(examples, some, strict=True) if here])
+            line_of(
+                "  IoU with the weights as they stand", [iou(one.now, one.true) for one, here in zip(examples, some, strict=True) if here]
+            )
         )
-        print(told("  IoU with fitted weights, scenes left out", list(found[some])), f"; loss {loss[some].mean():.4f}")
+        print(line_of("  IoU with fitted weights, scenes left out", list(found[some])), f"; loss {loss[some].mean():.4f}")
     bad = found < WRONG
     at, power = doubted(wrong[whole], bad[whole])
     print(f"DOUBTED, DOUBT_POWER = {at:.2f}, {power:.1f}")

@@ -1,4 +1,4 @@
-"""Whether the lights' stated sigmas are true: ``python tools/light_sigmas.py [COUNT [FIRST]]``, 100 drawn rigs from seed 0.
+"""Whether the lights' stated sigmas are true: ``python tools/light_sigmas.py [COUNT [FIRST]]``, 100 simulated rigs from seed 0.
 
 Each rig has 4, 6, 8 or 12 lights, 1 to 4 chrome and 0, 1, 2 or 4 matte spheres; joints at 20, 30 or 40 degrees, spheres, focal lengths,
 picture sizes, blur and noise drawn too. Images are rendered as `light_rigs` does and go through lpcal's detection; each rig is solved with
@@ -123,7 +123,7 @@ def main(count: int, first: int) -> None:
             print(f"{seed:4d} {under:<6}{_line(one, errors)}", flush=True)
             for row in ("all", f"{one.lights} lights", f"{one.chrome} chrome", f"{one.matte} matte"):
                 rows[f"{under}: {row}"].append(errors)
-    print(f"\nNEES over {count} drawn rigs, wanted {WANTED[0]} to {WANTED[1]}   rigs" + "".join(f"{name:>13}" for name in MEASURES))
+    print(f"\nNEES over {count} simulated rigs, wanted {WANTED[0]} to {WANTED[1]}   rigs" + "".join(f"{name:>13}" for name in MEASURES))
     for row in sorted(rows):
         print(f"{row:<48}{len(rows[row]):5d}" + "".join(f"{_mean(rows[row], name):13.2f}" for name in MEASURES))
     print(f"refused: {len(refused)}", *refused, sep="\n")

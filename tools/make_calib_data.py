@@ -1,4 +1,4 @@
-"""Make calib_data/demo_rig anew: the rig that `lpcal demo` runs on, simulated, truth beside it.
+"""Make calib_data/demo_rig again: the rig that `lpcal demo` runs on, simulated, truth beside it.
 
 uv run python tools/make_calib_data.py [FOLDER]
 """

@@ -24,7 +24,7 @@ TITLES = (
     "wings: the lights as drawn",
     "spheres: the lights as they are",
     "normals, depth in metres",
-    "its mesh, lit anew",
+    "its mesh, lit again",
 )
 INK, BLUE, AMBER = "#22272e", "#2c5f8a", "#c77f1a"
 

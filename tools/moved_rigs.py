@@ -2,10 +2,10 @@
 
 ``python tools/moved_rigs.py [--rigs 20] [--chrome 4 8 12] [--moves 0.3]``, ``python tools/moved_rigs.py --bound``
 
-Each rig (lightpanel-6) is drawn by `light_rigs` on two days, its chrome spheres placed anew: images are rendered LED by LED and go through
+Each rig (lightpanel-6) is drawn by `light_rigs` on two days, its chrome spheres placed again: images are rendered LED by LED and go through
 lpcal's detection. The camera is off by `CAMERA_PX`, as by an intrinsics, and the same on both days, as ``lpcal diff`` takes it unless it
 has changed beyond chance. Each pair is held against each other as it is, then with one light moved along its arm, and sideways: a move
-shifts the highlights by what the simulator's own LEDs make of it. ``--render`` draws the moved lights anew instead, moved one way (slow).
+shifts the highlights by what the simulator's own LEDs make of it. ``--render`` draws the moved lights again instead, moved one way (slow).
 Spheres are drawn once and kept in a folder of the system's temporary files; the first so many of each day are used.
 
 ``--bound`` draws nothing: highlights with `SCATTER_PX` and outlines as lpcal's own covariances have them, of spheres placed as each of

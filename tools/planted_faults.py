@@ -237,8 +237,8 @@ def one(base: str, fault: Fault | None, seed: int, kept: Path | None, number: in
 def named(fault: Fault, said: str) -> tuple[bool, str]:
     """Whether there is a warning or an error, and the first line of one, or of a note, that names the fault."""
     lines = said.splitlines()
-    told = [line for line in lines if re.match(r"(warning|lpcal|  needed|  do):|ends  |mocap file  |  without:|  green ", line)]
-    naming = [line.strip() for line in told if re.search(fault.named, line)]
+    messages = [line for line in lines if re.match(r"(warning|lpcal|  needed|  do):|ends  |mocap file  |  without:|  green ", line)]
+    naming = [line.strip() for line in messages if re.search(fault.named, line)]
     return any(line.startswith(("warning", "lpcal:")) for line in lines), naming[0] if naming else ""
 
 

@@ -41,7 +41,7 @@ class Fault:
     named: str
     """Words of which one stands in a message that names it."""
     anew: bool = False
-    """Whether the images changed, so that the boards are to be found anew."""
+    """Whether the images changed, so that the boards are to be found again."""
 
 
 def true_H_PC(rig: Path) -> np.ndarray:

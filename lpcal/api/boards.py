@@ -24,7 +24,7 @@ from lpcal.records.rig import BoardSection
 type Model = Literal["auto", "opencv4", "opencv5", "opencv8", "splined"]
 
 ASSUMED_SIGMA_PX = 0.1
-"""One standard deviation of a corner coordinate, in pixels, where the camera was not solved here and nothing tells it."""
+"""One standard deviation of a corner coordinate, in pixels, where the camera was not solved here and it is not known."""
 
 
 def board_of(section: BoardSection | None) -> Board | None:
@@ -129,7 +129,7 @@ def calibrate_camera(
     DisagreementError
         Another number of corners than the board has.
     DegenerateError
-        Fewer than three views, or views that cannot tell the focal length or the principal point.
+        Fewer than three views, or views that do not determine the focal length or the principal point.
     ConvergenceError
         No solution.
 
@@ -243,7 +243,7 @@ def as_given(camera: Camera, board: Board | None, source: str, where: str, image
             "a camera of {}x{} pixels; the images have {}x{}".format(*camera.image_size, *image_size),
             where=where,
             needed="the camera that took the images, at their size",
-            todo="name the right file, or leave camera.cameramodel out to solve the camera anew",
+            todo="name the right file, or leave camera.cameramodel out to solve the camera again",
         )
     return CameraSolution(camera, np.zeros((0, 3)) if board is None else board.points_B(), (), f"given: {source}", ASSUMED_SIGMA_PX)
 

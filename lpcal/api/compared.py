@@ -55,7 +55,7 @@ def reconstruct(
     Raises
     ------
     DegenerateError
-        The method tells no normal.
+        The method determines no normal.
     InputError
         There is no method of this name, or it returns something else than (P, 3) numbers.
     """
@@ -75,7 +75,7 @@ def reconstruct(
         raise InputError(f"{b.shape} from the method {method}", where="method", needed=f"({seen.pixels}, 3)")
     known = np.isfinite(b).all(axis=1) & (np.einsum("pi,pi->p", b, seen.rays_C) < 0)
     if not known.any():
-        raise DegenerateError(f"the method {method} tells no normal", where=radiance.name, needed="three lights that reach a pixel")
+        raise DegenerateError(f"the method {method} determines no normal", where=radiance.name, needed="three lights that reach a pixel")
     inside = object_mask.copy()
     inside[object_mask] = known
     normals, length = lambert.unit(b[known])
@@ -117,7 +117,7 @@ def slopes_of(normals_C: Image, rays_C: Array, *, central: bool) -> Array:
 
 
 def _assembled(name: str, normals_C: Image, depth: Array, mask: Mask, rays_C: Array) -> Surface:
-    """The record; pieces are what hangs together in the mask, without breaks."""
+    """The record; pieces are the connected parts of the mask, without breaks."""
     from scipy import ndimage
 
     def within(values: Array) -> Image:

@@ -1,4 +1,4 @@
-"""Has my rig moved: two calibrations of one rig, part by part, each change beside what an unmoved rig shows.
+"""Has my rig moved: two calibrations of one rig, part by part, each change with what an unmoved rig shows.
 
 Where both calibrations know what their chrome spheres showed, the spheres of both days are solved in one problem
 (`chain.refine_lights.moved_lights`): what is wrong with both alike cancels, and the highlights' own scatter says what is chance.
@@ -6,8 +6,8 @@ Where both calibrations know what their chrome spheres showed, the spheres of bo
 
 Calibrations alone: what one calibration's spheres are off by moves all its lights together, a shift, a turn and a scale. These seven are
 fitted and reported as what the lights share; each light is then held against the prediction by all others: their own
-scatter, with what is expected of it, says what an unmoved light shows. That sees less: on drawn rigs of six lights and four chrome
-spheres, placed anew for each calibration, a light's own scatter is 0.2 mm across and 0.6 mm along; one moved by 1.5 mm is named in half of
+scatter, with what is expected of it, says what an unmoved light shows. That sees less: on simulated rigs of six lights and four chrome
+spheres, placed again for each calibration, a light's own scatter is 0.2 mm across and 0.6 mm along; one moved by 1.5 mm is named in half of
 the trials, by 2 mm in two thirds, and no unmoved one in 20 pairs.
 
 Which of many points has moved against the others: blocks of a linear model, each held against what the rest predicts.
@@ -39,10 +39,10 @@ from lpcal.records.calibration import Calibration, Camera, Light, LightsSolution
 from lpcal.records.comparison import UNLIKELY, CalibrationChange, LightChange, PartChange
 
 ALONG = 3.0
-"""How much less sure a light's distance is than its place across: a highlight tells the one, two or more spheres the other (measured on
-drawn rigs: 0.55 mm beside 0.18 mm of scatter between two calibrations)."""
+"""How much less certain a light's distance is than its place across: one highlight shows the place across, the distance takes two or more
+spheres (measured on simulated rigs: 0.55 mm against 0.18 mm of scatter between two calibrations)."""
 OWN_SHARE = 0.12
-"""How much of the two stated sigmas of a light's place is its own and not common to all lights or to both calibrations, across (drawn
+"""How much of the two stated sigmas of a light's place is its own and not common to all lights or to both calibrations, across (simulated
 rigs of four chrome spheres: 0.23 mm of 1.9)."""
 OWN_AXIS_RAD, OWN_POWER = 7e-3, 3e-3
 """Scatter of a light's axis, radians, and of its intensity, relative, between two calibrations that are good ones."""
@@ -106,7 +106,9 @@ def compare_calibrations(
     old, new = ([next(light for light in one.lights if light.name == name) for name in names] for one in (before, after))
     near = {light.source_C is not None for light in (*old, *new)}
     if len(near) > 1:
-        raise DisagreementError("near lights beside distant ones", where=f"{before.name}, {after.name}", needed="lights of one kind")
+        raise DisagreementError(
+            "near lights in one, distant ones in the other", where=f"{before.name}, {after.name}", needed="lights of one kind"
+        )
     exchanged = _exchanged(old, new)
     camera, said = _camera(before.camera, after.camera)
     cameras = (before.camera, after.camera if _is_another(camera) else before.camera)
@@ -263,7 +265,7 @@ def _exchanged(old: list[Light], new: list[Light]) -> tuple[tuple[str, str], ...
 
 
 def _together(common: Array, old: list[Light], new: list[Light], chance: float) -> PartChange:
-    """What all lights share, beside the stated sigmas of their places and directions."""
+    """What all lights share, with the stated sigmas of their places and directions."""
     place = np.array([[light.position_std_m for light in one] for one in (old, new)])
     turn = np.array([[light.direction_std_rad for light in one] for one in (old, new)])
     std, turn_std = (float(np.sqrt(np.sum(np.mean(each**2, axis=1)))) for each in (place, turn))
@@ -331,13 +333,13 @@ class OddOnes:
     chance: Array
     """(K,) of so large an F where the block has not moved."""
     freedom: int
-    """Degrees of freedom of the scatter; 0 or fewer: the blocks are too few to tell."""
+    """Degrees of freedom of the scatter; 0 or fewer: there are too few blocks."""
 
 
 def odd_ones(J: Array, y: Array, expected: float, worth: float) -> OddOnes:
     """Hold each block y (K, c) against the others by the model J (K, c, n).
 
-    `expected` is the scatter that is known beforehand, worth so many degrees of freedom: few lights tell their own scatter badly.
+    `expected` is the scatter that is known beforehand, worth so many degrees of freedom: few lights determine their own scatter badly.
     """
     from scipy.stats import f as fisher
 

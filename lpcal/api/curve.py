@@ -36,11 +36,11 @@ class Settled:
     used: SensorInUse
     notes: tuple[str, ...] = ()
     linear: bool = True
-    """Whether the object takes the numbers so made for linear ones, as far as it tells."""
+    """Whether the numbers so made are linear by the object, as far as it shows that."""
 
 
 def settle_sensor(raw: RawCapture, calibration: Calibration, saying: Sequence[tuple[str, StatedSensor]]) -> Settled:
-    """The sensor of a capture and what is to be said of it.
+    """The sensor of a capture and notes on it.
 
     `saying` is what is said of it and who says it, what counts more first; capture.yaml's flat field and what the images themselves show
     are added here.
@@ -72,12 +72,12 @@ def _stated_gamma_judged(raw: RawCapture, used: SensorInUse, calibration: Calibr
 
 
 def _claim_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) -> Settled:
-    """With the gamma that the images claim where the object bears it out, and what is to be said where nobody states one."""
+    """With the gamma that the images claim where the object bears it out, and notes where nobody states one."""
     claim = raw.claim if raw.claim is not None and raw.claim.gamma != 1.0 else None
     claimed = "srgb" if claim is None or claim.gamma is None else claim.gamma
     curve = curve_of(raw, used.sensor, calibration, claimed)
     if curve is None:
-        return Settled(used) if claim is None else _untold(used, claim)
+        return Settled(used) if claim is None else _undecided(used, claim)
     figures = f"taken as linear they miss the lights by {100 * curve.misfit_taken:.1f} %"
     if claim is not None and claim.gamma is not None and curve.claim_explains and (curve.believed or curve.doubtful):
         note = f"the images {claim.said}; {figures}, so by {100 * curve.misfit_claimed:.1f} %: it is undone"
@@ -92,13 +92,13 @@ def _claim_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) 
     return Settled(used, (f"{who}: {figures}, {better}: if they are photographs, {CURE}",), linear=False)
 
 
-def _untold(used: SensorInUse, claim: ToneClaim) -> Settled:
-    """Where the object does not tell, a camera's photographs are taken as such, other images as linear; both are said."""
-    untold = f"the images {claim.said}, and too few lights or pixels tell whether their numbers are linear"
+def _undecided(used: SensorInUse, claim: ToneClaim) -> Settled:
+    """Where the object does not decide, a camera's photographs are taken as such, other images as linear; both are reported."""
+    undecided = f"the images {claim.said}, and too few lights or pixels show whether their numbers are linear"
     if claim.photograph and claim.gamma is not None:
-        told = f"{untold}; sRGB's curve is undone: if they are linear, state gamma: 1 in capture.yaml, or --gamma 1"
-        return Settled(_by_claim(used, claim.gamma), (told,), linear=False)
-    return Settled(used, (f"{untold}; they are taken so: if they are photographs, {CURE}",), linear=False)
+        remark = f"{undecided}; sRGB's curve is undone: if they are linear, state gamma: 1 in capture.yaml, or --gamma 1"
+        return Settled(_by_claim(used, claim.gamma), (remark,), linear=False)
+    return Settled(used, (f"{undecided}; they are taken so: if they are photographs, {CURE}",), linear=False)
 
 
 def _by_claim(used: SensorInUse, gamma: Gamma) -> SensorInUse:
@@ -120,7 +120,7 @@ def _not_linear(raw: RawCapture, curve: Curve) -> DisagreementError:
 
 
 def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed: Gamma) -> Curve | None:
-    """The curve that explains a capture's numbers best; None where too few lights or pixels tell it."""
+    """The curve that explains a capture's numbers best; None where too few lights or pixels show it."""
     lights = [light for name in raw.lights for light in calibration.lights if light.name == name]
     channels = raw.images if raw.images.ndim == 4 else raw.images[..., None]
     mean = channels.mean(axis=(0, 3))

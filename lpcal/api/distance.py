@@ -38,8 +38,7 @@ def calibrate_distance_sensor(
         Readings on the board, metres; NaN where there is none.
     boards : BoardPoses, or ndarray (N, 4, 4)
         The board in the camera at each reading, of `locate_boards`; or H_CB, metres.
-    board : Board, optional
-        The board, where `boards` is an array: it tells where the board ends.
+    board : Board, optional The board, where `boards` is an array: it says where the board ends.
     position : ndarray (3,)
         Where the beam begins as drawn, metres in D; in C without `H_CD`.
     direction : ndarray (3,)
@@ -77,7 +76,7 @@ def calibrate_distance_sensor(
     readings_m = given.numbers(distance_m, "distance_m", finite=False)
     if not isinstance(boards, BoardPoses):
         if board is None:
-            raise InputError("no board", where="board", needed="the board: its corners tell where it ends")
+            raise InputError("no board", where="board", needed="the board: its corners say where it ends")
         H_CB = given.transforms(boards, "boards")
         boards = BoardPoses(tuple(f"reading {k}" for k in range(len(H_CB))), None, H_CB, points_B=board.points_B())
     if readings_m.shape != (len(boards.H_CB),):
@@ -85,9 +84,7 @@ def calibrate_distance_sensor(
             f"an array of {given.shape_of(readings_m)}", where="distance_m", needed=f"({len(boards.H_CB)},): a reading a board"
         )
     if boards.points_B is None:
-        raise InputError(
-            "boards without points_B", where="boards", needed="what locate_boards gives: the corners tell where the board ends"
-        )
+        raise InputError("boards without points_B", where="boards", needed="what locate_boards gives: the corners say where the board ends")
     known = np.flatnonzero(np.isfinite(readings_m))
     x_D, u_D = given.shaped(position, (3,), "position"), given.shaped(direction, (3,), "direction")
     drawn = BeamDrawn(x_D, u_D / np.linalg.norm(u_D), noise_m, tolerance)

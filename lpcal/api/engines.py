@@ -32,11 +32,11 @@ TRIES = 3
 """How often an item is handed to a worker before it is given up: it may stand beside one that fills the memory, but not three times."""
 FRUITLESS = 12
 """Workers lost in a row, nothing having been done between, after which no further one is started: no bad item takes more than `TRIES`
-of them, and four bad ones in a row are rarer than workers that cannot work at all."""
+of them, and four bad ones in a row are rarer than workers that cannot run at all."""
 WINDOW = 64
 """Items that are handed to a caller's executor at a time: enough that no worker waits, few enough to hold."""
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-"""The variables that hold a worker to one thread of linear algebra; the user's own word wins."""
+"""The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
 REPLY_S = 15.0
 """Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
 PRELOADED = (

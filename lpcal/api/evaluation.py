@@ -1,4 +1,4 @@
-"""A surface beside the truth: angles of the normals, differences of the depths, and whether the surface's own sigmas hold."""
+"""A surface compared with the truth: angles of the normals, differences of the depths, and whether the surface's own sigmas hold."""
 
 from __future__ import annotations
 

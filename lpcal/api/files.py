@@ -176,7 +176,7 @@ def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: 
         calibration.yaml; an .lp file; a folder of DiLiGenT; led_params of LUCES; light.mat of near_ps; a table of directions; RelightLab's
         dome; Meshroom's lights or SfMData; a camera file of OpenCV, ROS, Kalibr, COLMAP, mrcal, Metashape; tf, URDF, easy_handeye.
     vectors : str, optional
-        What the vectors of an .lp file or a table are, "directions" or "positions", where their lengths do not tell.
+        What the vectors of an .lp file or a table are, "directions" or "positions", where their lengths do not show it.
     images : str or path, optional
         A folder of images, one a light, after which another system's lights are named, in natural order.
 

@@ -25,7 +25,7 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
 
 LEAST_PIXELS = 200
-"""Pixels of a surface that must bear witness: fewer tell nothing of how it fits."""
+"""Least number of usable pixels of a surface: fewer do not show how it fits."""
 
 
 @staged("fusion")
@@ -52,7 +52,7 @@ def fuse(
     step_m : float, optional
         Length of the model's edges, metres, about; by default 1.4 pixels on the object.
     calibration : Calibration, optional
-        The one that the surfaces share: the model then says what the views tell of its lights and H_PC, and whether the rig has moved.
+        The one that the surfaces share: the model then states what the views show of its lights and H_PC, and whether the rig has moved.
     engine : Engine, optional
         Where the tiles of the model's space are worked on, of `lpcal.api.engines.engine_of`; None: one after the other, here. The model is
         the same.
@@ -176,7 +176,7 @@ def refine_rig(calibration: Calibration, model: ObjectModel) -> Calibration:
     """
     rig = model.rig
     if rig is None:
-        raise InputError("says nothing of its rig", where=model.name, needed="a model of fuse with calibration=", todo="fuse anew with it")
+        raise InputError("says nothing of its rig", where=model.name, needed="a model of fuse with calibration=", todo="fuse again with it")
     changes = {one.name: one for one in rig.lights}
     lights = [_changed(light, changes[light.name]) if light.name in changes else light for light in calibration.lights]
     mean = float(np.mean([light.intensity for light in lights])) if lights else 1.0
@@ -214,7 +214,7 @@ def _view(surface: Surface) -> PlacedView:
         It has too few pixels.
     """
     if surface.placement is None:
-        todo = "state time or pose in capture.yaml and reconstruct it anew, or give it a placement of lpcal.place"
+        todo = "state time or pose in capture.yaml and reconstruct it again, or give it a placement of lpcal.place"
         raise InputError("is not placed", where=surface.name, needed="where the camera was when it was captured", todo=todo)
     if not surface.metric or not surface.components:
         raise InputError("has no metric depth", where=surface.name, needed="a surface of lpcal reconstruct with a camera and near lights")

@@ -56,7 +56,7 @@ class HandEyeCheck(Shown):
     Parameters
     ----------
     notes : tuple of (str, str)
-        A topic and what is to be said of it.
+        A topic and notes on it.
     wrong : tuple of LpcalError
         What makes a solve fail or err, each with what to do; empty where nothing is wrong.
     warnings : tuple of str

@@ -49,7 +49,7 @@ def place(
     object_poses : PoseStream, optional
         The recording of the body that the object rides on, on the same clock: the capture is then placed in that body.
     H_OP, H_OC : ndarray (4, 4), optional
-        The body, or the camera itself, in the room, metres, where no recording tells it.
+        The body, or the camera itself, in the room, metres, where no recording gives it.
     tolerance : (float, float), optional
         One sigma of that pose, an axis: metres, radians.
     clock_offset_s : float, optional
@@ -63,7 +63,7 @@ def place(
     Raises
     ------
     InputError, UsageError
-        The calibration holds no H_PC; nothing that tells a place, or too much; a matrix that is not rigid.
+        The calibration holds no H_PC; nothing that gives a place, or too much; a matrix that is not rigid.
     DegenerateError
         The recording holds no pose to trust at that time.
 

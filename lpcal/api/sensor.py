@@ -18,7 +18,7 @@ BY_CAPTURE, BY_LARGEST = "capture.yaml", "the images' largest number"
 BY_COMMAND, BY_CALLER = "the command", "the caller"
 """Who says what is said for one call alone."""
 FOR_ONCE = (BY_COMMAND, BY_CALLER, BY_CAPTURE)
-"""Who speaks of one capture alone, knowing what else is said."""
+"""Sources that concern one capture alone, set with the others in view."""
 
 
 type Statements = Sequence[tuple[str, StatedSensor]]
@@ -50,7 +50,7 @@ def contradictions(saying: Statements) -> tuple[str, ...]:
         (who, value), *others = stated
         found += [
             f"{other} says {worded_value(key, unlike)}, {who} {worded_value(key, value)}, which counts: "
-            f"if {other} is right, calibrate or import anew"
+            f"if {other} is right, calibrate or import again"
             for other, unlike in others
             if unlike != value and who not in FOR_ONCE
         ]

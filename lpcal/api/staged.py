@@ -1,4 +1,4 @@
-"""What every stage does beside its work: a line in the log when it begins and ends, and its findings' warnings there too.
+"""What every stage does besides its work: a line in the log when it begins and ends, and its findings' warnings there too.
 
 The logger is called ``lpcal``; it says nothing unless a program gives it a handler. The warnings stand on the result as well: a program
 reads them there and never parses a log.

@@ -1,7 +1,7 @@
 """The two experiments of the LightPanel paper, by lpcal's own radiometry and normals.
 
 The error of a normal is relative: the length of ``n_found - n`` for unit normals, per cent. Every pixel of the sphere but for its rim
-counts; those that fewer than three lights tell are filled from their neighbours, as a reconstruction does.
+counts; those that fewer than three lights reach are filled from their neighbours, as a reconstruction does.
 """
 
 from __future__ import annotations
@@ -296,8 +296,8 @@ def _ambient_said(curves: list[StudyCurve]) -> str:
     parts = []
     for curve in curves:
         low, high = curve.as_good
-        told = f"{curve.name}: {curve.mean_percent[0]:.2f} % in the dark, as good as any from {low:.0f} to {high:.0f} % ambient"
-        parts.append(told + _failure(curve))
+        sentence = f"{curve.name}: {curve.mean_percent[0]:.2f} % in the dark, as good as any from {low:.0f} to {high:.0f} % ambient"
+        parts.append(sentence + _failure(curve))
     return (
         "; ".join(parts)
         + f". The lights alone reach {100 * AMBIENT_PEAK:.0f} % of full scale, so over {100 - 100 * AMBIENT_PEAK:.0f} % of "

@@ -1,4 +1,4 @@
-"""What is to be said of a surface: its distance with what else it may be, and what in it is in doubt."""
+"""Notes on a surface: its distance with what else it may be, and what in it is in doubt."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def distance_said(piece: dict[str, Any]) -> str:
 
 
 def _mask_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said of an automatic mask that may be wrong."""
+    """Notes on an automatic mask that may be wrong."""
     odds = surface.figures.mask_doubt or 0.0
     if odds < IN_DOUBT:
         return ()
@@ -80,7 +80,7 @@ def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, .
 
 
 def _intensities_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said of intensities that nobody has measured and that were taken from the object."""
+    """Notes on intensities that nobody has measured and that were taken from the object."""
     found = surface.figures.intensities_found
     if not found:
         return ()
@@ -89,7 +89,7 @@ def _intensities_said(surface: Surface) -> tuple[str, ...]:
 
 
 def _exchange_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said of images that fit another light than their own."""
+    """Notes on images that fit another light than their own."""
     found = surface.figures.images_exchanged
     if not found:
         return ()
@@ -100,7 +100,7 @@ def _exchange_said(surface: Surface) -> tuple[str, ...]:
 
 
 def _misfit_said(surface: Surface) -> tuple[str, ...]:
-    """What is to be said where the normals are hardly known, or are those of a surface only with one axis turned over."""
+    """Notes where the normals are hardly known, or are those of a surface only with one axis turned over."""
     said = []
     doubt_deg = float(np.median(surface.normal_std_deg[surface.mask])) if surface.mask.any() else 0.0
     if doubt_deg > VAGUE_DEG:
@@ -117,12 +117,12 @@ def _misfit_said(surface: Surface) -> tuple[str, ...]:
 
 
 LIT = 0.3
-"""Cosine of the angle to a light, and share of the median signal, under which a pixel tells of shadow and its edges too."""
+"""Cosine of the angle to a light, and share of the median signal, under which a pixel shows shadows and their edges too."""
 FEWEST_PIXELS = 200
 """Pixels that a light must be seen by: a median of so many is known to a percent where each is off by a tenth."""
 CONTRADICTS = 0.04
-"""Deviation from which a light is named: a lamp that is off by a tenth shows six per cent, drawn captures of right lights none, rendered
-ones with interreflection two."""
+"""Deviation from which a light is named: a lamp that is off by a tenth shows six per cent, simulated captures of right lights none,
+rendered ones with interreflection two."""
 SIGMAS = 5.0
 """Stated standard deviations of the intensity that a deviation must exceed as well."""
 
@@ -151,7 +151,7 @@ def _grey(values: Array | Image) -> Array:
 
 
 def contradicting(surface: Surface, radiance: Radiance, calibration: Calibration) -> tuple[str, ...]:
-    """What is to be said of a light whose image contradicts its calibration."""
+    """Notes on a light whose image contradicts its calibration."""
     figures = surface.figures
     spoken_for = (figures.gloss, figures.intensities_found, figures.images_exchanged, figures.ambient)
     if not surface.metric or any(one is not None for one in spoken_for):

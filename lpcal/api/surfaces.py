@@ -54,7 +54,7 @@ DISTANCE_M = 0.35
 """Metres at which an object is put where neither a calibration nor the caller says how far away it is: the LightPanel's own distance."""
 type Green = Literal["auto", "as-is", "flipped"]
 
-UNMEASURED = "normals tell the shape; the distance, and that of pieces to each other, is not measured"
+UNMEASURED = "normals give the shape; the distance, and that of pieces to each other, is not measured"
 
 
 @staged("reconstruction")
@@ -279,7 +279,7 @@ def integrate(
     mask : ndarray (H, W), optional
         Which pixels count, not zero there; by default all that hold a normal.
     distance_m : float
-        Metres at which the median depth is put, with a camera: normals do not tell it.
+        Metres at which the median depth is put, with a camera: normals do not determine it.
     green : {"auto", "as-is", "flipped"}
         Whether the y of the normals is turned over; "auto" asks the curl of their slopes.
     integrator : str
@@ -291,7 +291,7 @@ def integrate(
     -------
     Surface
         Depth in metres (pixels without a camera), the normals, connected pieces, and warnings; ``figures.convention`` holds what the
-        curl says of y. Standard deviations are NaN: nothing tells them.
+        curl says of y. Standard deviations are NaN: they are not known.
 
     Raises
     ------

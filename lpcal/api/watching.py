@@ -1,7 +1,7 @@
 """What a new image is worth while one captures: measured at once, without a solve.
 
 An image is read, measured (saturated share, brightest value, blur) and, where it should show the board, searched for it at no more than
-`WIDTH` pixels across. What was seen so far tells what is needed next.
+`WIDTH` pixels across. What was seen so far determines what is needed next.
 """
 
 from __future__ import annotations
@@ -160,7 +160,7 @@ class Watched:
 
 
 def exposure_words(pixels: Image) -> tuple[tuple[str, ...], Tone]:
-    """What is to be said of an image's exposure."""
+    """Notes on an image's exposure."""
     grey = _grey(pixels)
     share, top = float((grey >= BRIGHT).mean()), float(np.quantile(grey, 0.999))
     if share > SATURATED:

@@ -65,7 +65,7 @@ SAME_M, SAME_RAD = 3e-3, np.deg2rad(0.5)
 MOMENT = 3
 """Steps to either side over which the body is to stay."""
 SHORTEST_S = 0.2
-"""Time over which the body is seen to rest, beside these steps."""
+"""Time over which the body is seen to rest, besides these steps."""
 ERROR_RAD, ERROR_M = np.deg2rad(0.3), 3e-3
 """Scales of the robust costs."""
 SKIPPED_VIEW, SKIPPED_REST = 4.0, 0.05

@@ -68,12 +68,12 @@ def progress_bars(*, quiet: bool = False) -> Iterator[Progress]:
 
 
 def _lines() -> Progress:
-    told: dict[str, int] = {}
+    shown_tenths: dict[str, int] = {}
 
     def line(what: str, done: int, total: int) -> None:
         tenth = 10 if done >= total else 10 * done // max(total, 1)
-        if tenth > told.get(what, -1):
-            told[what] = tenth
+        if tenth > shown_tenths.get(what, -1):
+            shown_tenths[what] = tenth
             complain(f"{what}: {done} of {total}")
 
     return line

@@ -1,4 +1,4 @@
-"""``lpcal evaluate``: a surface beside the truth."""
+"""``lpcal evaluate``: a surface compared with the truth."""
 
 from __future__ import annotations
 

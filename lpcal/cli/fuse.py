@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--step", metavar="LENGTH", help="length of the model's edges, such as 0.5mm (default: 1.4 pixels on the object)")
     parser.add_argument("--no-pages", action="store_true", help="no model.html")
     parser.add_argument(
-        "--refine", action="store_true", help="write the rig's calibration as the views would have it beside the model, calibration.yaml"
+        "--refine", action="store_true", help="write beside the model the rig's calibration as corrected by the views, calibration.yaml"
     )
     add_engine_words(parser, "tiles of the model's space")
     add_rig_option(parser)

@@ -40,21 +40,21 @@ COMMANDS = {
     "reconstruct": "normals, albedo, depth and mesh of a capture",
     "fuse": "one model of surfaces whose captures are placed in the room",
     "integrate": "depth and mesh of a normal map from elsewhere",
-    "evaluate": "a surface beside the truth: angles of the normals, differences of the depth",
+    "evaluate": "a surface compared with the truth: angles of the normals, differences of the depth",
     "diff": "has my rig moved: two calibrations, light by light, each change with its sigma",
     "import": "a calibration from other systems' files",
     "field": "the calibrated light field at given points",
     "report": "calib/report.html, one file, opens offline",
     "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
-    "mark": "a sphere, a mask or the lights of images set by mouse, where they are not found by themselves",
+    "mark": "a sphere, a mask or the lights of images set by mouse, where they are not found automatically",
     "frames": "the frames of a video as images, with the table of their times",
     "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",
     "completion": "completion of commands, options and file names for bash, zsh or fish",
 }
 LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casadi", "pycolmap")
-# many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's word wins
+# many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's setting wins
 for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 

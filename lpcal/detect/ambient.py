@@ -15,7 +15,7 @@ from lpcal.records.sensor import Sensor
 
 BLOCK_PX, FEWEST_BLOCKS = 8, 40
 ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
-"""Blocks with less ambient light than this share of its median, or than so many sigmas, tell nothing of it."""
+"""Blocks with less ambient light than this share of its median, or than so many sigmas, say nothing about it."""
 DARKEST = 0.02
 """This share of the blocks is taken to be in shadow."""
 SHADOWS_DARKER, SHADOWS_BRIGHTER = 0.08, 0.12
@@ -33,7 +33,7 @@ BRIGHTER = 0.98
 
 
 def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """What is to be said of the ambient light: that it changed, that it is stronger than the lights."""
+    """Notes on the ambient light: that it changed, that it is stronger than the lights."""
     if raw.ambient is None:
         return ()
     level = float(np.mean(_ambient_levels(raw, sensor)))
@@ -86,7 +86,7 @@ def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
             f"the ambient image is brighter than the lit ones: {100 * ambient.min() / lit.max():.0f} % of the brightest of them",
             where=raw.name,
             needed="an ambient image with all lights off, at the exposure of the others or with its own stated",
-            todo="take it anew, or state exposure: and exposures: in capture.yaml",
+            todo="take it again, or state exposure: and exposures: in capture.yaml",
         )
 
 
@@ -107,7 +107,7 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
             f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
             where=radiance.name,
             needed="exposure, gain and tone held for all images of a capture, or stated in capture.yaml",
-            todo="switch auto-exposure and automatic gain off and take it anew",
+            todo="switch auto-exposure and automatic gain off and take it again",
         )
 
 

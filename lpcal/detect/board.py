@@ -8,7 +8,7 @@ cross (`saddle`).
 Source: Forstner & Gulch 1987 (the saddle); Duda & Frese 2018 (SB); the window: measured on rendered boards.
 
 The order: x to y turns clockwise as seen (z of B points away from the camera); of the ends that are left, the one whose outer square is
-black; where the pattern does not tell, the one with x most to the right in the image, so that views of one roll agree.
+black; where the pattern does not show it, the one with x most to the right in the image, so that views of one roll agree.
 
 Why no board was found in an image, and what is there instead, in words.
 

@@ -24,7 +24,7 @@ def contrast(grey: Labels) -> float:
 
 
 def in_board_order(grey: Labels, grid: Array) -> Array:
-    """The grid (ny, nx, 2) turned so that its first corner is the board's: its outer square is black where the pattern tells its ends."""
+    """The grid (ny, nx, 2) turned so that its first corner is the board's: its outer square is black where the pattern shows its ends."""
     candidates = [turned for turned in _turns(grid) if _turns_clockwise(turned)]
     black = [first_square_is_black(grey, turned) for turned in candidates]
     if any(black) and not all(black):

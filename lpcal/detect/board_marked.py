@@ -1,6 +1,6 @@
 """The board in an image in which no search finds it, from its four outermost inner corners as a person marked them.
 
-A homography of the four gives the grid; each corner is then drawn to the saddle point near it, and the grid fitted anew as a surface of
+A homography of the four gives the grid; each corner is then drawn to the saddle point near it, and the grid fitted again as a surface of
 third order over the board, which takes up the lens' bending, until it stands. The corners are refined and judged as those of a search.
 """
 

@@ -35,8 +35,8 @@ SAME_PLACE_PX = 1e-9
 LEAST_CONTRAST = 4.0
 BEST_SHARE = 0.8
 SHARP_SHARE, SHARP_STEPS = 0.3, 5
-"""An edge is sharp where its misfit rises within so many steps by this share of what those of the upper quarter rise: of 38 drawn outlines
-the shift falls from .19 px to .05; with .1 it is .11, with .5 the fewer edges leave .06."""
+"""An edge is sharp where its misfit rises within so many steps by this share of what those of the upper quarter rise: of 38 simulated
+outlines the shift falls from .19 px to .05; with .1 it is .11, with .5 the fewer edges leave .06."""
 
 
 @dataclass(frozen=True)

@@ -129,7 +129,7 @@ def _unit_exposure(raw: RawCapture, sensor: Sensor, linear: Image, noise: tuple[
 
 
 def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
-    """Stop where blocks of pixels are darker than no light at all, by more than their noise makes them; images of nothing tell none."""
+    """Stop where blocks of pixels are darker than no light at all, by more than their noise makes them; images without light show none."""
     if raw.images.max() <= BLACK_OFF:
         return
     mean, scatter = _blocks(linear)
@@ -213,7 +213,7 @@ def fit_flat_field(stored: Image, sensor: Sensor) -> FlatField:
             "dark" if np.median(median) < 0.02 else f"{100 * saturated:.0f} % of the pixels are saturated",
             where="camera.flat_field",
             needed="an evenly lit target at half of full scale",
-            todo="take it anew, or leave the key out",
+            todo="take it again, or leave the key out",
         )
     rows = np.arange(median.shape[0]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0
     columns = np.arange(median.shape[1]) * FLAT_BLOCK_PX + (FLAT_BLOCK_PX - 1) / 2.0

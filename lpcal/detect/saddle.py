@@ -49,7 +49,7 @@ MOST = 4000
 LEAST_STEP = 4.0
 """Light of 255 that the ring must range over: below, rounding to whole numbers makes saddles."""
 SHARPEST_TAN = 0.35
-"""Tangent of the half angle between the edges, at least (20 degrees): a flatter crossing cannot be told from an edge."""
+"""Tangent of the half angle between the edges, at least (20 degrees): a flatter crossing cannot be distinguished from an edge."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@ r"""What is wrong with an outline, or why there is none: cut by the border, out 
 
 The blur of an image is that of its sharpest edges: an edge of height h blurred by sigma climbs by h / (sqrt(2 pi) sigma) a pixel at most.
 
-Whether stored numbers are light: the shading of a matte sphere, its shape known, tells the camera's curve.
+Whether stored numbers are light: the shading of a matte sphere, its shape known, shows the camera's curve.
 
 Symbols: data y of one light and a of the room at the pixels of an outline (normal n from its circle), light = data^e::
 
@@ -10,7 +10,7 @@ Symbols: data y of one light and a of the room at the pixels of an outline (norm
 
 A gamma that nobody stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law. A light as near as fourteen radii
 takes a third off e (a linear camera's is .75), a rough surface adds to it, so only the plainest curves are refused here; where chrome
-spheres say where the lights are, `chain.refine_lights.matte` judges anew.
+spheres say where the lights are, `chain.refine_lights.matte` judges again.
 
 Whether what is inside a round outline is a ball: shaded as one, or with a mirror image of each light.
 
@@ -55,7 +55,7 @@ HINT = "hint: [x px, y px, r px]"
 POSSIBLE_M = (0.02, 20.0)
 """Nearer or farther than this no sphere stands."""
 SHARP_EDGE = 0.15
-"""An edge over this share of the image's range tells of its blur."""
+"""An edge over this share of the image's range shows its blur."""
 
 
 def refuse_bad_outline(outline: Outline, image: Image) -> None:
@@ -214,12 +214,12 @@ def not_a_sphere(outline: Outline, kind: str, likeness: float) -> DegenerateErro
 
 def _cut(found: str) -> DegenerateError:
     return DegenerateError(
-        f"cut by the picture's border: {found}", needed="the whole sphere in the picture", todo="move it inwards and take it anew"
+        f"cut by the picture's border: {found}", needed="the whole sphere in the picture", todo="move it inwards and take it again"
     )
 
 
 def _out_of_focus(found: str) -> DegenerateError:
-    return DegenerateError(f"out of focus: {found}", needed="a sharp outline", todo="focus on the sphere, stop down, and take it anew")
+    return DegenerateError(f"out of focus: {found}", needed="a sharp outline", todo="focus on the sphere, stop down, and take it again")
 
 
 def _place(centre_px: Array, radius_px: float) -> str:
@@ -286,7 +286,7 @@ APART_PX = 1.5
 
 
 def matte_likeness(radiance: Radiance, lights: Sequence[str], outline: Outline) -> float:
-    """How much of what the lights change inside an outline a ball's shading explains: 1 all, 0 nothing; NaN where nothing tells."""
+    """How much of what the lights change inside an outline a ball's shading explains: 1 all, 0 nothing; NaN where it is not known."""
     box, n, inside = _normals(outline, radiance.saturated.shape[1:])
     index = [radiance.lights.index(light) for light in lights]
     full = np.asarray(radiance.saturated[:, *box][index].any(axis=0) if index else inside, dtype=bool)

@@ -153,7 +153,7 @@ def _most_like(first: Outline, starts: Sequence[Array], radiance: Radiance, kind
 
 
 def _likeness(radiance: Radiance, kind: str, outline: Outline) -> float:
-    """From 0 to 1; NaN where no light tells."""
+    """From 0 to 1; NaN where no light shows it."""
     lit = [light for light in radiance.lights if light not in radiance.dark]
     if kind == "matte":
         return matte_likeness(radiance, lit, outline)
@@ -213,8 +213,8 @@ def _with_lights(view: SphereView, radiance: Radiance, outline: Outline) -> Sphe
                 todo="is it a chrome sphere, and are its images lit by one light each?",
             )
         view = replace(view, highlights_px=places, highlight_sigma_px=sigmas)
-    told = [*(f"{note}; left out" for note in [*notes, *more]), *_room_light(view, outline)]
-    return replace(view, notes=tuple(f"sphere {view.name}: {note}" for note in told))
+    remarks = [*(f"{note}; left out" for note in [*notes, *more]), *_room_light(view, outline)]
+    return replace(view, notes=tuple(f"sphere {view.name}: {note}" for note in remarks))
 
 
 def _room_light(view: SphereView, outline: Outline) -> list[str]:
@@ -242,8 +242,8 @@ def _shaded(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[l
         over = radiance.saturated[k][disc]
         shaded = ~over & (_grey(radiance.signal[k])[disc] > LIT_SIGMAS * _grey(radiance.sigma[k])[disc])
         (found if shaded.mean() > LIT_SHARE else full if over.mean() > LIT_SHARE else dark).append(light)
-    told = ((full, "saturated wherever it is lit under"), (dark, "not lit by"))
-    return found, [f"it is {what} {', '.join(some)}" for some, what in told if some]
+    remarks = ((full, "saturated wherever it is lit under"), (dark, "not lit by"))
+    return found, [f"it is {what} {', '.join(some)}" for some, what in remarks if some]
 
 
 def _highlights(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[dict[str, Array], dict[str, float], list[str]]:

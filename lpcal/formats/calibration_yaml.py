@@ -104,7 +104,7 @@ def calibration_from_document(document: dict[str, Any], path: Path) -> Calibrati
         beam = beam_from_document(document["distance_sensor"]) if document.get("distance_sensor") else None
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
-            f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it anew with lpcal export"
+            f"lacks or garbles {error}", where=str(path), needed="a whole calibration file", todo="write it again with lpcal export"
         ) from error
     distance_m = document.get("d_object_m")
     if distance_m is not None and not (isinstance(distance_m, (int, float)) and 0 < distance_m < FARTHEST_M):
@@ -193,7 +193,7 @@ LOBE_KEYS = {
     "table": ("angle_deg", "value", "node_deg", "factor", "seen_deg"),
     "leds": ("angle_deg", "value", "exponent", "position_m", "axis", "power", "node_deg", "factor", "seen_deg"),
 }
-"""What a lobe holds beside its kind, by kind; any other kind holds its exponent alone."""
+"""What a lobe holds besides its kind, by kind; any other kind holds its exponent alone."""
 
 
 def _known_keys_alone(entry: dict[str, Any]) -> None:
@@ -250,7 +250,7 @@ def _light(path: Path, entry: dict[str, Any]) -> Light:
             f"{error} is lacking or holds no numbers",
             where=f"{path}, light {name}",
             needed="the keys of a calibration.yaml",
-            todo="write it anew with lpcal export",
+            todo="write it again with lpcal export",
         ) from error
 
 

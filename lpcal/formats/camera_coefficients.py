@@ -38,7 +38,7 @@ def central_camera(image_size: Sequence[Any], core: Sequence[Any], distortion: S
             "a thin-prism or tilted sensor model",
             where=where,
             needed="at most k1 k2 p1 p2 k3 k4 k5 k6",
-            todo="solve anew: lpcal intrinsics",
+            todo="solve again: lpcal intrinsics",
         )
     if not (np.isfinite([fx, fy, cx, cy]).all() and np.isfinite(coefficients).all() and min(width, height, fx, fy) > 0):
         raise InputError(f"fx fy cx cy {core}, image {width}x{height}", where=where, needed="finite numbers, sizes above zero")
@@ -51,7 +51,7 @@ def refuse_lens(model: str, where: str) -> InputError:
         f"lens model {model!r}",
         where=where,
         needed="pinhole with radial-tangential (OpenCV) distortion, or mrcal's splined model",
-        todo="solve the camera anew: lpcal intrinsics, model: splined for a very wide lens",
+        todo="solve the camera again: lpcal intrinsics, model: splined for a very wide lens",
     )
 
 

@@ -166,10 +166,10 @@ def read_sweep(folder: Path) -> tuple[Image, Array, float]:
     _need_folder(folder, "images of one still scene under several exposures")
     section, reader, files = read_capture_section(folder / "capture.yaml"), _SameSize(), _by_name(folder)
     exposure = {stem: _exposure(section, stem, own=True) for stem in files}
-    untold = [stem for stem, value in exposure.items() if value is None]
-    if untold or not files:
+    unstated = [stem for stem, value in exposure.items() if value is None]
+    if unstated or not files:
         raise InputError(
-            f"no exposure is stated for {', '.join(untold)}" if untold else "no image",
+            f"no exposure is stated for {', '.join(unstated)}" if unstated else "no image",
             where=str(folder / "capture.yaml"),
             needed="exposures: {image name: 5 ms, ...}",
             todo="state the exposure of each image",
@@ -209,7 +209,7 @@ class _SameSize:
                 f"{_kind(image.stored.shape)}, but {self.first.name} is {_kind(self.shape)}",
                 where=str(path),
                 needed="all images of a capture alike",
-                todo="take the capture anew, or remove the odd image",
+                todo="take the capture again, or remove the odd image",
             )
         refuse_odd_floats(image.stored, path)
         self.claims[path] = image.claim
@@ -265,7 +265,7 @@ def _by_name(folder: Path) -> dict[str, Path]:
 
 
 def _in_order(folder: Path, section: CaptureSection, lights: Sequence[str]) -> tuple[dict[str, Path], Sequence[str] | None, list[str]]:
-    """The images by name, the lights that capture.yaml takes, and what is to be said where the images' order names them."""
+    """The images by name, the lights that capture.yaml takes, and notes where the images' order names them."""
     files, pattern = named_by_capture(folder, section.images, lights, _by_name(folder)), _pattern_of(section.lights)
     if pattern is None:
         return files, section.lights, []

@@ -67,7 +67,7 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     InputError
         It is not there, cut off, of another kind or of another version.
     """
-    todo = "write it anew with lpcal export" if kind == "calibration" else "write it anew with the command that makes it"
+    todo = "write it again with lpcal export" if kind == "calibration" else "write it again with the command that makes it"
     if not path.is_file():
         todo = "run lpcal run: it makes it" if kind == "calibration" else todo
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
@@ -106,7 +106,7 @@ def read_provenance(path: Path, kind: str) -> Provenance:
 
 
 def read_record[Record](path: Path, kind: str, command: str, record_of: Callable[[dict[str, Any]], Record]) -> Record:
-    """What a document of a kind holds, by `record_of`; `command` writes it anew.
+    """What a document of a kind holds, by `record_of`; `command` writes it again.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def read_record[Record](path: Path, kind: str, command: str, record_of: Callable
     except InputError as error:
         if isinstance(error.__cause__, (KeyError, TypeError, ValueError, IndexError)):
             found = f"{error.__cause__} is lacking or garbled"
-            raise InputError(found, where=str(path), needed=f"a whole {kind} file", todo=f"write it anew with {command}") from error
+            raise InputError(found, where=str(path), needed=f"a whole {kind} file", todo=f"write it again with {command}") from error
         raise
 
 

@@ -73,27 +73,27 @@ def _positive(value: Any) -> float | None:
 
 
 def exposures(taken: Mapping[Path, TakenAt | None], stated: Mapping[Path, float | None]) -> tuple[dict[Path, float], list[str]]:
-    """Exposure of each image, and what is to be said of it.
+    """Exposure of each image, and notes on it.
 
     What is stated counts; where nothing is, what the files say, if all of them do. Where both are there and contradict each other by more
     than cameras round, that is said.
     """
     known = {path: one for path, one in taken.items() if one is not None}
-    told = {path: value for path, value in stated.items() if value is not None}
+    by_hand = {path: value for path, value in stated.items() if value is not None}
     if not known:
-        return {path: told.get(path, 1.0) for path in taken}, []
+        return {path: by_hand.get(path, 1.0) for path in taken}, []
     first = next(iter(known.values()))
     by_file = {path: one.relative_to(first) for path, one in known.items()}
     apart = max(by_file.values()) / min(by_file.values()) > 1 + ROUNDED
     said = [f"the aperture changes: {words}" for words in _apertures(known)]
-    if told:
-        ratio = {path: told[path] / by_file[path] for path in told if path in by_file}
+    if by_hand:
+        ratio = {path: by_hand[path] / by_file[path] for path in by_hand if path in by_file}
         middle = float(np.median(list(ratio.values()))) if ratio else 1.0
         odd = [path for path, value in ratio.items() if abs(value / middle - 1) > ROUNDED]
         if odd:
             names = ", ".join(f"{path.name} ({known[path].words()})" for path in odd[:3]) + (", ..." if len(odd) > 3 else "")
             said.append(f"capture.yaml's exposures count, but {names} say otherwise in their EXIF tags")
-        return {path: told.get(path, 1.0) for path in taken}, said
+        return {path: by_hand.get(path, 1.0) for path in taken}, said
     lacking = [path.name for path in taken if path not in known]
     if lacking and apart:
         return dict.fromkeys(taken, 1.0), [

@@ -28,7 +28,7 @@ def capture_of(content: ExchangeContent) -> LinearImages:
 
 
 def write_images(content: ExchangeContent, target: Path, names: list[str] | None = None, mask: str = "mask") -> list[str]:
-    """Write the images of the calibration's lights as ``<name>.png``, by default called after them, and the mask; what is to be said.
+    """Write the images of the calibration's lights as ``<name>.png``, by default called after them, and the mask; notes.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A camera as a format can hold it: with as many coefficients as there is room for, fitted anew where they do not suffice."""
+"""A camera as a format can hold it: with as many coefficients as there is room for, fitted again where they do not suffice."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ MODELS = {4: "opencv4", 5: "opencv5", 8: "opencv8"}
 
 
 def with_room_for(camera: Camera, count: int) -> tuple[Camera, list[str]]:
-    """The camera with `count` (4, 5 or 8) coefficients of distortion k1 k2 p1 p2 k3 k4 k5 k6, and what is to be said of it.
+    """The camera with `count` (4, 5 or 8) coefficients of distortion k1 k2 p1 p2 k3 k4 k5 k6, and notes on it.
 
-    Fewer are filled up with zeros. More that are not zero, or a splined lens, are fitted anew over the image; how far the two lie apart
+    Fewer are filled up with zeros. More that are not zero, or a splined lens, are fitted again over the image; how far the two lie apart
     is said in pixels.
     """
     if camera.spline is None and not np.any(camera.distortion[count:]):
@@ -34,5 +34,5 @@ def with_room_for(camera: Camera, count: int) -> tuple[Camera, list[str]]:
         parameters=(),
         covariance=None,
     )
-    said = f"no place for {why}: the lens is fitted anew with {', '.join(COEFFICIENTS[:count])}; over the image the two lie"
+    said = f"no place for {why}: the lens is fitted again with {', '.join(COEFFICIENTS[:count])}; over the image the two lie"
     return fitted, [f"{said} {found.rms_px:.3g} px apart (rms), {found.largest_px:.3g} px at most"]

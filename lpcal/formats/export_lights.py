@@ -38,7 +38,7 @@ def _lobes(lights: tuple[Light, ...]) -> tuple[list[CosineLobe], list[str]]:
 
 
 def reference_C(content: ExchangeContent) -> tuple[Array, list[str]]:
-    """The point (3,) in C that directions to near lights are counted from, and what is to be said of it."""
+    """The point (3,) in C that directions to near lights are counted from, and notes on it."""
     focus_C = content.focus_C()
     if focus_C is not None:
         return focus_C, []

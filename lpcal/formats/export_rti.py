@@ -141,7 +141,7 @@ def _harmonics(content: ExchangeContent, most: int = relightable.HSH_TERMS[-1]) 
 
 
 def _given(content: ExchangeContent, terms: int) -> tuple[Array, Image, list[str]]:
-    """Directions (L, 3), display-encoded images (L, H, W, 3), and what is to be said.
+    """Directions (L, 3), display-encoded images (L, H, W, 3), and notes.
 
     Raises
     ------

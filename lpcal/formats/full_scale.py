@@ -52,11 +52,11 @@ def refuse_odd_floats(pixels: npt.NDArray[Any], path: Path) -> None:
     """
     odd = pixels.size - int(np.isfinite(pixels).sum()) if pixels.dtype.kind == "f" else 0
     if odd:
-        raise InputError(f"{odd} pixels that are no finite numbers", where=str(path), needed="finite numbers", todo="write them anew")
+        raise InputError(f"{odd} pixels that are no finite numbers", where=str(path), needed="finite numbers", todo="write them again")
 
 
 def negatives(least: dict[Path, float], divisor: float) -> tuple[str, ...]:
-    """What is to be said of the images' least numbers, by path.
+    """Notes on the images' least numbers, by path.
 
     Raises
     ------

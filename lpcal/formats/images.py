@@ -120,7 +120,7 @@ def read_numbers(path: Path) -> Numbers:
     except cv2.error:
         stored = None
     if stored is None:
-        raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(PICTURES)}, whole", todo="copy it anew")
+        raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(PICTURES)}, whole", todo="copy it again")
     if data[:2] in {b"II", b"MM"}:
         stored = as_stored(stored, orientation(data))
     if stored.ndim == 3:
@@ -153,7 +153,7 @@ def refuse_cut(data: bytes, path: Path) -> None:
     if (data.startswith(JPEG_START) and data.rfind(JPEG_END) < data.rfind(JPEG_SCAN)) or (
         data.startswith(PNG_START) and PNG_END not in data[-(1 << 16) :]
     ):
-        raise InputError("the image is cut off", where=str(path), needed="a whole file", todo="copy it anew")
+        raise InputError("the image is cut off", where=str(path), needed="a whole file", todo="copy it again")
 
 
 def refuse_odd_head(data: bytes, path: Path) -> None:
@@ -179,7 +179,7 @@ def refuse_odd_head(data: bytes, path: Path) -> None:
         raise InputError(f"more than {MOST_PIXELS / 1e6:.0f} megapixels", where=str(path), needed="a smaller image") from None
     except OSError as error:
         if "decoder error" in str(error):  # OpenCV fills the rest with whatever it has
-            raise InputError("the image is damaged", where=str(path), needed="a whole file", todo="copy it anew") from error
+            raise InputError("the image is damaged", where=str(path), needed="a whole file", todo="copy it again") from error
     except (ValueError, SyntaxError, TypeError, KeyError, struct.error, OverflowError):
         return
 

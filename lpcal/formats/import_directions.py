@@ -32,7 +32,7 @@ def is_lp(path: Path) -> bool:
 
 
 def read_lp(path: Path, stated: str | None = None) -> tuple[Calibration, list[str]]:
-    """Read an .lp file, its vectors `stated` to be directions or positions, or neither; and what is to be said of it.
+    """Read an .lp file, its vectors `stated` to be directions or positions, or neither; and notes on it.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def is_table(path: Path) -> bool:
 
 
 def read_table(path: Path, stated: str | None = None) -> tuple[Calibration, list[str]]:
-    """Read a table of directions, and what is to be said of it.
+    """Read a table of directions, and notes on it.
 
     Raises
     ------
@@ -112,7 +112,7 @@ def read_table(path: Path, stated: str | None = None) -> tuple[Calibration, list
 
 
 def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, list[str]]:
-    """Unit vectors (N, 3) to the lights, x right, y up, z to the camera; what is to be said of how they came about."""
+    """Unit vectors (N, 3) to the lights, x right, y up, z to the camera; notes on how they came about."""
     unit = unit_rows(vectors, str(path))
     length = np.linalg.norm(vectors, axis=1)
     mean, notes = float(length.mean()), []
@@ -132,8 +132,8 @@ def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, 
         notes.append(f"vectors of length {length.min():.4g} to {length.max():.4g} are taken as directions, as stated")
     below = [k + 1 for k in np.flatnonzero(unit[:, 2] <= 0)]
     if below:
-        told = ", ".join(map(str, below[:8])) + (", ..." if len(below) > 8 else "")
-        notes.append(f"{len(below)} of {len(unit)} lights stand behind the object or at its horizon (z of 0 or less): light {told}")
+        listed = ", ".join(map(str, below[:8])) + (", ..." if len(below) > 8 else "")
+        notes.append(f"{len(below)} of {len(unit)} lights stand behind the object or at its horizon (z of 0 or less): light {listed}")
     if len(below) == len(unit):
         raise DisagreementError(
             "every light stands behind the object (z of 0 or less)",

@@ -1,7 +1,7 @@
 """Lights that other systems calibrated, as a Calibration: which format a file or folder is, and its reader.
 
 Each reader is one module of this package with ``is_one(path) -> bool`` and ``read(path) -> Calibration``; those of vectors alone take what
-the user states them to be, and return also what is to be said.
+the user states them to be, and return also notes.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def read_lights(path: Path) -> tuple[str, Calibration]:
 
 @dataclass(frozen=True)
 class Imported:
-    """Lights from a file: its format, what it holds, and what is to be said of it."""
+    """Lights from a file: its format, what it holds, and notes on it."""
 
     format: str
     calibration: Calibration

@@ -1,9 +1,9 @@
 """LUCES ``led_params.txt``: near lights in millimetres, in C, with a pinhole camera.
 
-A heading, ``N nrows ncols f x0 y0 mean_distance``, then ``Lx Ly Lz  Dx Dy Dz  PhiR PhiG PhiB  mu 0`` a light: position, emission
-axis, power of each channel, exponent of the cosine lobe. Files exist with width and height in either order: the centre of the image tells
-them apart. Lights are named after their images, 01, 02, ...
-Source: Mecca et al. 2021, LUCES: a dataset for near-field point light source photometric stereo, its readme.
+A heading, ``N nrows ncols f x0 y0 mean_distance``, then ``Lx Ly Lz  Dx Dy Dz  PhiR PhiG PhiB  mu 0`` a light: position, emission axis,
+power of each channel, exponent of the cosine lobe. Files exist with width and height in either order: the centre of the image distinguishes
+them. Lights are named after their images, 01, 02, ... Source: Mecca et al. 2021, LUCES: a dataset for near-field point light source
+photometric stereo, its readme.
 """
 
 from __future__ import annotations

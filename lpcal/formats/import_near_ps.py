@@ -85,7 +85,7 @@ def read(path: Path) -> Calibration:
 
 
 def nominal_point(S: Array) -> Array:
-    """A point (3,) on the camera's axis before the lights (N, 3): where their directions are counted from if nothing tells."""
+    """A point (3,) on the camera's axis before the lights (N, 3): where their directions are counted from if nothing states it."""
     return np.array([0.0, 0.0, max(float(S[:, 2].mean()), 0.0) + NOMINAL * _spread(S)])
 
 

@@ -18,7 +18,7 @@ HEAD_BYTES = 65536
 CAMERA_ENDINGS = {".cameramodel", ".xml", ".json", ".yml", ".yaml", ".bin"}
 """What names of camera files end in; the text of COLMAP's is looked into."""
 LIGHTS_ALONE = {"lp", "diligent", "luces", "near_ps"}
-"""Formats that `import_lights` reads, with what is to be said of them."""
+"""Formats that `import_lights` reads, with notes on them."""
 
 
 def is_own(path: Path) -> bool:

@@ -151,8 +151,10 @@ def positive(powers: Array, where: str) -> Array:
     bad = np.any(powers < 0, axis=1) | ~np.any(powers > 0, axis=1) | ~np.isfinite(powers).all(axis=1)
     if bad.any():
         k = int(np.argmax(bad))
-        told = " ".join(f"{value:g}" for value in powers[k])
-        raise InputError(f"light {k + 1} has the intensity {told}", where=where, needed="intensities above 0", todo="leave that light out")
+        stated = " ".join(f"{value:g}" for value in powers[k])
+        raise InputError(
+            f"light {k + 1} has the intensity {stated}", where=where, needed="intensities above 0", todo="leave that light out"
+        )
     return powers
 
 

@@ -64,7 +64,7 @@ def read_matrices(path: Path) -> dict[str, Array]:
             if unpacked[0] == MATRIX:
                 _keep(found, unpacked[1], order)
     except (ValueError, StopIteration, struct.error, zlib.error, UnicodeDecodeError) as error:
-        raise InputError("a MATLAB file that is cut off or damaged", where=str(path), needed="a whole one", todo="copy it anew") from error
+        raise InputError("a MATLAB file that is cut off or damaged", where=str(path), needed="a whole one", todo="copy it again") from error
     return found
 
 

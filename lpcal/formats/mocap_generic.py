@@ -27,7 +27,7 @@ def read_generic(text: str, path: Path, quaternion: str | None = None, units: st
     Raises
     ------
     InputError
-        Its columns cannot be told, or a row cannot be read.
+        Its columns cannot be identified, or a row cannot be read.
     """
     lines = [line if "," in line else ",".join(line.split()) for line in text.split("\n")]
     start, cells = _first_row(lines, path)

@@ -114,19 +114,19 @@ def _header(text: str, path: Path) -> _Header:
     at = next((i for i, row in enumerate(rows) if row and row[0].strip() == "Frame"), None)
     if at is None:
         raise InputError(
-            "no row that starts with Frame", where=f"{path}:1", needed="Motive's CSV with its header", todo="export it anew, header on"
+            "no row that starts with Frame", where=f"{path}:1", needed="Motive's CSV with its header", todo="export it again, header on"
         )
     labels = [row for row in rows[1:at] if any(cell.strip() for cell in row)]
     if len(labels) < 3:
         raise InputError(
-            f"{len(labels)} rows of labels above Frame", where=f"{path}:{at + 1}", needed="type, name, ID, category", todo="export it anew"
+            f"{len(labels)} rows of labels above Frame", where=f"{path}:{at + 1}", needed="type, name, ID, category", todo="export it again"
         )
     named = {row[1].strip().lower(): row for row in labels if len(row) > 1 and row[1].strip()}
     kinds, names, categories = named.get("type", labels[0]), named.get("name", labels[1]), labels[-1]
     axes = rows[at]
     time = next((i for i, cell in enumerate(axes) if cell.strip().lower().startswith("time") and cell.strip().lower() != "timecode"), None)
     if time is None:
-        raise InputError("no column Time", where=f"{path}:{at + 1}", needed="Time (Seconds)", todo="export it anew")
+        raise InputError("no column Time", where=f"{path}:{at + 1}", needed="Time (Seconds)", todo="export it again")
 
     def cell(row: list[str], place: int) -> str:
         return row[place].strip() if place < len(row) else ""

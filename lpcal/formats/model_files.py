@@ -116,12 +116,12 @@ def _write_meshes(draft: Path, model: ObjectModel) -> None:
     def solid(**more: Any) -> trimesh.Trimesh:
         return trimesh.Trimesh(vertices=model.vertices_A, faces=model.faces, vertex_normals=model.normals_A, process=False, **more)
 
-    told = {
+    attributes = {
         "sigma_m": model.sigma_m.astype(np.float32),
         "disagreement_m": model.disagreement_m.astype(np.float32),
         "views": model.seen_by.astype(np.uint8),
     }
-    ply: bytes = solid(vertex_colors=opaque, vertex_attributes=told).export(file_type="ply", vertex_normal=True)
+    ply: bytes = solid(vertex_colors=opaque, vertex_attributes=attributes).export(file_type="ply", vertex_normal=True)
     frame = " ".join(model.frame.encode("ascii", "replace").decode().split())
     (draft / "mesh.ply").write_bytes(ply.replace(b"element vertex", f"comment frame {frame}, metres\nelement vertex".encode(), 1))
     (draft / "mesh.glb").write_bytes(solid(vertex_colors=opaque).export(file_type="glb", include_normals=True))

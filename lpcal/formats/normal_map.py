@@ -1,6 +1,6 @@
 """Normal maps from elsewhere: .npz and .npy arrays, .png and .tif images.
 
-Normals that face the camera tell their own axes: those with z towards the viewer (x right, y up, as in normals_gl.png) have z > 0, those
+Normals that face the camera show their own axes: those with z towards the viewer (x right, y up, as in normals_gl.png) have z > 0, those
 in C (x right, y down, z forward) z < 0. Whole numbers 0..max, and floats none of which is negative, stand for -1..1.
 """
 
@@ -112,7 +112,7 @@ def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:
                 return values, np.asarray(_array(stream, path) > 0)
     except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
         raise InputError(
-            f"cannot be read ({str(error)[:80]})", where=str(path), needed="a whole .npz or .npy file", todo="write it anew"
+            f"cannot be read ({str(error)[:80]})", where=str(path), needed="a whole .npz or .npy file", todo="write it again"
         ) from error
 
 
@@ -124,14 +124,14 @@ def _array(stream: IO[bytes], path: Path) -> npt.NDArray[Any]:
         size = math.prod(shape) * kind.itemsize
     except (KeyError, ValueError, TypeError, SyntaxError, tokenize.TokenError, RecursionError) as error:
         raise InputError(
-            "its head is no .npy array's", where=str(path), needed="a whole .npz or .npy file", todo="write it anew"
+            "its head is no .npy array's", where=str(path), needed="a whole .npz or .npy file", todo="write it again"
         ) from error
     if kind.kind not in "fiub" or not 0 < size <= MOST_BYTES:
         found = f"an array {'x'.join(map(str, shape))[:40]} of {kind.name[:20]}"
         raise InputError(found, where=str(path), needed=f"numbers, up to {MOST_BYTES / 1e9:g} GB")
     stored = stream.read(size)
     if len(stored) < size:
-        raise InputError(f"cut off: {len(stored)} bytes of {size}", where=str(path), needed="a whole file", todo="write it anew")
+        raise InputError(f"cut off: {len(stored)} bytes of {size}", where=str(path), needed="a whole file", todo="write it again")
     return np.frombuffer(stored, kind).reshape(shape, order="F" if by_column else "C")
 
 

@@ -43,7 +43,7 @@ def read_raw_photograph(path: Path) -> tuple[Image, float, TakenAt | None]:
         with rawpy.imread(str(path)) as raw:
             return (*_pixels(raw, rawpy), _taken(raw))
     except (rawpy.LibRawError, OSError, ValueError) as error:
-        raise InputError(f"cannot be read as a raw file: {error}", where=str(path), needed="a whole one", todo="copy it anew") from error
+        raise InputError(f"cannot be read as a raw file: {error}", where=str(path), needed="a whole one", todo="copy it again") from error
 
 
 def _pixels(raw: Any, rawpy: Any) -> tuple[Image, float]:

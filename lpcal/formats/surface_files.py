@@ -55,7 +55,7 @@ OUTPUTS = {
     "glb": "mesh.glb",
     "page": PAGE,
 }
-"""The files of a surface beside summary.json, by the word that asks for each."""
+"""The files of a surface besides summary.json, by the word that asks for each."""
 FILES = {*OUTPUTS.values(), SUMMARY}
 
 

@@ -33,7 +33,7 @@ NOT_TEXT = re.compile(r"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 MORE_CELLS = 1.3
 """Cells of a row of whole numbers, in those of the names above it, from which they are halves of numbers with decimal commas."""
 SAMPLE_LINES = 40
-"""Lines that are looked at to tell what stands between the cells."""
+"""Lines that are looked at to find the delimiter."""
 DECIMAL_COMMA = re.compile(r"(?<![\d,.])([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)(?![\d,.])")
 """A number with a comma for its point, between cells that something else divides."""
 

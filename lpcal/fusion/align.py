@@ -6,8 +6,8 @@ twist xi_i and its bending b_i; H_i the tracked pose::
     H_AC,i = exp(xi_i + by_handeye,i e) H_i,      delta_i = c + bending(b_i)
     cost   = sum_pairs sum_points rho(n . (p - q) / sigma) / m  +  priors of e, c, xi_i, b_i
 
-m counts the points that share one error: a residual's neighbours within a knot's cell are off together. rho is Geman and McClure's, so
-that what is not the same surface has no say. Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for normals of both.
+m counts the points that share one error: a residual's neighbours within a knot's cell are off together. rho is Geman and McClure's, so that
+what is not the same surface has no weight. Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for normals of both.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ def _start(views: Sequence[PlacedView]) -> list[Placed]:
 
 
 def sampled(view: PlacedView, count: int) -> tuple[Index, Index]:
-    """Pixels of a view that bear witness, on a square grid, about so many."""
+    """Pixels of a view that can be compared, on a square grid, about so many."""
     step = max(int(np.sqrt(view.witness.sum() / count)), 1)
     row, column = np.nonzero(view.witness[step // 2 :: step, step // 2 :: step])
     return row * step + step // 2, column * step + step // 2

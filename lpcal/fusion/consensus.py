@@ -5,8 +5,8 @@ Symbols: for views i, j at their tracked poses, of the points of i that j should
     A_ij = agree / (agree + contradict),      A_i = sum_j weight A / sum_j weight   over both ways round
 
 A view that stands elsewhere puts its points where others see through, or sees through theirs. The worst is left out, the rest is judged
-anew without it, until all that are left agree: each with most of the others. After the alignment a view that had to move, or to grow, by
-far more than its sigmas say is left out as well, and the rest is aligned anew.
+again without it, until all that are left agree: each with most of the others. After the alignment a view that had to move, or to grow, by
+far more than its sigmas say is left out as well, and the rest is aligned again.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ LEAST_AGREEMENT = 0.75
 BELOW_OTHERS = 0.12
 """How far under the median view's share a view must lie to be left out: where all views are poor, none is the odd one."""
 HEARD = 0.4
-"""Share of a view's points that must be confirmed at its tracked pose for it to be heard again once the others are aligned."""
+"""Share of a view's points that must be confirmed at its tracked pose for it to be reconsidered once the others are aligned."""
 MOST_HEARD_SIGMAS = 3.0
-"""By how many of its sigmas the distance of a view that is heard again may have to change: one that is 20 mm too far is not taken in."""
+"""By how many of its sigmas the distance of a reconsidered view may have to change: one that is 20 mm too far is not taken in."""
 FEWEST_POINTS = 30
 """Fewest points in common that say anything of a pair."""
 MOST_SIGMAS = 6.0

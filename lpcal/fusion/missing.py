@@ -8,7 +8,7 @@ behind the model or a cap (a depth buffer)::
     gain = sum_unseen a_s + w sum_once a_s              over the samples that it sees
 
 Candidates look at the middle from a sphere of directions within REACH of a stop, at the views' own distance, where the wings serve as they
-are; and nearer and farther, where they would have to be set anew. The best is taken, what it shows counts as seen, and so on.
+are; and nearer and farther, where they would have to be set again. The best is taken, what it shows counts as seen, and so on.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ DIRECTIONS = 160
 REACH_RAD = float(np.radians(75.0))
 """How far from the nearest stop a direction may lie: beyond it a floor or a wall is as likely as a place to stand."""
 OTHER_DISTANCES = (0.7, 1.4)
-"""Distances over the usual one at which the panel might stand with its wings set anew."""
+"""Distances over the usual one at which the panel might stand with its wings set again."""
 WORTH_A_RESET = 1.25
-"""By how much more another distance must show to be named: wings that are set anew are calibrated anew."""
+"""By how much more another distance must show to be named: wings that are set again are calibrated again."""
 FACING = float(np.cos(np.radians(65.0)))
 """Least cosine between a sample's normal and the line of sight at which it counts as seen: beyond it normals are poor."""
 ONCE = 0.35

@@ -2,7 +2,7 @@ r"""From placed surfaces to a model, step by step.
 
 1. Points of every view are looked up in every other at the tracked poses; a view that the others contradict is left out (`consensus`).
 2. All pairs in one least-squares problem: poses, distances, slow bending (`align`); a view that had to move too far is left out as well.
-3. A view that was left out by its tracked pose is heard again: it is taken in if, aligned within its sigmas, it fits after all.
+3. A view that was left out by its tracked pose is reconsidered: it is taken in if, aligned within its sigmas, it fits after all.
 4. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean with their normals (`vertices`).
 5. What no view saw well, and where the panel should stand next (`missing`).
 """
@@ -44,7 +44,7 @@ def model_of(
     lights: Sequence[Light] | None = None,
     over: Over = in_turn,
 ) -> ObjectModel:
-    """The model of placed views; with the calibrated lights also what the views tell of them. `over` has its tiles of space worked on.
+    """The model of placed views; with the calibrated lights also what the views show of them. `over` has its tiles of space worked on.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-r"""What many views of one object tell of their common calibration: its lights, H_PC, and whether the rig has moved.
+r"""What many views of one object show of their common calibration: its lights, H_PC, and whether the rig has moved.
 
 Symbols: D the directions (L, 3) of the lights that a place faces, n its normal in C, e_l the relative error of a light's intensity, s_l
 that of its source (m), r_l its distance, P = I - n n^T::
@@ -42,7 +42,7 @@ UNKNOWN_INTENSITY, UNKNOWN_PLACE_M = 0.02, 0.003
 ROBUST = 2.5
 """Scale of the loss, in standard deviations of a difference."""
 RELAXED = 30.0
-"""By how much the prior is widened for the fit that tells the noise."""
+"""By how much the prior is widened for the fit that estimates the noise."""
 USUAL_SIZE = 1.18
 """The median length of a difference across a normal, of two directions with a standard deviation of 1: the square root of 2 ln 2."""
 MOVED_SIGMAS = 5.0
@@ -52,7 +52,7 @@ GAINED = 0.02
 
 
 def rig_evidence(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> RigEvidence:
-    """What the views tell of H_PC, of a scale of all distances, and of near lights."""
+    """What the views show of H_PC, of a scale of all distances, and of near lights."""
     H_PC_change, covariance = aligned.parameters[:6], aligned.covariance[:6, :6]
     prior = aligned.H_PC_covariance
     handeye_sigmas = surprise(H_PC_change, prior, covariance)
@@ -71,7 +71,7 @@ def rig_evidence(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> 
 
 
 def surprise(change: Array, prior: Array, posterior: Array) -> float:
-    """How far a change (n,) is from what its prior (n, n) let expect, in standard deviations, the rms over what the data tell of.
+    """Size of a change (n,) in standard deviations of its prior (n, n), rms over the directions that the data determine.
 
     The change scatters by ``prior - posterior``: little where the data are weak, so that a small change may be a large surprise.
     """

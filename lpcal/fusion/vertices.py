@@ -75,7 +75,7 @@ class Vertices:
     """How many see it."""
     normal_sigma_rad: Array
     loose_m2: float
-    """Area that was left out: one view alone sees it, and nothing tells well enough how far away it is."""
+    """Area that was left out: one view alone sees it, and its distance is not known well enough."""
 
 
 def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:

@@ -26,7 +26,7 @@ DEGREE = 5
 FITTED_RAYS = 4000
 """Rays that it is fitted to, about: 100 for each of its terms are plenty."""
 MARGIN_PX = 2
-"""Pixels beside a break or the mask's edge that bear no witness: normals there mix two surfaces."""
+"""Pixels next to a break or the mask's edge that are not compared: normals there mix two surfaces."""
 OUTSIDE_PX = 6
 """Pixels beside the mask from where on a view is taken to see the background: an outline is sure within some."""
 KEPT_PX = OUTSIDE_PX + 2
@@ -34,9 +34,9 @@ KEPT_PX = OUTSIDE_PX + 2
 CONE_SPARE_RAD = 0.01
 """By how much the cone about an image is wider than its corners' rays, radians: some pixels, for lenses whose rim bends."""
 STEEP = 0.25
-"""Least cosine between the normal and the line of sight of a pixel that bears witness, 75 degrees: beyond it a pixel spans too much."""
+"""Least cosine between the normal and the line of sight of a pixel that is compared, 75 degrees: beyond it a pixel spans too much."""
 UNSURE_DEG = 12.0
-"""Normals whose standard deviation is larger bear no witness: they are filled in from their neighbours, not measured."""
+"""Normals whose standard deviation is larger are not compared: they are filled in from their neighbours, not measured."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class PlacedView:
     """(H, W, 3), linear."""
     component: Labels
     witness: Mask
-    """Pixels that bear witness of the surface: measured, not too steep, away from edges."""
+    """Pixels that can be compared with other views: measured, not too steep, away from edges."""
     whole: Mask
     """(H-1, W-1) squares of four pixels of one piece, without a break between them."""
     normal_std_rad: Array

@@ -73,7 +73,7 @@ def surface_of(state: Sequence[Placed], step_m: float | None = None, over: Over 
 
 
 def _all_points(one: Placed) -> Array:
-    """Every second point of a view that bears witness."""
+    """Every second point of a view that can be compared."""
     row, column = np.nonzero(one.view.witness)
     row, column = row[::2], column[::2]
     pixel = np.column_stack([column, row]).astype(float)

@@ -55,7 +55,7 @@ NO_WAY_DOWN = 1e12
 
 @dataclass(frozen=True)
 class SolverOptions:
-    """Knobs of the descent."""
+    """Options of the descent."""
 
     iterations: int = 60
     damping: float = 1e-6
@@ -207,7 +207,7 @@ def solve(
     DegenerateError
         The information is singular: the data leave a direction undetermined; it is named.
     ConvergenceError
-        The cost still falls after the last iteration, by more than no datum would notice, or is not finite.
+        The cost still falls after the last iteration, noticeably, or is not finite.
     """
     options = options or SolverOptions()
     layout = Layout(dict(blocks), eliminate)

@@ -114,7 +114,7 @@ def board_scale_sigma(H_OP: Array, H_CB: Array) -> float:
     """One standard deviation of `board_scale`, by leaving out stretches of the session, one after another.
 
     Unlike the spread of the residuals it knows of errors that neighbours share and of those of R_PC, which every stretch's absence gives
-    anew. Source: the delete-d jackknife, Efron & Tibshirani, An introduction to the bootstrap (1993).
+    again. Source: the delete-d jackknife, Efron & Tibshirani, An introduction to the bootstrap (1993).
     """
     views = np.arange(len(H_OP))
     parts = np.array_split(views, min(STRETCHES, len(views)))

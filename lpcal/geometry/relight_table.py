@@ -1,4 +1,4 @@
-"""Images as a table over the light's direction: Lambert's law where it holds, what it leaves over between the lights, few components.
+"""Images as a table over the light's direction: Lambert's law, its residuals between the lights, few components.
 
 Symbols: unit directions d_l (u, v, w) of L lights, u right, v up, w to the camera; display-encoded images S_l (N,), gamma g; per value
 b (3,)::
@@ -87,7 +87,7 @@ def table(directions: Array, images: Image, gamma: float, components: int, insid
 
 
 class _Law:
-    """What lights (L, 3) at images tell of the images under other lights (M, 3)."""
+    """Predicts the images under other lights (M, 3) from images under lights (L, 3)."""
 
     def __init__(self, directions: Array, asked: Array, gamma: float) -> None:
         self.directions, self.asked, self.gamma = directions, asked, gamma

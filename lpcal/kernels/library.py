@@ -64,7 +64,7 @@ def who_works() -> str:
 
 
 def kernel(name: str) -> Callable[..., None] | None:
-    """The compiled kernel of a name, which checks the types of what it is given; None where its twin has to do."""
+    """The compiled kernel of a name, which checks the types of what it is given; None where its twin does the work."""
     return None if os.environ.get(SWITCH) == "numpy" else _loaded().get(name)
 
 

@@ -1,6 +1,6 @@
 """``lpcal diff``: two calibrations read, compared, said in a table, and drawn over each other.
 
-A surface's folder, or another method's normals, beside a file of the truth.
+A surface's folder, or another method's normals, compared with a file of the truth.
 
 ``lpcal intrinsics --compare OTHER``: how far another calibration projects from this one, in pixels.
 
@@ -98,7 +98,7 @@ def verdict(change: CalibrationChange) -> str:
 
 
 def lines_of(change: CalibrationChange) -> list[str]:
-    """The table, for people: each figure beside what an unmoved rig shows."""
+    """The table, for people: each figure with what an unmoved rig shows."""
     by_spheres = np.isfinite(change.highlight_px)
     lines = [f"{'light':<12} {'moved, mm':>18} {'axis turned, deg':>20} {'power, %':>18}"]
     lines += [_light_line(light) for light in change.lights]

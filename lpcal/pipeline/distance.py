@@ -108,8 +108,8 @@ def look_at(workspace: Workspace, boards: BoardPoses) -> tuple[list[tuple[str, s
     if said:
         what, _, todo = said.partition(": ")
         wrong.append(DisagreementError(what, where=where, needed="the beam as it is mounted", todo=todo))
-    told = f"{evidence.readings_used} of {len(found.readings)} readings on the board, {1e3 * evidence.residual_rms_m:.1f} mm rms"
-    return [("distance", told), *([("", evidence.weakest)] if evidence.weakest else [])], wrong
+    line = f"{evidence.readings_used} of {len(found.readings)} readings on the board, {1e3 * evidence.residual_rms_m:.1f} mm rms"
+    return [("distance", line), *([("", evidence.weakest)] if evidence.weakest else [])], wrong
 
 
 def drawn_of(section: DistanceSensorSection) -> BeamDrawn:

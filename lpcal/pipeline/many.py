@@ -109,7 +109,7 @@ def reconstruct_all(
     Parameters
     ----------
     engine : where they are worked on; None: one after the other, here
-    anew : whether what stands and is up to date is done again
+    again : whether what stands and is up to date is done again
 
     Raises
     ------
@@ -127,9 +127,9 @@ def reconstruct_all(
     done = _here(jobs, progress) if engine is None or len(jobs) == 1 else _there(jobs, engine, progress)
     if len(done) == 1 and done[0].error is not None:
         raise done[0].error
-    told = [f"{task.name} was not reconstructed: {one.error}" for task, one in zip(tasks, done, strict=True) if one.error is not None]
+    remarks = [f"{task.name} was not reconstructed: {one.error}" for task, one in zip(tasks, done, strict=True) if one.error is not None]
     documents = [one.document for one in done if one.document]
-    told += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
+    remarks += [f"{document['name']}: {note}" for document in documents for note in document["notes"]]
     summary = [_line(task, one) for task, one in zip(tasks, done, strict=True) if one.document]
     codes = [one.exit_code for one in done if one.exit_code]
     if root is not None:
@@ -138,9 +138,9 @@ def reconstruct_all(
             page = write_collection(root, [(task, one.state, one.document, one.error) for task, one in zip(tasks, done, strict=True)])
             summary.append(f"written {page}")
         except LpcalError as error:  # a full disk has room for no table either; what became of each capture is said all the same
-            told.append(str(error))
+            remarks.append(str(error))
             codes.append(error.exit_code)
-    return Outcome(summary, {"surfaces": documents}, told, exit_code=next(iter(codes), 0))
+    return Outcome(summary, {"surfaces": documents}, remarks, exit_code=next(iter(codes), 0))
 
 
 def _line(task: Task, done: Done) -> str:

@@ -208,7 +208,7 @@ def mark(
     try:
         server = ThreadingHTTPServer((LOOPBACK, port), handler_of(at, token))
     except (OSError, OverflowError) as error:
-        raise UsageError(f"port {port} cannot be had: {error}", where="--port", needed="a free port, or 0 for any") from error
+        raise UsageError(f"port {port} cannot be used: {error}", where="--port", needed="a free port, or 0 for any") from error
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         address = f"http://{LOOPBACK}:{server.server_address[1]}/?token={token}"

@@ -76,7 +76,7 @@ def placed(stated: StatedPlace, calibration: Calibration, recorded: Recorded, ca
             "the calibration holds no H_PC" if calibration.H_PC is None else "no recording: mocap.file of the rig, or mocap: beside time"
         )
         if stated.body is not None:
-            raise InputError(lacking, where=where, needed="what tells where the panel and the body were")
+            raise InputError(lacking, where=where, needed="what says where the panel and the body were")
         return None, (UNPLACED.format(lacking),)
     try:
         found = place(
@@ -92,7 +92,7 @@ def placed(stated: StatedPlace, calibration: Calibration, recorded: Recorded, ca
 
 
 def placed_said(document: dict[str, Any] | None) -> str:
-    """Where a surface lies, of the placement in its summary.json; empty where nothing tells it."""
+    """Where a surface lies, of the placement in its summary.json; empty where it is not known."""
     if document is None:
         return ""
     document = plain(document)
@@ -104,7 +104,7 @@ def placed_said(document: dict[str, Any] | None) -> str:
 
 
 def made_from(stated: StatedPlace, recorded: Recorded) -> list[object]:
-    """What a capture's place is made from beside its own files and the calibration, for a digest."""
+    """What a capture's place is made from besides its own files and the calibration, for a digest."""
     path = stated.recording or recorded.path
     if stated.t_camera_s is None or path is None or not path.exists():
         return []

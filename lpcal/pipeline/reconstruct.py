@@ -46,7 +46,7 @@ from lpcal.surface.pieces import flatness
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
-"""What --mask takes beside a file."""
+"""What --mask takes besides a file."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Wishes:
     keep: Keep = "object"
     use: tuple[str, ...] | None = None
     outputs: tuple[str, ...] = tuple(OUTPUTS)
-    """Which files beside summary.json, by formats.surface_files.OUTPUTS."""
+    """Which files besides summary.json, by formats.surface_files.OUTPUTS."""
     jobs: int | None = None
     """Threads that share a capture's bands of pixels; None: one a core."""
     sensor: StatedSensor = field(default_factory=StatedSensor)
@@ -370,7 +370,7 @@ def integrate_file(
     camera, working_m = (None, None) if calibration is None else _camera(calibration)
     distance_m = distance_m or working_m or DISTANCE_M
     surface = integrate(values, camera, inside, distance_m=distance_m, green=green, integrator=integrator, name=normals.stem)
-    *told, _ = surface.warnings
+    *remarks, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
     inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
     figures = document_of(surface.figures)
@@ -383,7 +383,7 @@ def integrate_file(
     write_surface(target, surface, mesh(surface), document)
     count = len(surface.components)
     line = f"{surface.name}: {surface.mask.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
-    return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in told)], {"surfaces": [document]})
+    return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in remarks)], {"surfaces": [document]})
 
 
 def _camera(path: Path) -> tuple[Camera | None, float | None]:

@@ -133,7 +133,7 @@ def _looked(
     progress: Progress,
 ) -> dict[str, SphereView | LpcalError]:
     """What the images of each sphere show, or what is wrong with them; the cores share the spheres."""
-    told, done = threading.Lock(), 0
+    lock, done = threading.Lock(), 0
 
     def look(item: tuple[str, SphereSection]) -> SphereView | LpcalError:
         nonlocal done
@@ -147,7 +147,7 @@ def _looked(
             )
         except (DegenerateError, DisagreementError) as error:
             found = error
-        with told:
+        with lock:
             done += 1
             progress("spheres", done, len(spheres))
         return found
@@ -183,7 +183,7 @@ def _advice(solution: LightsSolution) -> list[str]:
     if advice is None:
         return []
     gain = f"directions from +- {fine(advice.direction_std_deg, 3)} to +- {fine(advice.with_it_deg, 3)} deg"
-    return [f"one more chrome sphere tells most {advice.where}: {gain}"]
+    return [f"one more chrome sphere helps most {advice.where}: {gain}"]
 
 
 def _lobe_files(workspace: Workspace) -> list[tuple[str, Path]]:

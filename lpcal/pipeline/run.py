@@ -88,7 +88,7 @@ def look_ahead(workspace: Workspace, stages: Sequence[Stage]) -> None:
 
 
 def run_stage(workspace: Workspace, stage: Stage, progress: Progress) -> Outcome:
-    """Run one stage after whatever it rests on; what comes before it and was out of date is told on top.
+    """Run one stage after whatever it rests on; what comes before it and was out of date is reported first.
 
     A stage that the rig has not the sections for says so at once.
     """
@@ -214,7 +214,7 @@ def demo(target: Path, progress: Progress) -> Outcome:
 
 
 def compare(workspace: Workspace) -> tuple[list[str], dict[str, Any]]:
-    """Errors of what was found, each beside the sigma that lpcal stated, as lines and as figures."""
+    """Errors of what was found, each with the sigma that lpcal stated, as lines and as figures."""
     truth = workspace.folder / "truth"
     lines: list[str] = []
     figures: dict[str, Any] = {}

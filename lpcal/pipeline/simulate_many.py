@@ -91,14 +91,14 @@ def simulate_many(
     said = [done[number] for number in range(count)]
     errors = [one for one in said if isinstance(one, LpcalError)]
     lines = [one for one in said if isinstance(one, str)]
-    told = [
+    failures = [
         f"{drawing.folder.name} was not drawn: {one}" for drawing, one in zip(drawings, said, strict=True) if isinstance(one, LpcalError)
     ]
     same = sum(line.endswith("(up to date)") for line in lines)
     counted = f"{count} rigs: {len(lines) - same} drawn, {same} up to date, {len(errors)} failed"
     document = {"folder": str(root), "seeds": list(seeds), "rigs": [drawing.folder.name for drawing in drawings], "failed": len(errors)}
     return Outcome(
-        [*lines, counted], document, told, next_command=f"lpcal run {root}", exit_code=next((error.exit_code for error in errors), 0)
+        [*lines, counted], document, failures, next_command=f"lpcal run {root}", exit_code=next((error.exit_code for error in errors), 0)
     )
 
 

@@ -257,7 +257,7 @@ def watch(
 ) -> Outcome:
     """Watch a folder until nothing has come for `idle_s` seconds (None: until it is interrupted).
 
-    `home` is the rig's folder: its calibration tells how far a capture should stand away, its newest model what it still lacks.
+    `home` is the rig's folder: its calibration gives how far away a capture should stand, its newest model what it still lacks.
 
     Raises
     ------
@@ -278,7 +278,7 @@ def watch(
             executor.submit(os.getpid).result()  # a process that is there before the first image is
         if address:
             say(f"watching {folder}; the page: {address}")
-        last, told = time.monotonic(), ""
+        last, announced = time.monotonic(), ""
         while idle_s is None or at.pending or time.monotonic() - last < idle_s:
             waiting = at.new()
             begun = time.monotonic()
@@ -292,9 +292,9 @@ def watch(
                 for line in at.room.model:
                     say(f"    {line}")
             last = time.monotonic() if waiting or spheres else last
-            if (waiting or spheres) and at.session.following() != told:
-                told = at.session.following()
-                say(f"    next: {told}")
+            if (waiting or spheres) and at.session.following() != announced:
+                announced = at.session.following()
+                say(f"    next: {announced}")
             sleep(LOOK_S)
     found = at.state()
     lines = [f"{found['images']} images, {found['boards']} with the board, {100 * found['covered']:.0f} % of the image covered"]
@@ -341,7 +341,7 @@ def _served(at: Watch, port: int | None) -> Iterator[str | None]:
     try:
         server = ThreadingHTTPServer((LOOPBACK, port), Handler)
     except (OSError, OverflowError) as error:
-        raise UsageError(f"port {port} cannot be had: {error}", where="--port", needed="a free port, or 0 for any") from error
+        raise UsageError(f"port {port} cannot be used: {error}", where="--port", needed="a free port, or 0 for any") from error
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         yield f"http://{LOOPBACK}:{server.server_address[1]}/"

@@ -145,7 +145,7 @@ class Stage:
     beside: dict[str, Kind] = field(default_factory=dict)
     """Files that it writes under calib/ and that are no documents of lpcal's."""
     look_closer: Callable[[Workspace], None] = lambda _: None
-    """What else can be found out about its inputs before anything is computed; raises as the stage itself would."""
+    """What else can be checked about its inputs before anything is computed; raises as the stage itself would."""
 
     def look(self, workspace: Workspace) -> None:
         """Before anything is computed: the files that panel.yaml names for it are there, and its outputs replace nothing else.

@@ -49,7 +49,7 @@ class HandEye(Shown):
     """H_PC and H_OB with their covariances, the clock offset (t_camera = t_mocap + offset), and what became of each view.
 
     Where the body `carries` the board, before a camera that stands still in the room, ``H_PC`` holds H_OC, the camera in the room, and
-    ``H_OB`` holds H_PB, the board on the body: ``H_PO H_OC H_CB = H_PB`` is the same equation. All that is written bears `names`.
+    ``H_OB`` holds H_PB, the board on the body: ``H_PO H_OC H_CB = H_PB`` is the same equation. Files and messages use the names in `names`.
 
     Parameters
     ----------
@@ -259,7 +259,7 @@ class Light(Shown):
 
 @dataclass(frozen=True)
 class SphereFinding:
-    """What one sphere says by itself."""
+    """What one sphere shows on its own."""
 
     name: str
     kind: SphereKind
@@ -328,7 +328,7 @@ class Calibration(Shown):
     sensor : StatedSensor
         What is stated of the sensor where there is no camera; else the camera holds it.
     warnings : tuple of str
-        What is to be said of the file that it comes from, in words.
+        Remarks on the file that it was read from.
     origin : str
         The format of another system that it was read from.
     carries : {"camera", "board"}
@@ -355,7 +355,7 @@ class Calibration(Shown):
     sensor: StatedSensor = field(default_factory=StatedSensor)
     """What is stated of the sensor where there is no camera; else the camera holds it."""
     warnings: tuple[str, ...] = ()
-    """What is to be said of the file that it comes from, in words."""
+    """Remarks on the file that it was read from."""
     origin: str = ""
     """The format of another system that it was read from."""
     carries: Carries = "camera"

@@ -53,7 +53,7 @@ class Camera(Shown):
     spline : ndarray, optional
         Splined: mrcal's vector, core and knots.
     size_guessed : bool
-        Whether the image size was made out from the principal point: images of about that size tell the true one.
+        Whether the image size was made out from the principal point: images of about that size replace it.
 
     Examples
     --------
@@ -81,11 +81,11 @@ class Camera(Shown):
     spline: Array | None = None
     """Splined: mrcal's vector, core and knots."""
     size_guessed: bool = False
-    """The image size was made out from the principal point: images of about that size tell the true one."""
+    """The image size was made out from the principal point: images of about that size replace it."""
 
     def of_images(self, size: tuple[int, int]) -> Camera:
         """The camera with the images' (width, height) where its own is guessed and theirs is about that; else as it is."""
-        near = all(abs(told - own) <= SIZE_DOUBT * own for told, own in zip(size, self.image_size, strict=True))
+        near = all(abs(given - own) <= SIZE_DOUBT * own for given, own in zip(size, self.image_size, strict=True))
         return replace(self, image_size=size, size_guessed=False) if self.size_guessed and near else self
 
     def std_of(self, parameter: str) -> float:

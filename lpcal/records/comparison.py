@@ -40,7 +40,7 @@ class LightChange:
 
 @dataclass(frozen=True)
 class PartChange:
-    """A part of the rig that is one: all lights together, the hand-eye, the camera. NaN where nothing tells."""
+    """A part of the rig that is one: all lights together, the hand-eye, the camera. NaN where it is not known."""
 
     moved: float = float("nan")
     """Metres; pixels rms for the camera."""

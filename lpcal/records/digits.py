@@ -1,4 +1,4 @@
-"""How many digits an uncertainty is written with: never so few that it reads as nought."""
+"""How many digits an uncertainty is written with: never so few that it reads as zero."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable
 
 MOST_DECIMALS = 6
-"""Decimals after which a size is written with an exponent instead: longer numbers are not read but counted."""
+"""Decimals after which a size is written with an exponent instead: longer numbers are hard to read."""
 
 
 def fine(size: float, decimals: int = 2) -> str:
-    """A sigma or a difference with two significant digits at least, some decimals at least: never 0.00 for what is not nought."""
+    """A sigma or a difference with two significant digits at least, some decimals at least: never 0.00 for what is not zero."""
     if not math.isfinite(size) or size == 0:
         return f"{size:.{decimals}f}"
     needed = max(decimals, 1 - math.floor(math.log10(abs(size))))

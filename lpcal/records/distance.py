@@ -198,7 +198,7 @@ class SensorEvidence:
     span_m: tuple[float, ...]
     """The nearest and the farthest board along the beam."""
     weakest: str = ""
-    """What the poses told least of, and what would mend it, in words."""
+    """What the poses determine least, and what would improve it, in words."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -67,5 +67,5 @@ class ExchangeContent:
         }[part]
 
     def focus_C(self) -> Array | None:
-        """The point (3,) in C that directions to near lights are counted from; None where nothing tells it."""
+        """The point (3,) in C that directions to near lights are counted from; None where it is not known."""
         return self.calibration.focus_C

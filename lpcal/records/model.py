@@ -77,7 +77,7 @@ class NextStop:
     once_m2: float
     """Area that one view alone has seen."""
     reset: bool
-    """Whether the wings must be set anew for it: it stands much nearer or farther than the other stops."""
+    """Whether the wings must be set again for it: it stands much nearer or farther than the other stops."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class Missing:
 
 @dataclass(frozen=True)
 class LightEvidence:
-    """By how much the views would have a light other than calibrated."""
+    """The change of a calibrated light that the views favour."""
 
     name: str
     intensity_change: float
@@ -109,27 +109,27 @@ class LightEvidence:
     source_std_m: Array
     """(3,)."""
     sigmas: float
-    """How far it is from what the calibration let expect, in standard deviations, the rms over what the views tell of."""
+    """Distance from the calibrated value in standard deviations, rms over the directions that the views determine."""
 
 
 @dataclass(frozen=True)
 class RigEvidence:
-    """What the views tell of their common calibration."""
+    """What the views show of their common calibration."""
 
     H_PC_change: Array
-    """(6,) twist, rad and metres, by which the views would have H_PC other: left perturbation."""
+    """(6,) the change of H_PC that the views favour, a twist (rad, metres): left perturbation."""
     H_PC_covariance: Array
-    """(6, 6) of it: that of H_PC with the views counted in."""
+    """(6, 6) of H_PC with the views included."""
     H_PC_sigmas: float
-    """How far it is from what the calibration let expect, in standard deviations, the rms over what the views tell of."""
+    """Distance from the calibrated value in standard deviations, rms over the directions that the views determine."""
     distance_scale: float
-    """By how much all distances are other, relative."""
+    """Relative change of all distances."""
     distance_scale_std: float
     lights: tuple[LightEvidence, ...]
     normals_before_rad: float
     """What two views' normals of one place differ by, an axis and a view, robust rms."""
     normals_after_rad: float
-    """The same with the lights as the views would have them."""
+    """The same with the lights changed as the views favour."""
     moved: tuple[str, ...] = ()
     """What is said to have moved since the calibration, in words; empty: nothing."""
 
@@ -165,11 +165,11 @@ class ObjectModel(Shown):
     figures : ModelFigures
         Figures of the whole.
     warnings : tuple of str
-        What is to be said of it: the surfaces that were left out, and why.
+        Remarks: the surfaces that were left out, and why.
     missing : Missing, optional
         What no view has seen well, and where the panel should stand next.
     rig : RigEvidence, optional
-        What the views tell of their calibration; None where none was given.
+        What the views show of their calibration; None where none was given.
 
     Examples
     --------

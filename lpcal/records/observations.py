@@ -18,7 +18,7 @@ from lpcal.records.shown import Shown
 type BoardKind = Literal["chessboard", "charuco", "circles", "aprilgrid"]
 """What a board shows."""
 type SphereKind = Literal["chrome", "matte"]
-"""What a sphere's surface is: a mirror tells directions, a Lambertian one intensities."""
+"""What a sphere's surface is: a mirror shows directions, a Lambertian one intensities."""
 
 
 @dataclass(frozen=True)

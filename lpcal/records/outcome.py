@@ -1,4 +1,4 @@
-"""What a stage or a command tells whoever asked for it."""
+"""What a stage or a command returns to its caller."""
 
 from __future__ import annotations
 

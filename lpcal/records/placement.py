@@ -40,13 +40,13 @@ class StatedPlace:
 
     @property
     def said(self) -> bool:
-        """Whether anything that tells the place is stated."""
+        """Whether anything that determines the place is stated."""
         return any(one is not None for one in (self.t_camera_s, self.H_OP, self.H_OC, self.body))
 
 
 @dataclass(frozen=True)
 class RoomTracking:
-    """What is known of the tracking beside H_PC, as the hand-eye solve found it; NaN and None where it did not.
+    """What is known of the tracking besides H_PC, as the hand-eye solve found it; NaN and None where it did not.
 
     The offset holds as in `HandEye`: ``t_camera = t_mocap + offset + drift (t_camera - middle)``.
     """
@@ -104,7 +104,7 @@ class Placement(Shown):
     source : str
         What it comes from, in words.
     notes : tuple of str
-        What is to be said of it.
+        Notes on it.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 """Quantities as people write them: a number and its unit (``25 mm``, ``30 deg``, ``12.5 ms``, ``0.8 %``), kept in SI.
 
-A bare number for a length, an angle or a time is an error: nobody can tell 25 mm from 25 m.
+A bare number for a length, an angle or a time is an error: it could mean 25 mm or 25 m.
 """
 
 from __future__ import annotations

@@ -316,7 +316,7 @@ class PoseSection(Section):
 
 
 class CaptureSection(Section):
-    """capture.yaml: exposures, lights, the sensor; when (camera's clock) and whence it was taken, the body that the object rides on."""
+    """capture.yaml: exposures, lights, the sensor; when (camera's clock) and from where it was taken, the body that the object rides on."""
 
     distance: Size | None = None
     """The panel's distance from the object, where a sensor says it."""

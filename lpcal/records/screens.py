@@ -375,7 +375,7 @@ def _sigma(value: float | None, scale: float = 1.0) -> str:
 
 
 def _numbers(values: Array, digits: int) -> str:
-    return "[" + " ".join(f"{value:.{digits}f}" for value in np.ravel(values).round(digits) + 0.0) + "]"  # no minus before nought
+    return "[" + " ".join(f"{value:.{digits}f}" for value in np.ravel(values).round(digits) + 0.0) + "]"  # no minus before zero
 
 
 def _some(rows: list[tuple[str, str]]) -> list[tuple[str, str]]:

@@ -78,11 +78,11 @@ class Surface(Shown):
     breaks : ndarray (2, H, W) of bool
         Whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends.
     warnings : tuple of str
-        What is to be said of the capture and of what was made of it, in words.
+        Notes on the capture and of what was made of it, in words.
     sensor : SensorInUse, optional
         What the capture was made linear by; None: it was linear already, or there was none.
     placement : Placement, optional
-        Where the camera was in the room or in the body that the object rides on; None: nothing tells it.
+        Where the camera was in the room or in the body that the object rides on; None: not known.
 
     Examples
     --------
@@ -115,13 +115,13 @@ class Surface(Shown):
     breaks: Mask = field(default_factory=lambda: np.zeros((2, 0, 0), dtype=bool))
     """(2, H, W) whether the surface breaks between a pixel and its neighbour to the right [0], below [1]; also where the mask ends."""
     layer: Labels = field(default_factory=lambda: np.zeros((0, 0), np.uint8))
-    """(H, W): 0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it; all 1 where nothing tells them apart."""
+    """(H, W): 0 outside the mask, 1 the object, 2 what carries it, 3 what stands behind it; all 1 where they cannot be distinguished."""
     warnings: tuple[str, ...] = ()
-    """What is to be said of the capture and of what was made of it, in words."""
+    """Notes on the capture and of what was made of it, in words."""
     sensor: SensorInUse | None = None
     """What the capture was made linear by; None: it was linear already, or there was none."""
     placement: Placement | None = None
-    """Where the camera was in the room or in the body that the object rides on; None: nothing tells it."""
+    """Where the camera was in the room or in the body that the object rides on; None: not known."""
 
     @property
     def metric(self) -> bool:

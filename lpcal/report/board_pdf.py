@@ -1,7 +1,7 @@
 """The calibration target as a PDF at true scale, drawn with vectors: squares, rulers on two edges, the board's YAML.
 
-The page is the smallest of A4 and A3, lying or standing, that holds the board with its margin, or one made to measure. The board's
-first corner (its outer square is black where the counts tell) is at the upper left. Units in here: millimetres from the page's upper left.
+The page is the smallest of A4 and A3, lying or standing, that holds the board with its margin, or one made to measure. The board's first
+corner (its outer square is black where the counts decide it) is at the upper left. Units in here: millimetres from the page's upper left.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ PAGES_MM = {
 }
 PICKED = ("A4", "A3")
 TITLE = "lpcal board"
-"""What the PDF's title begins with; it tells a board that lpcal drew from any other PDF."""
+"""What the PDF's title begins with; it distinguishes a board that lpcal drew from any other PDF."""
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ class CameraPart:
     uncertainty: Drawing | None
     """How sure the projection is over the image, and where the lens is known."""
     vectors: Drawing | None
-    """What is left over of every corner."""
+    """The residual of every corner."""
     checks: list[Row]
     """What other programs and other boards make of the same corners, the views that matter, and the next one."""
     views: str
@@ -220,14 +220,14 @@ def _left_out(views: Sequence[ViewVerdict]) -> list[Row]:
 
 
 def _coverage(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing:
-    """The corners of the views that the intrinsics used, over the image, and the mean of what is left over in each cell."""
+    """The corners of the views that the intrinsics used, over the image, and the mean residual in each cell."""
     w, h = image_size
     arrows, noise = _cell_means(pixels, left, w, h)
     if not len(arrows):
         return Drawing(charts.over_image(pixels, (w, h)), "where the board's corners fell")
     longest = float(np.linalg.norm(arrows[:, 2:], axis=1).max())
     factor = _round_down(0.8 * w / CELLS[0] / max(longest, 1e-9))
-    note = f"where the board's corners fell; arrows: mean of what is left over in a cell, × {factor:g}"
+    note = f"where the board's corners fell; arrows: mean residual in a cell, × {factor:g}"
     note += f"; the longest is {number(longest, 2, 'px')}"
     note += f", noise alone leaves {number(noise, 2, 'px')}" if np.isfinite(noise) else ""
     return Drawing(charts.over_image(pixels, (w, h), arrows * [1, 1, factor, factor]), note)
@@ -253,7 +253,7 @@ def _uncertainty(found: ProjectionUncertainty | None, image_size: tuple[int, int
 
 
 def _vectors(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing | None:
-    """What is left over of every corner, or of every n-th where there are many."""
+    """The residuals of the corners, or of every n-th where there are many."""
     kept = np.isfinite(left).all(axis=1)
     pixels, left = pixels[kept], left[kept]
     if len(pixels) < FEWEST_CORNERS:
@@ -262,7 +262,7 @@ def _vectors(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing
     pixels, left = pixels[::step], left[::step]
     usual = float(np.percentile(np.linalg.norm(left, axis=1), 90))
     factor = _round_down(0.03 * image_size[0] / max(usual, 1e-9))
-    note = f"what is left over of {'every corner' if step == 1 else f'one corner in {step}'}, × {factor:g}. "
+    note = f"residuals of {'every corner' if step == 1 else f'one corner in {step}'}, × {factor:g}. "
     note += "Lines that lie side by side and point alike are no noise: the lens model, the board or one view is wrong there."
     return Drawing(charts.vectors(pixels, factor * left, image_size), note)
 
@@ -278,8 +278,8 @@ def _checks(found: CameraEvidence) -> list[Row]:
     if found.coverage is not None:
         rows.append(("coverage", found.coverage.in_words))
     if found.views_that_matter:
-        told = ", ".join(f"{one.image} ({100 * (one.without_it - 1):.0f} %)" for one in found.views_that_matter[:3])
-        rows.append(("without it the camera is less sure by", told))
+        worth = ", ".join(f"{one.image} ({100 * (one.without_it - 1):.0f} %)" for one in found.views_that_matter[:3])
+        rows.append(("without it the camera is less sure by", worth))
     if found.next_view is not None:
         then = f"{number(found.next_view.std_now_px, 2)} → {number(found.next_view.std_then_px, 2, 'px')}"
         rows.append(("the next view", f"{found.next_view.hold_the_board} ({then})"))
@@ -287,18 +287,18 @@ def _checks(found: CameraEvidence) -> list[Row]:
 
 
 def _histogram(left: Array) -> Drawing | None:
-    """What is left over of every corner's coordinates, against the normal curve of the same rms."""
+    """The residuals of the corners' coordinates, with the normal curve of the same rms."""
     left = left[np.isfinite(left)]
     if left.size < FEWEST_CORNERS:
         return None
     sigma = float(np.sqrt(np.mean(left**2)))
     beyond = 100 * float(np.mean(np.abs(left) > 3 * sigma))
-    note = f"what is left over of {left.size} coordinates, and the normal curve; {fixed(beyond, 1, '%')} are beyond 3 sigma, 0.3% expected"
+    note = f"residuals of {left.size} coordinates, and the normal curve; {fixed(beyond, 1, '%')} are beyond 3 sigma, 0.3% expected"
     return Drawing(charts.histogram(left, unit="px", sigma=sigma), note)
 
 
 def _corners(boards: BoardPoses, solution: CameraSolution) -> tuple[Array, Array] | None:
-    """Corners (N, 2) of the used views and what is left over (N, 2), seen less expected; a splined lens is not projected here: NaN."""
+    """Corners (N, 2) of the used views and their residuals (N, 2), seen less expected; a splined lens is not projected here: NaN."""
     used = {view.image for view in solution.views if view.used}
     rows = [row for row, image in enumerate(boards.images) if image in used]
     if not rows or boards.corners_px is None or boards.points_B is None:
@@ -313,7 +313,7 @@ def _corners(boards: BoardPoses, solution: CameraSolution) -> tuple[Array, Array
 
 
 def _cell_means(pixels: Array, left: Array, w: int, h: int) -> tuple[Array, float]:
-    """Arrows (M, 4) at the cells' middles with the mean of what is left over, and the length that noise alone would give them."""
+    """Arrows (M, 4) at the cells' middles with the mean residual, and the length that noise alone would give them."""
     cell = np.floor(pixels / [w, h] * CELLS).astype(int)
     arrows, counts = [], []
     for i, j in np.ndindex(*CELLS):

@@ -205,7 +205,7 @@ def vectors(points_px: Array, arrows_px: Array, image_size: tuple[int, int]) -> 
         f"M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}" for (x, y), (dx, dy) in zip(points_px * scale + 2, arrows_px * scale, strict=True)
     )
     frame = f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>'
-    return framed(height, [frame, f'<path class="vectors" d="{lines}"/>'], "what is left over of every corner, as lines over the image")
+    return framed(height, [frame, f'<path class="vectors" d="{lines}"/>'], "residuals of the corners, as lines over the image")
 
 
 def dot_rows(rows: Sequence[tuple[str, Sequence[tuple[float, str, str]]]], *, unit: str, gate: float | None = None) -> str:

@@ -134,7 +134,7 @@ def _stop_words(stop: NextStop, number: int, frame: str) -> str:
     place = ", ".join(f"{1e3 * value:.0f}" for value in H[:3, 3])
     shows = f"shows {1e4 * stop.unseen_m2:.1f} cm2 of the first and {1e4 * stop.once_m2:.1f} of the second"
     wings = (
-        f"the wings set anew (lpcal design --distance {1e3 * stop.distance_m:.0f}mm) and calibrated" if stop.reset else "wings as they are"
+        f"the wings set again (lpcal design --distance {1e3 * stop.distance_m:.0f}mm) and calibrated" if stop.reset else "wings as they are"
     )
     begins = "next:" if number == 0 else "then:"
     return (
@@ -144,20 +144,20 @@ def _stop_words(stop: NextStop, number: int, frame: str) -> str:
 
 
 NAMED_SIGMAS = 1.0
-"""Lights that the views would have other by at least so many sigmas of the calibration are named."""
+"""Lights whose favoured change is at least so many sigmas of the calibration are named."""
 
 
 def rig_words(rig: RigEvidence) -> list[str]:
-    """What the views tell of the rig's calibration, a line each."""
+    """What the views show of the rig's calibration, a line each."""
     shift_m, turn_rad = (float((part @ part) ** 0.5) for part in (rig.H_PC_change[3:], rig.H_PC_change[:3]))
     lines = [
-        f"rig: the views would have H_PC other by {1e3 * shift_m:.2f} mm and {degrees(turn_rad):.3f} deg "
+        f"rig: the views favour a change of H_PC by {1e3 * shift_m:.2f} mm and {degrees(turn_rad):.3f} deg "
         f"({rig.H_PC_sigmas:.1f} sigmas), all distances by {100 * rig.distance_scale:+.2f} +- {100 * rig.distance_scale_std:.2f} %"
     ]
     if rig.lights:
         lines.append(
             f"     normals of two views differ by {degrees(rig.normals_before_rad):.2f} deg a view, "
-            f"{degrees(rig.normals_after_rad):.2f} with the lights as the views would have them"
+            f"{degrees(rig.normals_after_rad):.2f} with the lights changed as the views favour"
         )
     for light in rig.lights:
         if light.sigmas >= NAMED_SIGMAS:

@@ -38,7 +38,7 @@ __all__ = ["RigReport", "SurfaceReport", "render"]
 
 
 def render(report: RigReport, stamp: str = "") -> str:
-    """The page, whole; a stage that is not there is said to be so. `stamp` stands in it and tells later what it was made from."""
+    """The page, whole; a stage that is not there is said to be so. `stamp` is kept in it and states later what it was made from."""
     lines = verdicts(report)
     tone, sentence = headline(lines)
     rig = rig_scene(report)
@@ -159,7 +159,7 @@ class LightsPart:
 
 @dataclass(frozen=True)
 class SphereRow:
-    """A sphere: its kind, centre (3,) and radius, what was left over, and whether it was used."""
+    """A sphere: its kind, centre (3,) and radius, its residual, and whether it was used."""
 
     name: str
     kind: str
@@ -172,7 +172,7 @@ class SphereRow:
 
 @dataclass(frozen=True)
 class SpheresPart:
-    """What each sphere says: where it is, what was left over, and how far its own light directions are from the refined lights."""
+    """What each sphere shows: where it is, its residual, and how far its own light directions are from the refined lights."""
 
     rows: list[SphereRow]
     median: str | None
@@ -180,7 +180,7 @@ class SpheresPart:
     directions: str | None
     outlines: list[str]
     predicted: list[tuple[str, str]]
-    """How well a sphere that was held out is predicted by the others, and where one more tells most."""
+    """How well a sphere that was held out is predicted by the others, and where one more would help most."""
     used: str
 
 
@@ -246,7 +246,7 @@ def _predicted(found: LightsEvidence) -> list[tuple[str, str]]:
     rows = [(label, value) for label, value in rows if not value.startswith(NOTHING)]
     if found.next_sphere is not None:
         then = f"{number(found.next_sphere.direction_std_deg, 2)} → {number(found.next_sphere.with_it_deg, 2, '°')}"
-        rows.append(("one more chrome sphere tells most", f"{found.next_sphere.where} ({then})"))
+        rows.append(("one more chrome sphere helps most", f"{found.next_sphere.where} ({then})"))
     return rows
 
 

@@ -10,7 +10,7 @@ from lpcal.geometry.arrays import Image, Mask
 STILL_LIGHT = np.array([-0.45, -0.55, -0.7]) / np.linalg.norm([0.45, 0.55, 0.7])
 
 RAMP = np.array([[0x17, 0x32, 0x4D], [0x2E, 0x7D, 0x86], [0x9B, 0xC2, 0x6C], [0xF0, 0xBF, 0x4A], [0xCF, 0x4F, 0x2E]]) / 255
-"""Colours (5, 3) of doubt, from none to much, told apart by the colour-blind too, as lightness rises before it falls to red."""
+"""Colours (5, 3) of doubt, from none to much, distinguishable to the colour-blind too, as lightness rises before it falls to red."""
 
 type Bytes = npt.NDArray[np.uint8]
 

@@ -186,7 +186,7 @@ class Bend:
 
 
 def bend_of(surface: Surface, calibration: Calibration, distant: Surface | None = None) -> Bend | None:
-    """The bend of a surface; None where there is no camera, the lights are distant anyway, or too few pixels or lights tell it."""
+    """The bend of a surface; None where there is no camera, the lights are distant anyway, or too few pixels or lights show it."""
     near = [light for light in calibration.lights if light.source_C is not None]
     if not surface.metric or len(near) < LEAST_LIGHTS:
         return None

@@ -23,7 +23,7 @@ from lpcal.report.scene_items import LineItem, LineScene
 from lpcal.report.templates import environment, packed_three
 
 DIFF_MARK = '<meta name="lpcal-page" content="diff">'
-"""What tells the page from one of anybody else's."""
+"""What marks the page as lpcal's."""
 
 
 def diff_html(names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str]) -> str:
@@ -66,7 +66,7 @@ def scene_of(rigs: tuple[Calibration, Calibration], change: CalibrationChange) -
 
 
 SOFTWARE = "lpcal study"
-"""What the PNG says made it; it tells a plot of lpcal's from any other picture."""
+"""What the PNG says made it; it distinguishes a plot of lpcal's from any other picture."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def plot_png(curves: Sequence[PlotLine], across: str) -> bytes:
 
 
 COLLECTION_MARK = '<meta name="lpcal-page" content="surfaces">'
-"""What tells the page from one of anybody else's."""
+"""What marks the page as lpcal's."""
 FAIR = 0.2
 """Odds of being wrong from which a surface is marked: one in five is looked at."""
 

@@ -15,7 +15,7 @@ FIGURES_SHOWN = 16
 
 @dataclass(frozen=True)
 class SurfaceSection:
-    """A surface: its pictures as data: URIs, its pieces' distances, its figures and what is to be said of it."""
+    """A surface: its pictures as data: URIs, its pieces' distances, its figures and notes on it."""
 
     name: str
     relight: str | None

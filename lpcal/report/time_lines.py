@@ -1,7 +1,7 @@
-"""The recording over time: how far the body went and turned, where it was lost or jumped, and what each view leaves over at its moment.
+"""The recording over time: how far the body went and turned, where it was lost or jumped, and each view's residual at its moment.
 
 Time is the mocap's clock, from the recording's first moment; a view taken at ``t`` on the camera's clock stands at the time that
-`HandEye.mocap_times` gives it. A clock that drifts shows as views that leave more over the later they are.
+`HandEye.mocap_times` gives it. A clock that drifts shows as residuals that grow with time.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ def time_lines(course: BodyCourse, found: HandEye, image_times_s: Mapping[str, f
         scale = _Scale(k, float(value.max(initial=1e-9)))
         parts += [*scale.marks(unit), *(f'<path class="curve" d="{path}"/>' for path in _curves(axis, scale, course.t_s, value))]
     scale = _Scale(2, max([one for one in left_over if one is not None], default=1.0))
-    parts += scale.marks("mm left over by a view")
+    parts += scale.marks("mm, a view's residual")
     for view, t, one in zip(views, at_s.tolist(), left_over, strict=True):
         u, v = axis.u(t), scale.v(one or 0.0)
-        told = f"{view.image}: {number(one, 3, 'mm')}" + ("" if view.used else f", left out: {view.why or 'no reason given'}")
+        label = f"{view.image}: {number(one, 3, 'mm')}" + ("" if view.used else f", left out: {view.why or 'no reason given'}")
         tone = "accent" if view.used else "fair"
-        parts.append(f'<circle class="fill-{tone}" cx="{u:.1f}" cy="{v:.1f}" r="3" opacity=".8"><title>{escape(told)}</title></circle>')
+        parts.append(f'<circle class="fill-{tone}" cx="{u:.1f}" cy="{v:.1f}" r="3" opacity=".8"><title>{escape(label)}</title></circle>')
     parts += axis.marks()
     return Drawing(framed(HEIGHT, parts, "the body and the views over the recording"), _note(course.lapses, found, stop))
 
@@ -96,9 +96,9 @@ def _shades(lapses: Sequence[Lapse], axis: _Axis) -> list[str]:
     drawn = []
     for one in lapses:
         u, width = axis.u(one.start_s), max(axis.u(one.end_s) - axis.u(one.start_s), 1.0)
-        told = f"{'flipped or jumped' if one.tracked else 'not seen'}: {one.end_s - one.start_s:.2f} s"
+        label = f"{'flipped or jumped' if one.tracked else 'not seen'}: {one.end_s - one.start_s:.2f} s"
         where = f'x="{u:.1f}" y="{HEAD - 4}" width="{width:.1f}" height="{HEIGHT - HEAD - FOOT + 4}"'
-        drawn.append(f'<rect {where} class="fill-{"poor" if one.tracked else "fair"}" opacity=".28"><title>{told}</title></rect>')
+        drawn.append(f'<rect {where} class="fill-{"poor" if one.tracked else "fair"}" opacity=".28"><title>{label}</title></rect>')
     return drawn
 
 
@@ -113,11 +113,11 @@ def _note(lapses: Sequence[Lapse], found: HandEye, stop_s: float) -> str:
     """What the drawing says, in words, and what to do about it."""
     flips, gaps = [one for one in lapses if one.tracked], [one for one in lapses if not one.tracked]
 
-    def told(some: Sequence[Lapse], what: str) -> str:
+    def label(some: Sequence[Lapse], what: str) -> str:
         longest = max((one.end_s - one.start_s for one in some), default=0.0)
         return f"{what} {plural(len(some), 'time')}, {longest:.1f} s at most" if some else ""
 
-    parts = [part for part in (told(gaps, "not seen (amber)"), told(flips, "flipped or jumped (red)")) if part]
+    parts = [part for part in (label(gaps, "not seen (amber)"), label(flips, "flipped or jumped (red)")) if part]
     note = (
         f"{fixed(stop_s, 0, 's')} of the recording; the body was " + (" and ".join(parts) if parts else "seen and steady all along") + ". "
     )
@@ -126,4 +126,4 @@ def _note(lapses: Sequence[Lapse], found: HandEye, stop_s: float) -> str:
     drift_ms = 1000 * found.clock_drift * stop_s
     if abs(drift_ms) > 0:
         note += f"The clocks drift apart by {fixed(abs(drift_ms), 2, 'ms')} over it, which is taken into account. "
-    return note + "Dots: what each view leaves over; amber: left out. Dots that rise with time are a clock that drifts."
+    return note + "Dots: each view's residual; amber: left out. Dots that rise with time are a clock that drifts."

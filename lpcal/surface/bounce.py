@@ -41,7 +41,7 @@ BLOCK = 128
 GRAZING = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
 STEEPEST = 0.1
-"""Least cosine to the viewer by which a pixel's area is told."""
+"""Least cosine to the viewer used for a pixel's area."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
 """Reflectances of the object's median pixel that are tried, from the darkest of paints on."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -57,8 +57,8 @@ DOUBT, DARK = 0.3, 0.01
 ELSE = 0.1
 """Share of the samples taken for shadows that are none: the shape hides a light that in truth arrives, or the rim is near."""
 LIT_NEIGHBOURS, LIT_DOUBT = 100.0, 0.2
-"""How many lit samples are worth one, and the standard deviation of what they tell of a part of the light, as a share of all of it."""
-UNTOLD = 1e-4
+"""How many lit samples are worth one, and the standard deviation of what they show of a part of the light, as a share of all of it."""
+LEAST_CURVATURE = 1e-4
 """Curvature of the cost of a part that is nowhere, relative to the strength: it keeps the equations solvable."""
 AWAY, RIM = 0.05, 2
 """Cosine by which a normal is turned away from a light, and pixels off a shadow's rim, from which a sample counts as in shadow."""
@@ -116,7 +116,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     from scipy import ndimage
 
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
-    rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches hang on the object, not on the picture about it
+    rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches are those of the object, not of the picture about it
     _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
     x_C, area = seen.points_C(depth), _areas(seen, depth, n)
 
@@ -162,7 +162,7 @@ class LitEvidence:
     def cost(self, x: Array) -> Array:
         """Twice the negative logarithm of the likelihood (N,) of strengths (N, 3), all relative to that of the seen parts at x0."""
         unit = max(float(self.x0[0]), 1e-12)
-        curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + UNTOLD * np.eye(3)
+        curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + LEAST_CURVATURE * np.eye(3)
         middle = np.linalg.solve(curvature, self.slope * unit / LIT_NEIGHBOURS)
         doubt = LIT_DOUBT * max(1 + float(middle[0]), 0.0)
         off = (x - self.x0) / unit - middle

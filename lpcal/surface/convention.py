@@ -1,10 +1,10 @@
 r"""Which way the green channel of a normal map points, by the curl of its slopes.
 
 Symbols: u(column, row) the depth, in pixels or (with a camera) its logarithm; slopes ``p = du/dcolumn, q = du/drow`` follow from the
-normals. Of a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same number, the twist. With the vertical component turned over, b
-has the other sign. So the likeness ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 the right way up and -1 the wrong way, noise or not:
-a' is a of the next column and b' is b of the next row, whose noise is independent of theirs. Large values are cut, so that edges of depth,
-where neither holds, do not decide. Where noise hides the twist of neighbours, means of blocks of pixels are asked. The curl does not tell
+normals. Of a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same number, the twist. With the vertical component turned over, b has
+the other sign. So the likeness ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 the right way up and -1 the wrong way, noise or not: a' is
+a of the next column and b' is b of the next row, whose noise is independent of theirs. Large values are cut, so that edges of depth, where
+neither holds, do not decide. Where noise hides the twist of neighbours, means of blocks of pixels are asked. The curl does not distinguish
 a hollow from a bump: with both components turned over the map is that of another surface, as good.
 """
 
@@ -25,11 +25,11 @@ GRAZING = 0.2
 CUT = 90.0
 """Percentile of the size of a and b at which larger ones are cut: depth breaks are a smaller share of any map worth integrating."""
 CLEAR = 0.3
-"""Likeness, of 1, from which the direction is taken as told."""
+"""Likeness, of 1, from which the direction is taken as decided."""
 WILD = 0.5
 """Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
 BLOCKS = (1, 4, 12)
-"""Pixels along a side of what is asked, in turn, until one tells: noise falls with the block, twist does not."""
+"""Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
 SURE = 6.0
 """Standard errors by which the likeness must differ from nothing; neighbours are not independent, so three would not be enough."""
 FACING = 0.9
@@ -38,7 +38,7 @@ FACING = 0.9
 
 @dataclass(frozen=True)
 class Convention:
-    """Normals (H, W, 3) in C, whether green was turned over for it, how the map reads both ways, and what is to be said."""
+    """Normals (H, W, 3) in C, whether green was turned over for it, how the map reads both ways, and notes."""
 
     normals_C: Image
     flipped: bool
@@ -77,9 +77,9 @@ def settled(name: str, normals_C: Image, mask: Mask, camera: Camera | None, stat
             " green turned over (1: a surface)",
             where=name,
             needed="a normal map that integrates: x in red, y in green, z in blue",
-            todo="export it anew, or state --green as-is or --green flipped",
+            todo="export it again, or state --green as-is or --green flipped",
         )
-    note = "the normals do not tell whether green points up or down (too little twist): taken as they are; --green states it"
+    note = "the normals do not show whether green points up or down (too little twist): taken as they are; --green states it"
     return Convention(normals_C, False, as_is, flipped, note)
 
 

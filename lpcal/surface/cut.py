@@ -22,7 +22,7 @@ HALF = 0.4
 
 
 def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
-    """The part (H, W) for which evidence (H, W, positive for it) speaks, its outline drawn to the edges of the picture (H, W).
+    """The part (H, W) that evidence (H, W, positive for it) supports, its outline drawn to the edges of the picture (H, W).
 
     Evidence that outweighs the outline on three sides of a pixel stands where its neighbours' is of the same sign: what lies beyond all
     that is open need not be solved for.

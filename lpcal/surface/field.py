@@ -32,7 +32,7 @@ from lpcal.surface.sight import Lit, Sight
 
 TURN = 0.15
 """Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of
-six drawn scenes changes by some 5 %."""
+six simulated scenes changes by some 5 %."""
 MODEL, SHARED, DARK = 0.02, 0.02, 0.01
 """What the model lacks, a standard deviation: as a share of a sample, and as shares of a pixel's brightest one in light and in shadow."""
 THROWN_DOUBT = 0.27

@@ -32,7 +32,7 @@ PEAKS = 3
 STEEPEST = 0.05
 """Cosine to the viewer under which a pixel's normal places no plane."""
 EXPLAINED = 20.0
-"""Cost by which a plane may be dearer than matter of any normal, of a pixel that it explains."""
+"""Cost by which a plane may exceed matter of any normal, at a pixel that it explains."""
 SMALLEST = 0.006
 """Share of the image under which a plane is not looked for."""
 MOST = 8
@@ -42,7 +42,7 @@ PAINT = 0.1
 CLEARLY, CLEARLY_EACH = 60.0, 0.3
 """Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
 FIT_PIXELS = 600
-"""Pixels that a plane is fitted to, spread over its own: more tell no more of three numbers."""
+"""Pixels that a plane is fitted to, spread over its own: more do not improve three numbers."""
 ACCEPTED = 3.0
 """Cost a light under which a pixel takes part in the fit of a plane."""
 

@@ -1,4 +1,4 @@
-r"""A capture in full size, tile by tile, upon what its coarse pixels tell.
+r"""A capture in full size, tile by tile, based on the solution in coarse pixels.
 
 The coarse capture is solved as any other: object, distance, gloss, what surfaces throw on each other and hide. Here each tile takes its
 light from that, finds its own normals (surface.field, from the coarse normals and each pixel's own albedo), and integrates them to a depth
@@ -39,7 +39,7 @@ SAMPLES = 1_500_000
 LEAST_SIDE, MOST_SIDE = 128, 512
 """Pixels of a tile's side, its margin apart."""
 MARGIN_PX = 10
-"""Pixels about a tile that are solved with it: neighbours tell of each other over a few."""
+"""Pixels about a tile that are solved with it: neighbours affect each other over a few."""
 ROUNDS = 3
 """Rounds of a tile's field: normals begin at the coarse ones, albedos at each pixel's own."""
 SCREEN = 3.0
@@ -49,11 +49,11 @@ INTEGRATED_SIDE = 768
 BAND_ROWS = 256
 """Rows of the tiles in which maps are finished."""
 LOOSELY = 1e-3
-"""Share of its hold that the coarse depth has beside its breaks, whose place it tells only to a coarse pixel."""
+"""Share of its hold that the coarse depth has next to its breaks, which it places only to a coarse pixel."""
 WIDTH2 = 9.0
 """Square of a residual, in standard deviations, at which a sample's weight for the first albedo has fallen to a quarter."""
 FACING = 0.1
-"""Least cosine of a light that a pixel's first albedo is told by."""
+"""Least cosine of a light that is used for a pixel's first albedo."""
 
 
 NO_ESTIMATE = Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))

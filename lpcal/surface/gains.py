@@ -1,4 +1,4 @@
-"""Relative intensities of distant lights that nobody measured, from the object itself, and whether the object tells them.
+"""Relative intensities of distant lights that nobody measured, from the object itself, and whether the object determines them.
 
 They are what brings the signals into the spaces of their lights (surface.light_space), and believed where those that one half of the object
 gives explain the other half clearly better than equal ones.
@@ -19,7 +19,7 @@ from lpcal.surface.sight import Sight
 LIGHTS_NEEDED = 5
 PIXELS_NEEDED = 300
 MOST_PIXELS = 3000
-"""Pixels that are looked at, spread over the object: they tell intensities to a fraction of a per cent."""
+"""Pixels that are looked at, spread over the object: they give intensities to a fraction of a per cent."""
 SHADED, SHINING = 0.25, 0.1
 """Shares of a pixel's samples, its darkest and its brightest, that may lie in shadow and hold a highlight."""
 SPARE = 2
@@ -27,7 +27,8 @@ SPARE = 2
 NEEDED_GAIN = 1.2
 """A half's misfit must fall by this factor under the intensities of the other half, in the geometric mean over the halves.
 
-Drawn equal lights give 1.003 at most, whatever the gloss and the shadows; unequal ones 1.1 or more wherever what is found is nearer than
+Simulated equal lights give 1.003 at most, whatever the gloss and the shadows; unequal ones 1.1 or more wherever what is found is nearer
+than
 equal ones."""
 TRIMS = 4
 """Rounds in which the worse half of the pixels is left out: gloss then misleads two to four times less, and no less in further rounds."""
@@ -41,7 +42,7 @@ def unmeasured(lights: Sequence[Light]) -> bool:
 
 
 def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
-    """Intensities (L,) of mean 1; None where too few lights or pixels tell them, or the halves of the object disagree."""
+    """Intensities (L,) of mean 1; None where too few lights or pixels show them, or the halves of the object disagree."""
     if len(lights) < LIGHTS_NEEDED:
         return None
     shown = _shown(seen, np.stack([light.direction_C for light in lights]))

@@ -1,4 +1,4 @@
-"""What a capture in coarse pixels tells of each pixel in full size: where it lies, what light reaches it, what it is part of."""
+"""What a capture in coarse pixels says about each pixel in full size: where it lies, what light reaches it, what it is part of."""
 
 from __future__ import annotations
 

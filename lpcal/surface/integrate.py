@@ -75,7 +75,7 @@ class Own:
 def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
     """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD.
 
-    With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is told ill where
+    With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is uncertain where
     the surface bends, and where one of the two is the rim of something in front.
     """
     mean = normals[grid.a] + normals[grid.b]

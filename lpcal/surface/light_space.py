@@ -24,7 +24,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 
 CONDITION = 1e5
-"""Condition of a pixel's normal matrix over which its lights tell no normal."""
+"""Condition of a pixel's normal matrix over which its lights determine no normal."""
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ class Estimate:
 
 
 def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
-    """Samples (L, P) that a light seems to reach unhindered."""
+    """Samples (L, P) that a light seems to reach unoccluded."""
 
     def of(at: slice) -> Mask:
         signal, light = sight.signal[:, at], E[:, at]

@@ -1,4 +1,4 @@
-r"""A surface from a normal map that was found elsewhere: depth and mesh; normals do not tell the distance.
+r"""A surface from a normal map that was found elsewhere: depth and mesh; normals do not determine the distance.
 
 Depth from normals alone, its jumps found from which side of a pixel is the flatter one.
 
@@ -33,7 +33,7 @@ from lpcal.surface.sight import ray_map
 
 FEWEST_PIXELS = 50
 UNKNOWN_DISTANCE = 0.5
-"""Relative standard deviation of a distance that nothing tells."""
+"""Relative standard deviation of a distance that is not known."""
 
 
 def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera | None, distance_m: float) -> Surface:

@@ -32,8 +32,8 @@ SMALLEST = 0.004
 INSIDE, OUTSIDE = (2.0, 4.0), (3.0, 5.0)
 """Distances from a rim, in pixels, between which the pictures on its two sides are compared: the rim itself is blurred."""
 STEP, RIM = 0.5, 0.2
-"""Difference of the signals across a rim, as a share of their mean, that is a step, and the share of the rim that may lack it: on 36 drawn
-scenes all openings have .46 and more, all pieces of objects .35 and less."""
+"""Difference of the signals across a rim, as a share of their mean, that is a step, and the share of the rim that may lack it: on 36
+simulated scenes all openings have .46 and more, all pieces of objects .35 and less."""
 
 
 def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, found: Sequence[planes.Plane]) -> Mask:

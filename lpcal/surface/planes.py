@@ -88,7 +88,7 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
 
 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
-    """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples speak; their number."""
+    """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
 

@@ -5,7 +5,8 @@ the scaled piece once its own depth passes the piece's::
 
     s(t) = (o_z + t u_z) / z(p(t))          t_hit(s) = the first t at which s(t) >= s
 
-With r the reading as a distance along the beam, of variance v, and near light's word N(log s; 0, w^2), the two together on a grid of s::
+With r the reading as a distance along the beam, of variance v, and near light's estimate N(log s; 0, w^2), the two together on a grid of
+s::
 
     p(s) ~ N(log s; 0, w^2) [ h N(r; t_hit(s), v) + (1 - h) / REACH ]
 
@@ -44,11 +45,11 @@ SETTLED = 0.5
 COARSE_STD = 0.02
 """Relative standard deviation of a distance that rounds in coarse pixels come to, within its basin."""
 LEAST_LIGHT_STD = 5e-4
-"""Relative, of near light's word on a distance: what is stated as surer is not believed to be."""
+"""Relative, of near light's estimate of a distance: no smaller stated value is used."""
 SLOPE = 0.5
 """Tangent of the usual angle between the object's surface and the beam's cross-section: by it an error across the beam acts along it."""
 WORTH_A_ROUND = 2e-4
-"""Relative move of a piece from which its normals are found anew."""
+"""Relative move of a piece from which its normals are found again."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class DepthMap:
 
 @dataclass(frozen=True)
 class Word:
-    """What a reading and near light say together of a piece's scale."""
+    """What a reading and near light together say of a piece's scale."""
 
     log_scale: float
     """By which the piece moves."""
@@ -99,7 +100,7 @@ class Word:
 
 
 def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
-    """Weigh a reading against near light's word, of relative standard deviation `light_std`, on a piece's distance."""
+    """Combine a reading with near light's estimate, of relative standard deviation `light_std`, of a piece's distance."""
     sensor, reading_m = read.sensor, read.reading_m
     r, std_m = sensor.along_m(reading_m), float(np.hypot(sensor.std_m(reading_m), SLOPE * sensor.across_std_m(reading_m)))
     half = min(max(SIGMAS * light_std, 1e-3), WIDEST)
@@ -149,7 +150,7 @@ class Said:
 
 
 def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
-    """Weigh a reading against the surface that the light tells, at the piece that the beam meets."""
+    """Weigh a reading against the surface found from the light, at the piece that the beam meets."""
     whole = DepthMap(np.asarray(surface.depth, float), camera)
     label = _label_met(read, whole, surface.component)
     if label == 0:

@@ -32,7 +32,7 @@ class Relief:
 
     @staticmethod
     def of(seen: Sight, depth: Array, *, to_rim: bool = False) -> Relief:
-        """From depths (P,) at the pixels of a camera; `to_rim` tells whether pixels on the rim count, which on round bodies turn away."""
+        """From depths (P,) at the pixels of a camera; `to_rim` says whether pixels on the rim count, which on round bodies turn away."""
         from scipy import ndimage
 
         outside = -np.inf if to_rim else np.inf

@@ -27,7 +27,7 @@ from lpcal.surface.light_space import LightSpace, halves, spans
 GAMMAS = np.exp(np.linspace(np.log(0.4), np.log(3.2), 29))
 """The exponents that are tried: from a curve that darkens to one that lightens more than any camera's."""
 SPARE = 2
-"""Samples more than the unknowns of a pixel, that tell a curve from a normal."""
+"""Samples beyond the unknowns of a pixel that separate a curve from a normal."""
 FEWEST_LIGHTS = 6
 """Lights of which so many remain when the darkest one is left out."""
 FEWEST_PIXELS = 200
@@ -40,11 +40,11 @@ LINEAR = 0.15
 WORST_FIT = 0.008
 """Misfit of numbers as they are taken, under which no curve is looked for: noise and texture reach it."""
 NEEDED_GAIN = 2.0
-"""The misfit must fall by this factor for a curve to be believed: drawn linear captures give 1.5 at most, with much gloss."""
+"""The misfit must fall by this factor for a curve to be believed: simulated linear captures give 1.5 at most, with much gloss."""
 DOUBTFUL_GAIN, DOUBTFUL_GAMMA = 1.4, 1.4
-"""A gain and an exponent from which a curve is worth a word: gloss and shadows bend linear numbers the other way."""
+"""A gain and an exponent from which a curve is reported: gloss and shadows bend linear numbers the other way."""
 CLAIM_GAIN = 1.2
-"""The misfit must fall by this factor under a claimed curve for the claim to be worth a word: linear captures come close to 1 by chance."""
+"""The misfit must fall by this factor under a claimed curve for the claim to be reported: linear captures come close to 1 by chance."""
 EXACT = 0.002
 """Misfit that no camera's noise falls short of: curves that miss by less explain the numbers equally well."""
 AGREES = 1.5
@@ -101,7 +101,7 @@ class ShownResponse:
 
 
 def stored_curve(shown: ShownResponse, taken: Gamma, claimed: Gamma) -> Curve | None:
-    """The curve of stored numbers, which are taken to be of one and claimed to be of another; None where too little tells it."""
+    """The curve of stored numbers, which are taken to be of one and claimed to be of another; None where too little shows it."""
     light = shown.light(taken)
     count, unknowns = len(light), shown.B.shape[2]
     if count < FEWEST_LIGHTS + unknowns - 3:

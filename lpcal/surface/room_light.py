@@ -28,11 +28,11 @@ LIT_SIGMAS = 6.0
 RARE_ROUNDS = 2
 """Times that the cost of each explanation is set by how rare it is: a plane that holds a few pixels by chance then spares nothing."""
 USUAL, USUAL_STD = 0.1, 1.3
-"""The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures tell next to nothing."""
+"""The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures show next to nothing."""
 SHARED = 60.0
 """Pixels whose errors are alike: what the explanations lack is smooth over a surface."""
 UNSURE = 0.1
-"""Share of the room's light at a pixel that is left in doubt: how far it was off on drawn scenes, beside level and albedo."""
+"""Share of the room's light at a pixel that is left in doubt: how far it was off on simulated scenes, besides level and albedo."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def _cheapest(cost: Callable[[float], float]) -> tuple[float, float]:
             tried |= {level: cost(level) for level in (float(np.sqrt(below * best)), float(np.sqrt(best * above)))}
     x = np.log([below, best, above])
     curve, slope, _ = np.polyfit(x, [tried[level] for level in (below, best, above)], 2)
-    if curve * USUAL_STD**2 < 1:  # no more than the prior tells
+    if curve * USUAL_STD**2 < 1:  # no more than the prior says
         return min(tried, key=tried.__getitem__), USUAL_STD
     return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))), float(1 / np.sqrt(curve))
 

@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import samples
 
 SPREAD = 0.35
-"""Relative standard deviation of A about level |b|: on drawn scenes 0.15 over an object, 0.3 between it and a wall behind."""
+"""Relative standard deviation of A about level |b|: on simulated scenes 0.15 over an object, 0.3 between it and a wall behind."""
 DEEP = 0.02
 """Light that surfaces throw into shadow, as a share of a pixel's brightest sample: by so much a dark sample may differ from A."""
 BRIGHTER = 0.03
@@ -26,7 +26,7 @@ BRIGHTER = 0.03
 STEPS = 4
 """Solves of b and A, the first with half of the least sample for A."""
 LEVEL_TIE = 1e-9
-"""Least share of a diagonal that holds a system where the samples tell less than four numbers."""
+"""Least share of a diagonal that holds a system where the samples determine fewer than four numbers."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
     A = lowest(signal, usable, room) / 2
     n = np.zeros(B.shape[1:])
     n[:, 2] = -1.0
-    told = np.zeros(len(A))
+    information = np.zeros(len(A))
     b = _second(signal - share * A, usable)[:, None] / np.maximum(_second(E, usable), 1e-12)[:, None] * n
     for step in range(STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
@@ -69,11 +69,11 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
         weight = usable / spread2
         if step:
             weight /= (1 + (lamps - np.where(dark, 0.0, lambert.predicted(B, b))) ** 2 / spread2 / samples.WIDTH2) ** 2
-        b, A, told = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, np.linalg.norm(b, axis=1), room)
+        b, A, information = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, np.linalg.norm(b, axis=1), room)
         length = np.linalg.norm(b, axis=1, keepdims=True)
         n = np.where(length > 0, b / np.maximum(length, 1e-20), n)
     cost, _ = _costs(signal, sigma, usable, doubt, lambert.predicted(B, b), share * A)
-    return Free(b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room), told)
+    return Free(b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room), information)
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
@@ -178,5 +178,5 @@ def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room:
     normal = normal / scale[:, :, None] / scale[:, None, :] + LEVEL_TIE * np.eye(4)
     both = np.stack([right / scale, np.broadcast_to([0.0, 0, 0, 1], right.shape)], axis=2)
     x, inverse = np.moveaxis(np.linalg.solve(normal, both) / scale[:, :, None], 2, 0)
-    told = np.clip(1 - prior * inverse[:, 3] / scale[:, 3], 0, 1)
-    return x[:, :3], np.maximum(room.level * lambert.dot(n, x[:, :3]) + x[:, 3], 0.0), told
+    information = np.clip(1 - prior * inverse[:, 3] / scale[:, 3], 0, 1)
+    return x[:, :3], np.maximum(room.level * lambert.dot(n, x[:, :3]) + x[:, 3], 0.0), information

@@ -7,9 +7,9 @@ predicted, beyond)``. Only the side of a shadow away from its object is thrown b
 of a predicted shadow may be thrown by what the camera does not see, and says nothing.
 
 The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. An error of
-the lights' intensities moves plane and piece alike, which no shadow shows; so the shadow mends only what the model lacks at the piece
-(gloss, parts hidden from each other), is heard where that is in greater doubt than the plane, and is joined with it by their variances.
-Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
+the lights' intensities moves plane and piece alike, which no shadow shows; so the shadow corrects only what the model lacks at the piece
+(gloss, parts hidden from each other). It is used where the piece is more uncertain than the plane, and the two are combined by inverse
+variance. Source: shape from shadows, Savarese et al. 2007, Int. J. Computer Vision 71.
 """
 
 from __future__ import annotations

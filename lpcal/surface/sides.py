@@ -6,7 +6,7 @@ it is taken for one of the front's albedo beside it, at right angles to the came
 
     J_k(p) = 1/N sum_i  w_i / (w_i . n)  albedo E_k(y) max(m . d_k, 0)        m: the side's normal
 
-A guess, with the right sign and size; how much hangs on it is told with it.
+Approximate, but of the right sign and size; the second result states how much of the light depends on it.
 """
 
 from __future__ import annotations

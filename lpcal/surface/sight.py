@@ -122,7 +122,7 @@ def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]
     Raises
     ------
     DegenerateError
-        Fewer than three, or all in a plane: they cannot tell a normal.
+        Fewer than three, or all in a plane: they do not determine a normal.
     """
     by_name = {light.name: light for light in calibration.lights}
     lights = tuple(by_name[name] for name in radiance.lights)
@@ -155,7 +155,7 @@ def agree_on_size(name: str, size: tuple[int, ...], camera: Camera | None) -> No
             f"images of {width}x{height}",
             where=name,
             needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
-            todo="take the capture with that camera and at its full size, or calibrate anew",
+            todo="take the capture with that camera and at its full size, or calibrate again",
         )
 
 

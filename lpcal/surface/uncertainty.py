@@ -7,8 +7,8 @@ the depth, R5 its rms over 5x5 pixels::
 
 with the clues: s max(1, sqrt(chi2 / dof)); R5; R; whether an edge or a break is near; whether three lights were used; whether the normal is
 filled in; 1; the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights; and how much of
-what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by tools/fit_normal_sigma.py on drawn
-scenes. The calibration's part is common to the whole image.
+what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by tools/fit_normal_sigma.py on
+simulated scenes. The calibration's part is common to the whole image.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ CORRELATION = 20.0
 OPEN, HIDDEN = 0.0096, 0.0256
 """Relative standard deviation of a piece's distance by what its light's model lacks: open and convex, concave or partly hidden or glossy.
 
-Their ratio is by light between parts of one object; their size by tools/fit_distance_sigma.py on 104 drawn scenes.
+Their ratio is by light between parts of one object; their size by tools/fit_distance_sigma.py on 104 simulated scenes.
 """
 BROKEN_OFF = 0.2
 """Share of the log distance between a broken-off piece and the largest that is unsure: parts of one object seldom stand far apart.
 
-tools/fit_distance_sigma.py gives 0.4 on 99 such pieces of 204 drawn scenes, among which objects that do stand apart are rare; half of it
-holds the error within 1.3 sigma rms there.
+tools/fit_distance_sigma.py gives 0.4 on 99 such pieces of 204 simulated scenes, among which objects that do stand apart are rare; half of
+it holds the error within 1.3 sigma rms there.
 """
 
 
 @dataclass(frozen=True)
 class Clues:
-    """What tells of errors, a pixel: (P,) each."""
+    """Indicators of errors, a pixel: (P,) each."""
 
     noise_deg: Array
     """Per axis, from the samples' variances."""
@@ -155,7 +155,7 @@ def depth_sigma(grid: Grid, sigma_deg: Array, towards: Array, plane: Array, scal
     """Standard deviation (P,) of the depth about its piece's own scale: that of sums of steps, in units of `scale` times those of `plane`.
 
     `towards` (P,) is the cosine between normal and viewer, `plane` (P, 2) where pixels lie at depth 1, `scale` (P,) their depth. Errors of
-    normals hang together over CORRELATION pixels, so over a path of N pixels a step's error grows as sqrt(N CORRELATION); the path runs
+    normals are correlated over CORRELATION pixels, so over a path of N pixels a step's error grows as sqrt(N CORRELATION); the path runs
     from the pixel to the middle of its piece, and half as far counts since the rest of the piece holds it.
     """
     pixel = float(np.median(np.linalg.norm(plane[grid.b] - plane[grid.a], axis=1))) if len(grid.a) else 1.0

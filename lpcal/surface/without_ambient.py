@@ -1,7 +1,7 @@
 r"""A capture without an ambient image: the room's light is estimated, taken away, and counted as doubt.
 
 That of all that is seen first (see surface.room_light), so that the mask can be found; then the object's, at the working distance and again
-at the depth that this gave. A last time with more of it shows how far normals, depth and distance hang on it: that is added to their
+at the depth that this gave. A last time with more of it shows how far normals, depth and distance depend on it: that is added to their
 standard deviations.
 
 Symbols: signal ``I_k = B_k . b + A / h_k`` where light k (of intensity h_k, which signals are divided by) reaches a pixel, ``A / h_k``
@@ -9,9 +9,9 @@ where it does not; ``b = rho n``. Light that comes from all over a room acts on 
 
     A = c_0 |b| + c . b            c_0 >= |c|: nowhere is there less than none
 
-So four numbers tell the ambient light of a whole object to some per cent (parts that the object hides from the room are darker). Samples
-in shadow show it alone; near light tells it from the lamps' by how these change from place to place. A plane behind the object has one
-normal and so one ratio a of room light to albedo, which its fit tells within 2 %: it holds c_0 + c . n there.
+So four numbers give the ambient light of a whole object to some per cent (parts that the object hides from the room are darker). Samples
+in shadow show it alone; near light separates it from the lamps' by how these change from place to place. A plane behind the object has one
+normal and so one ratio a of room light to albedo, which its fit gives within 2 %: it holds c_0 + c . n there.
 Source: Basri and Jacobs 2003, IEEE Trans. PAMI 25 (harmonics); Ramamoorthi and Hanrahan 2001, J. Opt. Soc. Am. A 18.
 """
 
@@ -146,11 +146,11 @@ NEEDED_GAIN = 0.05
 STEPS = 100
 OUTLIER2 = normals.OUTLIER**2
 WALL_STD = 0.04
-"""Relative standard deviation of the room's light on a wall's plane: its fit tells it within 2 %, and it is not all alike."""
+"""Relative standard deviation of the room's light on a wall's plane: its fit gives it within 2 %, and it is not uniform."""
 LAW_ROUNDS = 10
 """Solves of the law, pixels weighed by how well they follow it: it then stands still."""
 LAW_STD, BLIND_STD = 0.06, 0.25
-"""Relative standard deviation of A over an object: of the law beside that of its level; of both where lights are distant."""
+"""Relative standard deviation of A over an object: of the law besides that of its level; of both where lights are distant."""
 PATCHY = 0.12
 """Relative standard deviation of A about the law, from part to part of an object."""
 LAMPS_SHARE = 0.25

@@ -18,7 +18,7 @@ PUBLIC = sorted(FROZEN)
 
 
 def signature_of(name: str) -> str:
-    """Names, kinds and defaults of the parameters; a default that is a function or made anew is an ellipsis."""
+    """Names, kinds and defaults of the parameters; a default that is a function or made again is an ellipsis."""
     parameters = inspect.signature(getattr(lpcal, name)).parameters.values()
     plain = [
         one.replace(annotation=one.empty, default=... if callable(one.default) or "factory" in repr(one.default) else one.default)

@@ -1,4 +1,4 @@
-"""``lpcal evaluate``: a surface, or another method's normals, beside the truth."""
+"""``lpcal evaluate``: a surface, or another method's normals, compared with the truth."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ def test_mrcal_reads_its_own_and_the_pose(tmp_path: Path, model: str) -> None:
 
 def test_kalibr_has_no_k3_so_the_lens_is_fitted(tmp_path: Path) -> None:
     one = export(tmp_path / "five", "kalibr")
-    assert re.search(r"no place for k3: .* fitted anew .* ([0-9.e-]+) px at most", one.notes[0])
+    assert re.search(r"no place for k3: .* fitted again .* ([0-9.e-]+) px at most", one.notes[0])
     stored = yaml.safe_load((tmp_path / "five" / "camchain.yaml").read_text())["cam0"]
     assert (stored["camera_model"], stored["distortion_model"]) == ("pinhole", "radtan")
     fx, fy, cx, cy = stored["intrinsics"]

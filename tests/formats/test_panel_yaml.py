@@ -147,7 +147,7 @@ MESSAGES = {
     ),
     "half a file": (
         "lpcal: 1\nlights:\n  L0: {azimuth: 0 deg, joint_an",
-        "panel.yaml:3: ends in the middle of a [list] or a {section}\n  needed: the whole file\n  do: close it, or fetch the file anew",
+        "panel.yaml:3: ends in the middle of a [list] or a {section}\n  needed: the whole file\n  do: close it, or fetch the file again",
     ),
     "half a wing": (
         "lpcal: 1\nlights:\n  L0: {azimuth: 0 deg, joint_angle: 30 deg, blob_spacer: 40 mm}\n",

@@ -162,7 +162,7 @@ def test_a_folder_is_watched_its_page_served_and_its_end_summed_up(tmp_path: Pat
 def test_what_cannot_be_watched(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
     with pytest.raises(InputError, match="no such folder"):
         watch(tmp_path / "nothing", None, print)
-    with pytest.raises(UsageError, match="cannot be had"):
+    with pytest.raises(UsageError, match="cannot be used"):
         watch(tmp_path, None, print, port=99999999)
     assert lpcal("watch", tmp_path / "nothing")[0] == 3
     assert lpcal("watch", tmp_path, "--idle", "-1")[0] == 2

@@ -136,7 +136,7 @@ def test_spheres_held_out_are_predicted() -> None:
     rows = {label: plain(value) for label, value in part.predicted}
     assert rows["a chrome sphere held out: its highlights, predicted by the others"] == "0.031 px rms"
     assert rows["a matte sphere held out: its shading, predicted by the others"] == "1.2% rms"
-    assert rows["one more chrome sphere tells most"] == "at the left (0.050 → 0.040°)"
+    assert rows["one more chrome sphere helps most"] == "at the left (0.050 → 0.040°)"
     assert "the same, its albedo free" not in rows
     assert spheres_section(report).predicted == []
 

@@ -1,4 +1,4 @@
-"""Rigs with a mistake planted in their spheres: the bundled simulated rig's images, altered or drawn anew by the simulator."""
+"""Rigs with a mistake planted in their spheres: the bundled simulated rig's images, altered or drawn again by the simulator."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ RECIPE = Recipe(seed=20260105, image_size=(480, 320))
 
 
 def draw(folder: Path, spheres: dict[str, SphereTruth], change: Callable[[Built], Built] = lambda b: b, seed: int = 0) -> None:
-    """Draw spheres anew with the bundled rig's simulator, its lights changed."""
+    """Draw spheres again with the bundled rig's simulator, its lights changed."""
     section = read_rig(RIG / "panel.yaml").rig
     studio = Studio(change(built()), RECIPE, response_of(section, built(), RECIPE), spheres)
     for k, name in enumerate(spheres):

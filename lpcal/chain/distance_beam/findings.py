@@ -1,4 +1,4 @@
-"""What a session tells of the beam, in words: what its poses lack, what mistakes in the data look like, what became of each reading."""
+"""What a session shows of the beam, in words: what its poses lack, what mistakes in the data look like, what became of each reading."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ def _evidence(fit: Fit, freedom: int) -> SensorEvidence:
 
 
 def _lacking(beam: Beam, lesser: Array, tilts: Array, span: tuple[float, float], middle_m: float) -> str:
-    """What the poses told least of, and what would mend it."""
+    """What the poses determine least, and what would improve it."""
     said = []
     if tilts[1] < TILT_DEG:
         axis_C = np.cross(beam.direction_C, beam.across_C @ lesser)

@@ -41,7 +41,7 @@ SLACK_M = 0.06
 RIM_M = 0.004
 """Half a spot's width: nearer to the board's edge a reading may be of both the board and what is behind."""
 FEWEST = 8
-"""Readings that a beam is found from: six numbers of it show, and two tell the noise."""
+"""Readings that a beam is found from: six numbers of it show, and two more show the noise."""
 STEEPEST = 0.17
 """Least cosine between beam and board's normal, 80 deg: beyond, nothing of the reading is the board's."""
 

@@ -1,7 +1,7 @@
 """The camera in the tracked body: H_PC and H_OB of ``H_OP(t_k) H_PC H_CB,k = H_OB`` for views k of a static board, and the clocks' offset.
 
 `clock` finds the offset of the two clocks, `likelihood` is the maximum-likelihood problem, `variance` weighs its parts by their own
-noise, `observability` tells what the motion can show; here they are put together.
+noise, `observability` says what the motion can show; here they are put together.
 
 The order: trusted panel poses; the offset from relative angles, the likeliest candidates tried with the closed form among outliers;
 refusal where the motion cannot show H_PC; the maximum-likelihood problem, its clock relinearised and its sigmas re-estimated until both
@@ -102,7 +102,7 @@ def solve_paired(boards: BoardPoses, H_OP: Array, camera: Camera | None, options
 
 
 def _refine(state: SolveState, t_camera_s: Array | None) -> SolveState:
-    """Settle with the closed form's inliers, choose the views anew, settle again with their shared errors counted."""
+    """Settle with the closed form's inliers, choose the views again, settle again with their shared errors counted."""
     state = _settle(state, t_camera_s)
     refused = np.zeros_like(state.inliers)
     for _ in range(4):
@@ -301,7 +301,7 @@ def _agreed(boards: BoardPoses, panel: TrackPoses, options: HandEyeOptions) -> p
 def _turned_back(boards: BoardPoses, panel: TrackPoses, agreed: park.Consensus) -> tuple[BoardPoses, park.Consensus]:
     """The boards, those turned by half a turn that were found by the wrong end, and the closed form with them.
 
-    A board whose pattern does not tell its ends may be found by either; only one places it where the other views do.
+    A board whose pattern does not show its ends may be found by either; only one places it where the other views do.
     """
     if boards.corners_px is None or boards.points_B is None or not agreed.inliers.any():
         return boards, agreed

@@ -1,4 +1,4 @@
-r"""What is wrong with the data, told before any solve from whether the motions of body and camera can be one rigid motion.
+r"""What is wrong with the data, found before any solve: whether the motions of body and camera can be one rigid motion.
 
 Symbols: relative motions A_ij of the body and B_ij of the camera are one screw, seen in P and in C: equal angle and equal pitch. Data
 that were inverted, reordered or mirrored on the way break this in ways of their own; each is undone in turn, and the one after which the
@@ -31,7 +31,7 @@ MENDS = 0.35
 """A cure counts where it lessens the misplacement to this share."""
 SCALE_TOLERANCE = 0.2
 BOARD_OFF = 0.004
-"""Share by which the board's size must differ from the mocap's metre to be worth a word: a tenth of a millimetre in a square of 25."""
+"""Share by which the board's size must differ from the mocap's metre to be reported: a tenth of a millimetre in a square of 25."""
 BOARD_SIGMAS = 3.0
 """Standard deviations by which it must differ: of sound data one session in 400 does."""
 STUDENT = 1.28
@@ -165,7 +165,7 @@ def board_size_warning(scale: float, sigma: float, H_PC: Array, carries: Carries
 
 
 def closed_form_size_warning(H_OP: Array, H_CB: Array, H_PC: Array, carries: Carries) -> str | None:
-    """`board_size_warning` before any solve; None where the closed form cannot tell the board's size as well as that."""
+    """`board_size_warning` before any solve; None where the closed form does not determine the board's size that well."""
     sigma = STUDENT * park.board_scale_sigma(H_OP, H_CB)
     return None if sigma > BOARD_OFF else board_size_warning(park.board_scale(H_OP, H_CB, H_PC[:3, :3]), sigma, H_PC, carries)
 
@@ -207,7 +207,7 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
         yield words, f"write mocap.quaternion: {other}", H, H_CB
         yield f"{words}, and the poses are inverted", f"write mocap.quaternion: {other} and mocap.direction: H_PO", se3.inv(H), H_CB
     yield from _other_angles(H_OP, H_CB)
-    todo = "export the recording anew in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
+    todo = "export the recording again in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
     for axis in range(3):
         mirror = np.eye(4)
         mirror[axis, axis] = -1

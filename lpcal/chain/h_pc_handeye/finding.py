@@ -157,7 +157,7 @@ def _verdicts(state: SolveState, found: HandEyeEstimate) -> tuple[ViewVerdict, .
 
 
 def _with_pose_errors(covariance: Array, added: Array, factor: float) -> Array:
-    """The covariance (13, 13) with what errors that hang on the pose add (12, 12), at least a factor more than by white noise."""
+    """The covariance (13, 13) with what errors that depend on the pose add (12, 12), at least a factor more than by white noise."""
     whole = covariance.copy()
     whole[:12, :12] += added
     grown = float(np.trace(np.linalg.solve(covariance[:6, :6], whole[:6, :6]))) / 6

@@ -5,7 +5,7 @@ measured pose H~_k, the velocity (w, v) of the panel and d = offset - offset_0::
 
     corner m of view k:   ( project( inv(H_OP,k H_PC) H_OB x_B,m ) - seen ) / sigma_px
     board pose k:         rotation and translation of inv(H~_k H_PC) H_OB against the pose found elsewhere: one scatter for both
-                          sensors (they cannot be told apart without corners), so that no latent pose is needed
+                          sensors (they cannot be separated without corners), so that no latent pose is needed
     mocap pose k:         [ rotation( R_OP,k R~_k^T (I + d hat(w)) ),  t_OP,k - t~_k + d v ] / sigmas
     camera:               its prior from the intrinsics' covariance
     scale:                log s / its prior's sigma, s the board's size by the mocap over its stated size: x_B,m stands for s x_B,m above
@@ -13,7 +13,7 @@ measured pose H~_k, the velocity (w, v) of the panel and d = offset - offset_0::
 Metres are the mocap's. That the board's square and the mocap's metre are both known to some parts in a thousand only is always in the
 covariance, as s is solved for: with a board that is wrong (s x_B) the rotation and the position of H_PC are right; with a mocap whose
 metre is wrong the data are the same, H_PC is right in the mocap's metres, in which H_OP comes too, and its position in true metres is
-1/s of that. So no choice between the two is called for, and nothing but the unit of the position hangs on it. With s held at 1 instead,
+1/s of that. So no choice between the two is called for, and nothing but the unit of the position depends on it. With s held at 1 instead,
 a wrong one moves the camera along its view of the board by up to (s - 1) times the board's distance, and turns it.
 
 The clock's part is linear in d: `solve` relinearises. Source: the usual joint formulation of robot-world hand-eye calibration with

@@ -56,7 +56,7 @@ class Step:
             f"{np.degrees(self.angle_rad):.2f} deg: as one session the board is misplaced by {1e3 * self.misplaced_m:.1f} mm rms, "
             f"each part by itself fits to {1e3 * self.parted_m:.1f} mm",
             needed=self.needed,
-            todo="use the views of one part alone, or take the session anew",
+            todo="use the views of one part alone, or take the session again",
         )
 
 

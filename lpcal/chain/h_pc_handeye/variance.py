@@ -1,4 +1,4 @@
-r"""How noisy the measurements are, told by the solve itself, and the covariance that follows where neighbours share their errors.
+r"""How noisy the measurements are, by the solve's own residuals, and the covariance that follows where neighbours share their errors.
 
 Symbols: residual r_j with the weight w_j = 1/sigma_j^2 and leverage h_j (the share of it that the fit absorbs), frozen set of views::
 
@@ -9,7 +9,7 @@ Symbols: residual r_j with the weight w_j = 1/sigma_j^2 and leverage h_j (the sh
 Mocap errors are coloured: differences of the stream understate them fifty times. Sources: Forstner, Ein Verfahren zur Schatzung von
 Varianz- und Kovarianzkomponenten (1979); Kunsch, The jackknife and the bootstrap for general stationary observations (1989).
 
-Errors of the panel's poses that hang on the pose: a robot's joint offsets and link lengths, a mocap's corner of the room.
+Errors of the panel's poses that depend on the pose: a robot's joint offsets and link lengths, a mocap's corner of the room.
 
 Symbols: the misplacement e_k = (turn, shift of the origin) of the panel in O of view k, from its measured pose to that which the board
 shows, and its covariance S_k by white noise of both sensors; its derivatives J_k by left perturbations of H_PC, H_OB; the pose's features
@@ -225,7 +225,7 @@ def _mocap_covariance(views: Views, variance: Array) -> Array:
 
 
 def _pose_features(H_OP: Array) -> Array:
-    """(N, 6) of zero mean and unit spread; a direction in which the poses do not differ tells nothing."""
+    """(N, 6) of zero mean and unit spread; a direction in which the poses do not differ says nothing."""
     features = np.hstack([se3.rotation_vector(H_OP[0, :3, :3].T @ H_OP[:, :3, :3]), H_OP[:, :3, 3]])
     features = features - features.mean(axis=0)
     spread = features.std(axis=0)

@@ -59,7 +59,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     Raises
     ------
     DegenerateError
-        Fewer than three views with a board, or views that cannot tell the focal length or the principal point.
+        Fewer than three views with a board, or views that do not determine the focal length or the principal point.
     InputError
         A splined lens without mrcal.
     ConvergenceError
@@ -83,7 +83,7 @@ def solve_camera(views: BoardViews, board: Board, *, model: str = "auto", solver
     except (ConvergenceError, np.linalg.LinAlgError) as error:
         if (alike := monotony(problem, None)) is None:
             raise
-        raise DegenerateError(alike, where="camera.images", needed="views that differ, to tell a camera", todo=TODO) from error
+        raise DegenerateError(alike, where="camera.images", needed="views that differ enough to determine a camera", todo=TODO) from error
     found, misfits = [index for row, index in enumerate(found) if row not in left_out], {found[row]: why for row, why in left_out.items()}
     alike = monotony(problem, fit.camera if fit.camera.spline is None else None)
     doubts = refuse_degenerate(fit, alike)
@@ -159,19 +159,19 @@ def refuse_degenerate(fit: CameraFit, alike: str | None = None) -> list[str]:
     why = alike or "the board seems to face the camera, or to fill little of the image"
     if lost:
         raise DegenerateError(
-            f"these {len(fit.H_CB)} views cannot tell the {' and the '.join(lost)}: {', '.join(said.values())}; {why}",
+            f"these {len(fit.H_CB)} views do not determine the {' and the '.join(lost)}: {', '.join(said.values())}; {why}",
             where="camera.images",
             needed=f"one sigma under {100 * DEGENERATE_SHARE:.0f} %",
             todo=TODO,
         )
-    doubts = [f"the views tell the {', the '.join(said.values())} only{f': {alike}' if alike else ''}; {TODO}"] if said else []
+    doubts = [f"the views determine the {', the '.join(said.values())} only{f': {alike}' if alike else ''}; {TODO}"] if said else []
     if alike and not said:
         doubts.append(f"{alike}; the sigmas are those of corners that scatter, and hold only if the lens is as modelled")
     return doubts + _unequal_focal(fit, sigma)
 
 
 def _unequal_focal(fit: CameraFit, sigma: Array) -> list[str]:
-    """A word on focal lengths along x and y that differ by more than sensors do."""
+    """A warning where focal lengths along x and y differ by more than sensors do."""
     fx, fy = fit.camera.K[0, 0], fit.camera.K[1, 1]
     off = fx / fy - 1
     if abs(off) < max(UNEQUAL_SHARE, UNEQUAL_SIGMAS * float(np.hypot(sigma[0] / fx, sigma[1] / fy))):

@@ -97,7 +97,7 @@ def assess(known: Information, fit: CameraFit) -> Sureness:
 
 
 def assess_spline(fit: CameraFit) -> Sureness:
-    """Sureness over the imager as the solver itself tells it; what each view is worth is not known."""
+    """Sureness over the imager as the solver itself states it; what each view is worth is not known."""
     assert fit.uncertainty is not None
     pixels = pixel_grid(fit.camera.image_size, COLUMNS, ROWS)
     worst = fit.uncertainty(pixels)

@@ -31,7 +31,7 @@ from lpcal.records.calibration import Camera
 MARGIN = 0.95
 """More parameters must be better by this."""
 SIGNIFICANT = 16.0
-"""And a lens must fit better by this chi-square, four sigmas: halves of the views tell what to expect to a tenth or so only, and a lens
+"""And a lens must fit better by this chi-square, four sigmas: halves of the views show what to expect to a tenth or so only, and a lens
 that bends in the image's corners, where no board was, costs more than it gains."""
 FEWEST_VIEWS = 8
 """Halves of fewer views than this, together, decide nothing."""
@@ -39,7 +39,7 @@ FEWEST_VIEWS = 8
 
 @dataclass(frozen=True)
 class Candidate:
-    """A lens model and a board, and what speaks for them."""
+    """A lens model and a board, and the evidence for them."""
 
     model: str
     board: str
@@ -52,7 +52,7 @@ class Candidate:
 
     @property
     def rank(self) -> int:
-        """Its rank by the numbers that it fits beside the poses."""
+        """Its rank by the numbers that it fits besides the poses."""
         return 10 * DISTORTIONS.get(self.model, 99) + BOARDS.index(self.board)
 
 

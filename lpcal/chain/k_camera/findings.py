@@ -5,10 +5,10 @@ modelled. See `assess`, `next_view`, `patterns`.
 
 The same corners by COLMAP's bundle adjustment, in which every corner of the board is a free point of space.
 
-It knows no shape of a board, shares no code with the solve, and so tells what a board costs that is printed or bent in a way that no
+It knows no shape of a board, shares no code with the solve, and so shows the effect of a board that is printed or bent in a way that no
 smooth shape follows: the camera moves, and the points found lie off the board's. Two cameras hold the frame and its scale, which moves no
-lens. COLMAP's first pixel is centred at (0.5, 0.5).
-Source: COLMAP (pycolmap), bundle adjustment; Strobl & Hirzinger 2011 (imperfect boards).
+lens. COLMAP's first pixel is centred at (0.5, 0.5). Source: COLMAP (pycolmap), bundle adjustment; Strobl & Hirzinger 2011 (imperfect
+boards).
 
 The same corners by another's adjustment: OpenCV's calibrateCamera, from lpcal's solution, on lpcal's board and inliers.
 
@@ -54,7 +54,7 @@ FLAT_TILT_DEG = 15.0
 def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, blame_board: bool = True) -> tuple[CameraEvidence, list[str]]:
     """Figures for camera.yaml, and warnings; `names` are those of the problem's views.
 
-    Nothing is said of the board where `blame_board` is false: views that are too much alike cannot tell its shape from the lens.
+    Nothing is reported of the board where `blame_board` is false: views that are too much alike cannot separate its shape from the lens.
     """
     on_board, on_image = patterns.on_board(fit), patterns.on_image(fit)
     left = {where: ResidualPattern(size_px=one.size_px, z=one.z) for where, one in (("board", on_board), ("image", on_image))}
@@ -83,7 +83,7 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, bl
 
 
 def _uneven(free: OtherSolver, sure: Sureness, fit: CameraFit) -> list[str]:
-    """A word where freeing the board's corners explains much of what is left, or moves the camera by more than its sigma allows."""
+    """A warning where freeing the board's corners explains much of what is left, or moves the camera by more than its sigma allows."""
     apart_px, off_m = free.difference_rms_px, free.board_off_rms_m
     if apart_px is None or off_m is None or not sure.covered.any():
         return []
@@ -98,7 +98,7 @@ def _uneven(free: OtherSolver, sure: Sureness, fit: CameraFit) -> list[str]:
 
 
 def _odd_size(problem: CornerProblem, fit: CameraFit) -> list[str]:
-    """A word on a board of a size that none is made in: the images alone cannot tell it."""
+    """A warning about a board of a size that none is made in: the images alone do not show it."""
     square_m = float(np.mean(problem.board.square_m))
     if USUAL_SQUARE_M[0] <= square_m <= USUAL_SQUARE_M[1]:
         return []
@@ -186,7 +186,7 @@ def _unmodelled(on_board: patterns.Pattern, on_image: patterns.Pattern, fit: Cam
 
 
 def blurred_or_glaring(views: Sequence[BoardView]) -> list[str]:
-    """A word on the views whose board is much more blurred than usual, or shines."""
+    """A warning about the views whose board is much more blurred than usual, or shines."""
     found = [view for view in views if view.corners_px is not None and np.isfinite(view.blur_px)]
     usual = float(np.median([view.blur_px for view in found])) if found else float("nan")
     blurred = [view.image for view in found if view.blur_px > max(MUCH_BLUR * usual, LEAST_BLUR_PX)]

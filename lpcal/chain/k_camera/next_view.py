@@ -1,9 +1,9 @@
-"""Where to hold the board next: boards are put all over the image, in thought, and the one that would tell the most is named.
+"""Where to hold the board next: boards are put all over the image, in simulation, and the one that would add the most is named.
 
 Symbols: S the views' information, S_v that of a board put at H_CB; the gain of v is the ratio of the mean sigmas, over the imager where the
 lens means something, that ``S + S_v`` and ``S`` leave. Source: sequential D- and I-optimal design, Pukelsheim 1993.
 
-Whether the views of the board differ enough to tell a camera: what they lack is said of them, and not of the board.
+Whether the views of the board differ enough to determine a camera: what they lack is reported of them, not of the board.
 
 Symbols: view k, its corners on the plane z = 1 by the camera found, or by one of the image's width as focal length where none was; the
 homography G_k from the board to that plane; the board's tilt, from its perspective, as a vector in the image ::
@@ -110,7 +110,7 @@ def _information_of(known: Information, fit: CameraFit, H_CB: Array) -> Array | 
 
 
 ALIKE_RAD = np.radians(5.0)
-"""Boards whose tilts differ by less are of one plane: corners of 0.1 px tell a tilt to a degree or so."""
+"""Boards whose tilts differ by less are of one plane: corners of 0.1 px show a tilt to a degree or so."""
 FEWEST_TILTS = 3
 """Planes of so many tilts determine a camera, two with nothing to spare."""
 SAME_SHARE = 0.02

@@ -1,4 +1,4 @@
-"""What the residuals still know: a pattern that stays with the board, or with the image, is a shape or a lens that was not modelled.
+"""What the residuals still show: a pattern that stays with the board, or with the image, is a shape or a lens that was not modelled.
 
 Symbols: residual r_km of corner m of view k, its noise sigma a coordinate; G_km (2, 3) the derivative of its pixel by a displacement of the
 board's point; N_m the sum of G'G over the views, g_m of G'r; in the image, n_c residuals in cell c and their mean b_c::
@@ -34,7 +34,7 @@ class Pattern:
     z: float
 
     def seen(self, sigma_px: float) -> bool:
-        """Whether it is worth a word."""
+        """Whether it is worth reporting."""
         return self.z > SEEN_Z and self.size_px > SEEN_SHARE * sigma_px
 
 

@@ -62,7 +62,7 @@ class CameraFit:
     board: str
     """What the board was taken as, one of `shape.BOARDS`."""
     shape: dict[str, tuple[float, float]]
-    """The numbers of the board's terms, each with its sigma (NaN where the solver does not tell)."""
+    """The numbers of the board's terms, each with its sigma (NaN where the solver does not state it)."""
     cameramodel: Callable[[], str] | None = None
     """The text of a .cameramodel with the optimisation inputs, where the solver has them."""
     uncertainty: Callable[[Array], Array] | None = None

@@ -8,7 +8,7 @@ made orthogonal to 1, u and v over the corners, so that the board's mean plane s
     cubic    z = u^3, u^2 v, u v^2, v^3
     stretch  (x, y) = (m u, -n v) / 2, (n v, m u) / 2      sides unequal, not square to each other
 
-All have a prior about 0: none is switched on or off by what little tells near ties apart.
+All have a prior about 0: none is switched on or off by chance where two are nearly equal.
 
 Source: plate bending (Timoshenko & Woinowsky-Krieger 1959) for the order of the terms; the priors are print shops' tolerances.
 """
@@ -28,7 +28,7 @@ CUBIC_SHARE = 4e-4
 """One standard deviation of a cubic term, in units of the grid's diagonal."""
 QUADRATIC_SHARE = 1.2e-3
 """One standard deviation of bow and twist beforehand, in units of the grid's diagonal: 0.3 mm on a board of 9x6 squares of 25 mm. With it
-the shape goes continuously from flat, where the data do not tell, to what they tell; a bow of many times that is found all the same."""
+the shape goes continuously from flat, where the data do not show it, to what they show; a bow of many times that is found all the same."""
 STRETCH = 1e-3
 """One standard deviation of what the sides differ by, relative."""
 

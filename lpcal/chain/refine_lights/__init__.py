@@ -2,11 +2,11 @@ r"""The lights refined from images of spheres: `refine_judged`, or `refine` with
 
 The lights as `refine` finds them are judged: what the spheres leave open, what contradicts them, how well they predict a sphere.
 
-Free lights whose distance the spheres do not tell become distant ones; when the fit does not settle, or settles badly, the
+Free lights whose distance the spheres do not determine become distant ones; when the fit does not settle, or settles badly, the
 mistake that explains it is looked for (`explain`); the shading and a sphere held out are compared with what the lights predict
 (`diagnosis`).
 
-Lights that spheres cannot tell from distant ones: directions without positions.
+Lights that spheres cannot distinguish from distant ones: directions without positions.
 
 Symbols: x_s, r_s the place and direction in which the mirror of sphere s sees a free light, x_0 the mean of the places, d the light's
 direction from x_0 and w one over its distance (0: distant)::
@@ -79,7 +79,7 @@ class FarLight:
 
 
 def far_lights(free: Sequence[str], used: Measured, camera: Camera) -> dict[str, FarLight]:
-    """Those of the free lights whose distance the spheres do not tell."""
+    """Those of the free lights whose distance the spheres do not determine."""
     found = {}
     for light in free:
         far = _chrome(light, used, camera) or _matte(light, used, camera)
@@ -106,12 +106,12 @@ def with_far(
         level_std = one.level_std_over(points_C) if name in level else float("nan")
         known[name] = Light(name, one.direction_C, intensity, direction_std_rad=one.std_over(points_C), intensity_std=level_std)
     mean = float(np.mean([known[name].intensity.mean() for name in lights]))
-    told = _words(far, used)
+    remarks = _words(far, used)
     if near is not None:
         return replace(
             near,
             lights=tuple(replace(known[name], intensity=known[name].intensity / mean) for name in lights),
-            warnings=(*told, *near.warnings),
+            warnings=(*remarks, *near.warnings),
         )
     return LightsSolution(
         lights=tuple(replace(known[name], intensity=known[name].intensity / mean) for name in lights),
@@ -119,7 +119,7 @@ def with_far(
         d_object_m=None,
         H_CD=None,
         spheres=tuple(_finding(view, used, camera) for view in views),
-        warnings=tuple(told),
+        warnings=tuple(remarks),
         evidence=LightsEvidence(model="distant lights"),
     )
 
@@ -221,21 +221,21 @@ def _finding(view: SphereView, used: Measured, camera: Camera) -> SphereFinding:
 
 def _words(far: dict[str, FarLight], used: Measured) -> list[str]:
     open_, bounded = [name for name, one in far.items() if one.beyond_m is None], {n: f for n, f in far.items() if f.beyond_m is not None}
-    told = []
+    remarks = []
     if open_:
         shown = [view.name for view, _ in used if any(name in view.highlights_px for name in open_)]
         by = f"one chrome sphere ({', '.join(shown)})" if len(shown) == 1 else "one chrome sphere each" if shown else "no chrome sphere"
-        told.append(
+        remarks.append(
             f"{', '.join(open_)}: seen in {by}: their positions cannot be found, directions only, as seen from there; "
             "needed: two chrome spheres at different places, or the wings' settings"
         )
     if bounded:
         beyond = min(one.beyond_m for one in bounded.values() if one.beyond_m is not None)
-        told.append(
+        remarks.append(
             f"{', '.join(bounded)}: the spheres cannot tell near from far, beyond {beyond:.1f} m: taken as distant, directions only; "
             "spread the spheres further apart to find positions"
         )
-    return told
+    return remarks
 
 
 DOUBTED_SHADING = 0.01
@@ -255,7 +255,7 @@ def refine_judged(
     lobes: Mapping[str, Lobe] | None = None,
     free_core: bool = False,
 ) -> LightsSolution:
-    """The lights from spheres, as `refine`; distant where nothing tells their distance; what is wrong named.
+    """The lights from spheres, as `refine`; distant where their distance is not determined; what is wrong is named.
 
     Raises
     ------

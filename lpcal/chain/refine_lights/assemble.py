@@ -22,7 +22,7 @@ DIRECTION_FLOOR_RAD, LEDS_FLOOR_RAD = float(np.radians(0.03)), float(np.radians(
 COMMON_SHARE = 0.5
 """So much of what the blocks are off by is taken as common to all blocks of a light."""
 UNSURE = 0.3
-"""A free light whose distance is less sure than this share of itself is told."""
+"""A free light whose distance is less certain than this share of itself is reported."""
 
 
 def as_designed(wings: Wings, lights: Sequence[str], intensity_sd: float) -> LightsSolution:

@@ -113,19 +113,19 @@ def _drifts(shaded: Shaded, names: Sequence[str], limit: float) -> list[str]:
     table -= np.median(table, axis=1, keepdims=True)
     change = np.ptp(table, axis=0)
     limit = max(limit, DRIFTED_TIMES * float(np.median(change)))
-    told = []
+    remarks = []
     for k in (int(row) for row in np.flatnonzero(change > limit)):
         bright, dim = (shaded.names[spheres[int(pick(table[:, k]))]] for pick in (np.argmax, np.argmin))
-        told.append(
+        remarks.append(
             f"{seen[k]}: {100 * np.expm1(change[k]):.0f} % brighter at {bright} than at {dim}, the other lights alike: does it drift? "
-            "let it warm up, check its current, and take the spheres anew"
+            "let it warm up, check its current, and take the spheres again"
         )
-    return told
+    return remarks
 
 
 def _other_lobes(shaded: Shaded, lights: Sequence[Light], wings: Wings | None) -> list[str]:
     """Lights that fall off as another number of LEDs than stated does."""
-    samples, told = shaded.samples, []
+    samples, remarks = shaded.samples, []
     stated = {wing.name: wing.leds for wing in wings.wings} if wings else {}
     for k, light in enumerate(lights):
         leds, own = stated.get(light.name), samples.light == k
@@ -135,8 +135,8 @@ def _other_lobes(shaded: Shaded, lights: Sequence[Light], wings: Wings | None) -
         other = 26 - leds
         if left[leds] > UNFIT**2 and left[other] < OTHER_LOBE * left[leds]:
             why = "is its outer ring off" if other < leds else "are its outer LEDs on"
-            told.append(f"{light.name}: falls off as {other} LEDs do, not {leds}: {why}? Correct the blob, or leds in panel.yaml")
-    return told
+            remarks.append(f"{light.name}: falls off as {other} LEDs do, not {leds}: {why}? Correct the blob, or leds in panel.yaml")
+    return remarks
 
 
 def _lobe_misfit(samples: Samples, own: Array, leds: int) -> float:
@@ -229,11 +229,11 @@ def _miss_px(measured: CentreMeasurement, radius_m: float, source_C: Array, seen
 
 
 def _gates(px: float | None, gate_px: float, shading: float | None) -> list[str]:
-    told = []
+    remarks = []
     if px is not None and px > gate_px:
-        told.append(f"the other spheres predict the highlights of one held out to {px:.2f} px only, {gate_px:.2f} is the limit")
+        remarks.append(f"the other spheres predict the highlights of one held out to {px:.2f} px only, {gate_px:.2f} is the limit")
     if shading is not None and shading > GATE_SHADING:
-        told.append(
+        remarks.append(
             f"the other spheres predict the shading of one held out to {100 * shading:.1f} % only, {100 * GATE_SHADING:g} is the limit"
         )
-    return told
+    return remarks

@@ -1,6 +1,6 @@
 """Which one mistake explains highlights that do not fit: a sphere of another radius, images in another order, a camera that moved.
 
-Each is tried in turn, the geometry solved anew with it, and what it gains compared::
+Each is tried in turn, the geometry solved again with it, and what it gains compared::
 
     gain = 2 (cost as stated - cost with the mistake undone)
 
@@ -101,7 +101,7 @@ def moved_camera(
         f"it was among the wings, {sigmas:.0f} standard deviations: has it moved since the hand-eye images?",
         where="spheres",
         needed="one camera, fixed to the panel, for boards and spheres",
-        todo="fasten it and take boards and spheres anew; where its place is only drawn, widen panel.camera.tolerance",
+        todo="fasten it and take boards and spheres again; where its place is only drawn, widen panel.camera.tolerance",
     )
     return Mistake(float(gain), error)
 
@@ -229,7 +229,7 @@ def _mirrored(view: SphereView, measured: CentreMeasurement, names: Sequence[str
 
 
 def refuse_matte_order(view: SphereView, centre_C: Array, camera: Camera, source_C: dict[str, Array]) -> None:
-    """Refuse a matte sphere whose images are in another order: its shading tells directions to a degree or two.
+    """Refuse a matte sphere whose images are in another order: its shading gives directions to a degree or two.
 
     Raises
     ------

@@ -1,14 +1,14 @@
 r"""What a sphere's outline says of its centre, and how sure that is; what a pixel's residual is in any lens.
 
 Symbols: outline points with scatter s a point (px), radius r (px); a common radial bias b (px, outwards) moves the centre by
-``by_bias * b``. To the formal covariance come systematic parts, measured on drawn spheres of known place (`tools/outline_errors.py`)::
+``by_bias * b``. To the formal covariance come systematic parts, measured on simulated spheres of known place (`tools/outline_errors.py`)::
 
     shift an axis   sigma^2 = (floor max(1, (25 / r)^2))^2 + (slope s^2)^2
     bias            sigma^2 = floor^2 + (slope s^2)^2 + (small' q)^2,   q = min(1, (25 / r)^3)
     its mean        matte small q, chrome rim (1 - min(1, r / 47)), beside what all of the kind share
 
 Scatter shows what the edge met besides the sphere's rim: squared, as it takes part of the rays along and is itself seen only in the rest.
-They are those of an outline seen all round. Where a part is lacking, bias and shift are hard to tell apart: they grow with the inverse of
+They are those of an outline seen all round. Where a part is lacking, bias and shift are hard to separate: they grow with the inverse of
 the normal matrix of (1, n) over its normals n. A matte outline's model of the limb does not hold within the blur, which moves it
 outwards; a chrome rim mirrors what is behind it in rings whose width is a share of the radius, and so is the bias that they make.
 """
@@ -119,7 +119,7 @@ def local_projection(camera: Camera, u_C: Array) -> Array:
 
 
 def measured_spheres(views: Sequence[SphereView], camera: Camera, *, free_core: bool = False) -> tuple[Measured, dict[str, str]]:
-    """The spheres whose centres their outlines tell, each with its measurement; and why, in words, of the others by name."""
+    """The spheres whose outlines give their centres, each with its measurement; and why not, in words, for the others by name."""
     used, refused = [], {}
     for view in views:
         try:

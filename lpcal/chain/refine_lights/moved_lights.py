@@ -34,7 +34,7 @@ from lpcal.records.calibration import Camera, SphereFinding
 from lpcal.records.observations import SphereView
 
 CHROME = KINDS[0]
-"""The kind of sphere whose highlights tell where lights are."""
+"""The kind of sphere whose highlights show where lights are."""
 OUTLINE_SIGMA_PX, HIGHLIGHT_SIGMA_PX = 0.15, 0.015
 """Scatter of an outline's points and error of a highlight, pixels, where a file of an earlier lpcal does not state them."""
 FEWEST_SPHERES = 2

@@ -1,6 +1,6 @@
 r"""The lights refined from spheres: geometry first, brightness after, every light with what is known of it and how surely.
 
-Where to put the next chrome sphere: spheres are put all over the picture, in thought, and the one that would tell the most is named.
+Where to put the next chrome sphere: spheres are put all over the picture, in simulation, and the one that would add the most is named.
 
 Symbols: sources s with joint covariance S; a sphere at c, its centre measured by its outline with covariance S_c; highlights h(s, c) with
 standard deviation sigma::
@@ -213,7 +213,11 @@ def _solution(
         shading_rms=rms(list(misfit.values())),
         next_sphere=_next_sphere(fit, joint, focus_C, kept, camera),
     )
-    told = (*(f"{name}: {why}" for name, why in refused.items()), *warnings, *_doubts(joint.bias_px if joint else fit.bias_px, highlights))
+    remarks = (
+        *(f"{name}: {why}" for name, why in refused.items()),
+        *warnings,
+        *_doubts(joint.bias_px if joint else fit.bias_px, highlights),
+    )
     solved = joint or fit
     return LightsSolution(
         lights=tuple(lights),
@@ -221,7 +225,7 @@ def _solution(
         d_object_m=d_object_of(H_CD, focus_C),
         H_CD=H_CD,
         spheres=tuple(spheres),
-        warnings=told,
+        warnings=remarks,
         evidence=evidence,
         H_CD_covariance=solved.H_CD_covariance,
         camera=with_core(camera, solved.core) if solved.core.size else None,
@@ -229,7 +233,7 @@ def _solution(
 
 
 def _next_sphere(fit: GeometryFit, joint: JointFit | None, focus_C: Array, kept: Sequence[SphereView], camera: Camera) -> NextSphere | None:
-    """Which chrome sphere would tell the most of the directions, as evidence."""
+    """Which chrome sphere would improve the directions most, as evidence."""
     source_C, covariance = (joint.source_C, joint.source_covariance) if joint else (fit.source_C, fit.source_covariance)
     radius_m = float(np.median([view.radius_m for view in kept]))
     advice = advise(source_C, covariance, focus_C, radius_m, camera)
@@ -361,7 +365,7 @@ def mean_direction_std(source_C: Array, covariance: Array, focus_C: Array) -> fl
 
 
 def _information(source_C: Array, centre_C: Array, radius_m: float, camera: Camera) -> Array | None:
-    """What a sphere at a place tells of the sources, (3 L, 3 L); None where it is not whole in the picture."""
+    """What a sphere at a place adds to the knowledge of the sources, (3 L, 3 L); None where it is not whole in the picture."""
     outline_px = camera.project(sphere.outline(centre_C, radius_m, np.linspace(0, 2 * np.pi, 90, endpoint=False)))
     if np.any(outline_px < MARGIN_PX) or np.any(outline_px > np.array(camera.image_size) - 1 - MARGIN_PX):
         return None

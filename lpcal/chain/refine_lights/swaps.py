@@ -15,7 +15,7 @@ Which ones are worth a try, the fit as drawn says to second order: joint angle g
 
     gain ~ 2 d (g - g0) / sigma^2 - d^2 / sigma^2 (1 - S / sigma^2)
 
-How far the data tell a click from none at all is K = d^2 / sigma^2 (1 - S / sigma^2): without one the gain is about -K +- 2 sqrt(K), with
+How well the data distinguish a click from none is K = d^2 / sigma^2 (1 - S / sigma^2): without one the gain is about -K +- 2 sqrt(K), with
 one K +- 2 sqrt(K). What is enough is so improbable without a click that of all joints tried none gains it: -K + 2 sqrt(K) z. Small spheres
 leave K at 4 to 10 where 20 to 60 is usual.
 
@@ -82,7 +82,7 @@ def refuse_swapped(
 
 CLICK_RAD = float(np.radians(10.0))
 ENOUGH, ENOUGH_UNDER_ONE = 4.0, 12.0
-"""With two chrome spheres or more that tell a click well, and with one or less well: z squared, an error of three in 10000."""
+"""With two chrome spheres or more that show a click well, and with one or less well: z squared, an error of three in 10000."""
 TRIES = 4
 """The most promising of all joints and both ways."""
 WORTH_A_TRY = -30.0
@@ -117,7 +117,7 @@ class Click:
         """In words."""
         found_deg, drawn_deg = np.degrees([self.found_rad, self.drawn_rad])
         if not self.sure:
-            return f"{self.name}: its joint may be at {found_deg:.0f} deg, not {drawn_deg:.0f}, which these spheres hardly tell: look at it"
+            return f"{self.name}: its joint may be at {found_deg:.0f} deg, not {drawn_deg:.0f}, which these spheres hardly show: look at it"
         return f"{self.name}: joint at {found_deg:.0f} deg, not {drawn_deg:.0f}; correct joint_angle in panel.yaml"
 
 
@@ -149,7 +149,7 @@ def fit_with_clicks(
 def clicks_under_shading[Found: _WithSettings](
     solved: Found, wings: Wings, solve: Callable[[Wings], Found], rows: Sequence[int]
 ) -> tuple[Found, Wings, list[Click]]:
-    """The same where highlights alone are too few to tell, but shading was solved with them: a blob that emits 10 degrees off stands out.
+    """The same where highlights alone are too few, but shading was solved with them: a blob that emits 10 degrees off stands out.
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ def _promise(fit: _WithSettings, wings: Wings, row: int, step: int) -> float:
 
 
 def _evidence(fit: _WithSettings, wings: Wings, row: int) -> float:
-    """How far the data tell a click of a joint from none: K."""
+    """How well the data distinguish a click of a joint from none: K."""
     sigma = wings.setting_sigma[1]
     return float((CLICK_RAD / sigma) ** 2 * (1 - fit.settings_std[row, 1] ** 2 / sigma**2))
 
