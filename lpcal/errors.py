@@ -27,7 +27,7 @@ ELLIPSIS = " ... "
 
 
 class LpcalError(Exception):
-    """An error that the user can mend.
+    """An error that the user can correct.
 
     Parameters
     ----------

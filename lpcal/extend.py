@@ -40,7 +40,7 @@ ON_AXIS = 1e-6
 def register_lobe(name: str, formula: Callable[[Array, float], Array]) -> LobeKind:
     r"""Add a kind of lobe of one parameter: files, light fields and the report of this process know it from then on.
 
-    An installed package adds one for good, and for the command line too, by an entry point::
+    An installed package adds one for good, and for the command line too, by an entry point:
 
         [project.entry-points."lpcal.lobes"]
         ours = "our_package:LOBE"              # LOBE = lpcal.extend.register_lobe(...), or a LobeKind
@@ -91,7 +91,7 @@ def register_mocap(
 ) -> MocapFormat:
     r"""Add a motion-capture format: `read_mocap` and the commands of this process know it from then on, before their own.
 
-    An installed package adds one for good, and for the command line too, by an entry point::
+    An installed package adds one for good, and for the command line too, by an entry point:
 
         [project.entry-points."lpcal.mocap"]
         ours = "our_package:FORMAT"            # FORMAT = lpcal.register_mocap(...), or a MocapFormat

@@ -38,7 +38,8 @@ def calibrate_distance_sensor(
         Readings on the board, metres; NaN where there is none.
     boards : BoardPoses, or ndarray (N, 4, 4)
         The board in the camera at each reading, of `locate_boards`; or H_CB, metres.
-    board : Board, optional The board, where `boards` is an array: it says where the board ends.
+    board : Board, optional
+        The board, where `boards` is an array: it says where the board ends.
     position : ndarray (3,)
         Where the beam begins as drawn, metres in D; in C without `H_CD`.
     direction : ndarray (3,)

@@ -42,7 +42,7 @@ class Exported:
 def register_format(added: ExchangeFormat) -> ExchangeFormat:
     r"""Add a format to write calibrations in, or another one under its name; `export_calibration` and the commands know it from then on.
 
-    An installed package adds one for good, and for the command line too, by an entry point::
+    An installed package adds one for good, and for the command line too, by an entry point:
 
         [project.entry-points."lpcal.formats"]
         ours = "our_package:FORMAT"            # an ExchangeFormat

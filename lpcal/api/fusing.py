@@ -138,7 +138,7 @@ def _over(engine: Engine, work: TileWork, tiles: Sequence[SpaceTile]) -> list[Ti
 
 
 def refine_rig(calibration: Calibration, model: ObjectModel) -> Calibration:
-    """The calibration with its lights and H_PC as the views of a model would have them.
+    """The calibration with its lights and H_PC corrected by the views of a model.
 
     Intensities keep their mean of 1: a factor that all lights share shows in the surfaces' albedo alone.
 

@@ -114,7 +114,7 @@ def reconstruct(
         What is known of the sensor (gamma, black and white level, flat field) for these images; it counts before what the capture and the
         calibration say. A sequence stands for all that is said, by who says it.
     placement : Placement, optional
-        Where it was taken, of `place`; the surface bears it.
+        Where it was taken, of `place`; the surface keeps it.
     name : str
         What the capture is called in messages, where `images` is an array.
     progress : callable, optional

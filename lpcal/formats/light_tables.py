@@ -32,7 +32,6 @@ SHARPEST = 5000.0
 """The largest exponent of a cosine lobe that is believed: its half angle is one degree."""
 ON_AXIS = 0.02
 """Difference from 1 that a lobe's table may have on the axis: more than rounding and smoothing leave."""
-"""The lobes of calibration.yaml."""
 
 
 def text_of(path: Path) -> str:
@@ -203,7 +202,7 @@ def _wrong(light: Light) -> tuple[str, str]:
 def _wrong_lobe(lobe: Lobe) -> tuple[str, str]:
     """What is wrong with a lobe, and what it should be, in words; empty where nothing is."""
     if lobe.kind not in FORMULAS and lobe.kind not in (known := lobes.known()):
-        return f"a lobe of kind {lobe.kind!r}", f"one of {', '.join(known)}"
+        return f"a lobe of kind {lobe.kind!r}", f"one of {', '.join(known)}, or a kind that is registered or installed"
     if not 0 <= lobe.exponent <= SHARPEST:
         return f"a lobe {lobe.kind!r} of exponent {lobe.exponent:g}", f"an exponent of 0 to {SHARPEST:g}"
     if len(lobe.value) != len(lobe.angle_rad) or np.any(np.diff(lobe.angle_rad) <= 0) or (lobe.kind in TABLED and len(lobe.value) < 2):

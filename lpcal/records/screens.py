@@ -193,7 +193,8 @@ def _light(light: Light) -> RecordScreen:
 
 def _place(light: Light) -> list[tuple[str, str]]:
     """Where a light is, from where it shines, how strong it is."""
-    rows = [("direction", f"{_numbers(light.direction_C, 3)}{_sigma(np.degrees(light.direction_std_rad))} deg")]
+    turn = _sigma(np.degrees(light.direction_std_rad))
+    rows = [("direction", f"{_numbers(light.direction_C, 3)}{turn}{' deg' if turn else ''}")]
     if light.source_C is not None:
         rows.insert(0, ("source", f"{_numbers(1e3 * light.source_C, 1)}{_sigma(1e3 * light.position_std_m)} mm"))
     return [*rows, ("intensity", f"{_numbers(light.intensity, 3)}{_sigma(light.intensity_std)}")]
