@@ -5,8 +5,10 @@ from __future__ import annotations
 import ast
 import itertools
 import re
+import shutil
 import subprocess
 import sys
+import textwrap
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -110,3 +112,57 @@ def test_a_lobe_of_ones_own_is_what_the_page_says(capsys: pytest.CaptureFixture[
             FORMULAS.pop(kind, None)
     (said,) = re.findall(r"# (\[.*\])$", code, re.MULTILINE)
     assert capsys.readouterr().out.split() == said.split()
+
+
+TRIED = """
+import lpcal
+from lpcal.report.page import render
+from lpcal.report.rig_report import RigReport
+
+session = lpcal.simulate_rig(lpcal.read_rig("robot-camera"), image_size=(320, 200), stations=6)
+views = lpcal.find_boards(list(session.board_images()), session.board)
+solution = lpcal.calibrate_camera(views, session.board, (320, 200), model="opencv4", solver="opencv")
+page = render(RigReport("tried", camera=solution))
+print(lpcal.__file__, solution.evidence.corners_used, ">corners used<" in page, "Corners by view" in page, "corners of each view" in page)
+"""
+
+
+def test_a_figure_of_ones_own_gets_into_the_report_as_the_page_says(tmp_path: Path) -> None:
+    """The page's own pieces, put into a copy of the package at the places that it names, give a row and a chart."""
+    page = (DOCS / "add-your-own.md").read_text(encoding="utf-8")
+    section = page[page.index("## A figure in the report") :]
+    blocks = [textwrap.dedent(one) for one in re.findall(r"^    ```(?:python|text)\n(.*?)^    ```", section, re.MULTILINE | re.DOTALL)]
+    field, stage, row, part, value, function, line = blocks
+    copy = tmp_path / "lpcal"
+    shutil.copytree(REPOSITORY / "lpcal", copy, ignore=shutil.ignore_patterns("__pycache__"))
+    for folder in ("rigs", "calib_data"):
+        (tmp_path / folder).symlink_to(REPOSITORY / folder)
+
+    def put(name: str, at: str, piece: str, *, instead: bool = False, after: int = 0) -> None:
+        path = copy / name
+        before, mark, rest = path.read_text(encoding="utf-8").partition(at)
+        assert mark, f"{name} has no line {at!r}"
+        skipped = rest.split("\n", after)
+        path.write_text(
+            before + ("" if instead else mark) + "".join(f"{one}\n" for one in skipped[:-1]) + piece + skipped[-1], encoding="utf-8"
+        )
+
+    put("records/evidence.py", "class CameraEvidence:\n", "\n" + textwrap.indent(field, "    "), after=1)
+    put(
+        "chain/k_camera/findings.py",
+        "    figures = CameraEvidence(coverage=_coverage(fit), residual_pattern=left)\n",
+        textwrap.indent(stage, "    "),
+        instead=True,
+    )
+    sections = "report/chain_sections.py"
+    put(sections, "    if solution is None:\n        return rows\n", textwrap.indent(row, "    "))
+    put(sections, "class CameraPart:\n", "\n" + textwrap.indent(part, "    "), after=1)
+    put(sections, "    return CameraPart(\n", textwrap.indent(value, "        "))
+    put(sections, "def handeye_section(", function + "\n\ndef handeye_section(", instead=True)
+    put("report/templates/report.html", "{% if camera.vectors %}", line + "{% if camera.vectors %}", instead=True)
+    found = subprocess.run([sys.executable, "-c", TRIED], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr
+    home, corners, *shown = found.stdout.split()
+    assert Path(home).is_relative_to(tmp_path)
+    assert int(corners) > 100
+    assert shown == ["True", "True", "True"]
