@@ -47,7 +47,7 @@ def test_a_log_grows(lpcal: Run, normals: Path) -> None:
     text = (normals / "logs/run.log").read_text()
     assert text.startswith("# lpcal's log\n")
     assert text.count("integration: begins") == 2
-    assert "WARNING integration: normals tell the shape" in text
+    assert "WARNING integration: normals give the shape" in text
 
 
 @pytest.mark.parametrize("name", ["flat.npy", "dome.lp", "points.csv", "."])

@@ -80,7 +80,7 @@ def test_a_camera_s_normals_are_judged_along_its_rays() -> None:
 def test_a_surface_without_twist_is_taken_as_it_is_and_that_is_said(z: Array) -> None:
     found = settled("flat", normals_of(z, 0.02), EVERYWHERE, None)
     assert not found.flipped
-    assert "do not tell" in (found.note or "")
+    assert "do not show" in (found.note or "")
 
 
 @pytest.mark.parametrize("surface", [spheres, rough, bump])
