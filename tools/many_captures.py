@@ -1,9 +1,9 @@
 """Many small captures: drawn, and reconstructed by an engine beside the plain loop.
 
-``python tools/many_captures.py DIR [--count 200] [--jobs 2] [--on dask]`` draws a ball under six distant lights so many times, each
-another ball, reconstructs them one after the other and by the engine, and prints wall clock and processor time of both, the share of
-two cores' throughput, and whether the bytes are the same. Each is a command of its own, imports and all; processor time is that of every
-process that it started, those too that outlive it by a moment (Linux: this process adopts and awaits them).
+``python tools/many_captures.py DIR [--count 200] [--size 48] [--jobs 2] [--on dask]`` draws a ball under six distant lights so many
+times, each another ball, reconstructs them one after the other and by the engine, and prints wall clock and processor time of both, the
+share of two cores' throughput, and whether the bytes are the same. Each is a command of its own, imports and all; processor time is that
+of every process that it started, those too that outlive it by a moment (Linux: this process adopts and awaits them).
 """
 
 from __future__ import annotations
@@ -58,10 +58,10 @@ def draw(folder: Path, seed: int, size: int = SIZE) -> Path:
     return folder
 
 
-def collection(folder: Path, count: int) -> list[Path]:
+def collection(folder: Path, count: int, size: int = SIZE) -> list[Path]:
     """So many captures and dome.yaml beside them."""
     write_calibration(folder / "dome.yaml", dome(), Provenance())
-    return [draw(folder / f"c{k:04d}", k) for k in range(count)]
+    return [draw(folder / f"c{k:04d}", k, size) for k in range(count)]
 
 
 def same_bytes(one: Path, other: Path) -> bool:
@@ -83,12 +83,20 @@ class Spent:
 
     wall: float
     processor: float
+    others: float
+    """Processor time of all else on the machine meanwhile: above a few per cent, the wall clock is no benchmark."""
+
+
+def busy_s() -> float:
+    """Processor time that the machine has spent since it began, all processes together."""
+    user, nice, system = (int(word) for word in Path("/proc/stat").read_text().split()[1:4])
+    return (user + nice + system) / os.sysconf("SC_CLK_TCK")
 
 
 def run(words: list[str]) -> Spent:
     """Run ``lpcal`` with these words to its end, and all that it started."""
     ctypes.CDLL(None).prctl(ADOPT, 1, 0, 0, 0)
-    begun, before = time.perf_counter(), os.times()
+    begun, before, busy = time.perf_counter(), os.times(), busy_s()
     with subprocess.Popen([sys.executable, "-m", "lpcal", *words], stdout=subprocess.DEVNULL) as command:
         code = command.wait()
     wall = time.perf_counter() - begun
@@ -97,22 +105,25 @@ def run(words: list[str]) -> Spent:
         while True:
             os.wait()
     after = os.times()
-    return Spent(wall, after.children_user + after.children_system - before.children_user - before.children_system)
+    own = after.children_user + after.children_system - before.children_user - before.children_system
+    return Spent(wall, own, busy_s() - busy - own)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--size", type=int, default=SIZE, help="pixels across a capture")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--on", default="dask")
     asked = parser.parse_args()
-    captures = collection(asked.folder, asked.count)
+    captures = collection(asked.folder, asked.count, asked.size)
     words = ["reconstruct", *map(str, captures), "-c", str(asked.folder / "dome.yaml"), "--quiet", "-o"]
     loop = run([*words, str(asked.folder / "by_loop")])
     there = run([*words, str(asked.folder / f"by_{asked.on}"), "--on", asked.on, "--jobs", str(asked.jobs)])
     for name, took in (("loop", loop), (asked.on, there)):
-        print(f"{name}: {took.wall:.1f} s, {took.processor:.1f} s of processor time, {took.wall / asked.count:.3f} s a capture")
+        spent = f"{took.processor:.1f} s of processor time (all else {took.others:.1f} s)"
+        print(f"{name}: {took.wall:.1f} s, {spent}, {took.wall / asked.count:.3f} s a capture")
     faster = loop.wall / there.wall
     print(f"the loop's time is {faster:.2f} times {asked.on}'s: {faster / asked.jobs:.2f} of {asked.jobs} cores' throughput")
     print(f"processor time is {there.processor / loop.processor:.2f} times the loop's")

@@ -17,11 +17,12 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -35,6 +36,11 @@ FRUITLESS = 12
 of them, and four bad ones in a row are rarer than workers that cannot run at all."""
 WINDOW = 64
 """Items that are handed to a caller's executor at a time: enough that no worker waits, few enough to hold."""
+BATCH_S = 0.5
+"""Seconds of work that are handed to a worker in one call where an item takes less: what an engine adds to a call (dask some 8 ms) is
+then a few per cent, and a lost worker costs no more than that beside its own item."""
+ENDING = 3
+"""Into how many calls a place of the window what is left is parted at the least, so that all workers end at about the same time."""
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 """The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
 REPLY_S = 15.0
@@ -104,53 +110,93 @@ def each[I, R](work: Callable[[I], R], items: Sequence[I], engine: Engine) -> It
     (int, R or Lost)
         The item's number, and its result.
     """
-    row = deque(range(len(items)))
+    row = _Row(deque(range(len(items))), engine.window)
     tries = [0] * len(items)
     lost_in_a_row = 0
     why: BaseException | None = None
     while row and lost_in_a_row < FRUITLESS:
         try:
             with engine.start() as executor:
-                at_work: dict[Future[R], int] = {}
+                at_work: dict[Future[tuple[list[R], float]], list[int]] = {}
                 broken = False
                 while (row or at_work) and not broken and lost_in_a_row < FRUITLESS:
-                    why = _hand_over(executor, work, items, row, at_work, engine.window)
+                    why = _hand_over(executor, work, items, row, at_work)
                     broken = why is not None
                     for future in wait(at_work, return_when=FIRST_COMPLETED).done:
-                        number = at_work.pop(future)
+                        numbers = at_work.pop(future)
                         said = GivenBack() if future.cancelled() else future.exception()
                         if said is None:
                             lost_in_a_row = 0
-                            yield number, future.result()
+                            found, took_s = future.result()
+                            row.measure(took_s / len(numbers))
+                            yield from zip(numbers, found, strict=True)
                             continue
                         why = said
-                        tries[number] += 1
                         lost_in_a_row += 1
-                        if tries[number] < TRIES:
-                            row.append(number)
+                        tries[numbers[0]] += len(numbers) == 1  # of several it is not known whose fault it was
+                        if tries[numbers[0]] < TRIES:
+                            row.again(numbers)
                         else:
-                            yield number, Lost(in_words(said))
-                row.extend(at_work.values())
+                            yield numbers[0], Lost(in_words(said))
+                for numbers in at_work.values():
+                    row.again(numbers)
                 lost_in_a_row += broken
         except (OSError, BrokenExecutor) as error:
             why = error
             break
-    for number in row:
+    for number in [*row.fresh, *row.once_lost]:
         yield number, Lost("no worker can work" if why is None else in_words(why))
 
 
+@dataclass
+class _Row:
+    """The numbers of the items that wait, and how many of them go to a worker in one call."""
+
+    fresh: deque[int]
+    window: int
+    once_lost: deque[int] = field(default_factory=deque)
+    """Those whose worker was lost: each goes alone."""
+    item_s: float = 0.0
+    """Seconds that an item takes, the longer of the last call's and a running mean; 0: not known yet."""
+
+    def __len__(self) -> int:
+        return len(self.fresh) + len(self.once_lost)
+
+    def measure(self, item_s: float) -> None:
+        """Learn from a call how long an item takes."""
+        self.item_s = max(item_s, (self.item_s + item_s) / 2)
+
+    def again(self, numbers: list[int]) -> None:
+        """Put items whose worker was lost at the end."""
+        self.once_lost.extend(numbers)
+
+    def draw(self) -> list[int]:
+        """Take the items of the next call: one until it is known how long one takes."""
+        if not self.fresh:
+            return [self.once_lost.popleft()]
+        together = BATCH_S / self.item_s if self.item_s else 1
+        count = max(1, min(int(together), len(self.fresh) // (ENDING * self.window)))
+        return [self.fresh.popleft() for _ in range(count)]
+
+
 def _hand_over[I, R](
-    executor: Executor, work: Callable[[I], R], items: Sequence[I], row: deque[int], at_work: dict[Future[R], int], window: int
+    executor: Executor, work: Callable[[I], R], items: Sequence[I], row: _Row, at_work: dict[Future[tuple[list[R], float]], list[int]]
 ) -> BaseException | None:
     """Fill the window; what the executor says where it takes nothing any more."""
-    while row and len(at_work) < window:
-        number = row.popleft()
+    while row and len(at_work) < row.window:
+        numbers = row.draw()
         try:
-            at_work[executor.submit(work, items[number])] = number
+            at_work[executor.submit(_together, work, [items[number] for number in numbers])] = numbers
         except (BrokenExecutor, RuntimeError, OSError) as error:
-            row.appendleft(number)
+            row.again(numbers)
             return error
     return None
+
+
+def _together[I, R](work: Callable[[I], R], items: Sequence[I]) -> tuple[list[R], float]:
+    """Work on some items one after the other, in a worker; what came of each, and the seconds that it took."""
+    begun = time.perf_counter()
+    return [work(item) for item in items], time.perf_counter() - begun
 
 
 class GivenBack(Exception):  # noqa: N818 - a word for people, never raised
@@ -198,7 +244,7 @@ def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) ->
     if word == "processes":
         return Engine("processes", lambda: processes(count), count)
     if word == "dask":
-        _begin_server()
+        begin_early(word)
         _package("distributed", "dask")
         return Engine("dask", lambda: _dask_here(count), 2 * count)
     if word.startswith("dask://"):
@@ -265,11 +311,17 @@ def _context() -> Any:
     return context
 
 
-def _begin_server() -> None:
-    """Have the server import what dask's workers need while this process does what it has to before."""
+def begin_early(word: str) -> None:
+    """Have the server that workers are forked off import what they need, while this process does what it has to before.
+
+    Parameters
+    ----------
+    word : str
+        The engine's, as for `engine_of`; nothing is begun for those that fork no workers off it.
+    """
     context = _context()
-    if context.get_start_method() == "forkserver":
-        context.set_forkserver_preload([*DASK_PRELOADED, *PRELOADED])
+    if word in {"dask", "processes"} and context.get_start_method() == "forkserver":
+        context.set_forkserver_preload([*(DASK_PRELOADED if word == "dask" else ()), *PRELOADED])
         with one_thread():
             importlib.import_module("multiprocessing.forkserver").ensure_running()
 

@@ -1,16 +1,17 @@
 """What a new image is worth while one captures: measured at once, without a solve.
 
-An image is read, measured (saturated share, brightest value, blur) and, where it should show the board, searched for it at no more than
-`WIDTH` pixels across. What was seen so far determines what is needed next.
+An image is measured as it is stored (saturated share and brightest value of a sample of its pixels, blur) and, where it should show the
+board, searched for it at no more than `WIDTH` pixels across. What was seen so far determines what is needed next.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.detect.board import find_board, glance
 from lpcal.errors import LpcalError
@@ -34,7 +35,13 @@ SMALL_SPHERE_PX = 25.0
 BOARDS_WANTED, TILTED_WANTED = 12, 6
 """Boards for the intrinsics, and how many of them tilted: with fewer lpcal warns."""
 PLACES = (("top left", "top", "top right"), ("left", "middle", "right"), ("bottom left", "bottom", "bottom right"))
+SAMPLED = 250_000
+"""Pixels of an image from which its exposure is told, evenly spread: the share of 0.2 % that counts as saturated is then 500 of them."""
 type Tone = Literal["good", "fair", "poor"]
+type Exposure = tuple[tuple[str, ...], Tone]
+"""What is to be said of an image's exposure, and how bad it is."""
+type Stored = npt.NDArray[Any]
+"""Pixels (H, W) or (H, W, 3) as stored: 8 or 16 bit, or float of full scale 1."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +55,22 @@ class Seen:
     corners_share: Array | None = None
     """(N, 2) of the board, as shares of width and height."""
     tilted: bool = False
+    sharpness: float = float("nan")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured of an image that should show the board, whatever the others show."""
+
+    words: tuple[str, ...]
+    """What is to be said of its exposure."""
+    tone: Tone
+    why: str = ""
+    """Why no board was found."""
+    searched: bool = True
+    """Whether the board was searched for, beyond a glance."""
+    corners_share: Array | None = None
+    """(N, 2) of the board, as shares of width and height."""
     sharpness: float = float("nan")
 
 
@@ -67,38 +90,41 @@ class Watched:
     awaited: tuple[str, ...] = ()
     """Folders of the spheres that the rig names."""
 
-    def judge_board(self, name: str, pixels: Image, *, look: bool = True) -> Seen:
+    def judge_board(self, name: str, pixels: Stored, *, look: bool = True) -> Seen:
         """An image that should show the board; `look`: whether there is time to search where a glance does not see it."""
-        words, tone = exposure_words(pixels)
+        return self.note_board(name, measure_board(pixels, self.board, look=look))
+
+    def note_board(self, name: str, found: Measured) -> Seen:
+        """What was measured of an image that should show the board, judged beside those before it."""
+        words, tone = found.words, found.tone
         if self.board is None:
             return self._noted(Seen(name, "board", tone, words or ("exposure is right",)))
-        small = _shrunk(_grey(pixels))
-        corners_px, why = glance(small, self.board), "no board at a glance; too many at once to search"
-        if corners_px is None and look:
-            view = find_board(small, self.board)
-            corners_px, why = view.corners_px, view.why or "no board found"
-        if corners_px is None:
-            return self._noted(Seen(name, "board", "poor" if look else "fair", (*words, why)))
-        share = np.asarray(corners_px) / [small.shape[1], small.shape[0]]
-        sharp = _sharpness(small, np.asarray(corners_px))
+        if found.corners_share is None:
+            return self._noted(Seen(name, "board", "poor" if found.searched else "fair", (*words, found.why)))
         before = [one.sharpness for one in self.seen if np.isfinite(one.sharpness)]
-        if len(before) > 2 and sharp < BLURRED * float(np.median(before)):
+        if len(before) > 2 and found.sharpness < BLURRED * float(np.median(before)):
             words, tone = (*words, "blurred: hold still, or a shorter exposure"), "fair"
+        share = found.corners_share
         columns, rows = (np.clip((share[:, k] * CELLS[k]).astype(int), 0, CELLS[k] - 1) for k in (0, 1))
         np.add.at(self.counted, (rows, columns), 1)
-        return self._noted(Seen(name, "board", tone, (*words, "board found"), share, _tilted(share, self.board.corners), sharp))
+        tilted = _tilted(share, self.board.corners)
+        return self._noted(Seen(name, "board", tone, (*words, "board found"), share, tilted, found.sharpness))
 
-    def judge_light(self, folder: str, light: str, pixels: Image, *, chrome: bool = False) -> Seen:
+    def judge_light(self, folder: str, light: str, pixels: Stored, *, chrome: bool = False) -> Seen:
         """An image of a capture; a chrome sphere's may be dark but for its highlight."""
+        return self.note_light(folder, light, exposure_words(pixels), chrome=chrome)
+
+    def note_light(self, folder: str, light: str, exposure: Exposure, *, chrome: bool = False) -> Seen:
+        """What an image's exposure is, judged as that of a capture's light."""
         self.folders.setdefault(folder, set()).add(light)
-        words, tone = exposure_words(pixels)
+        words, tone = exposure
         if chrome and tone == "fair" and words[0].startswith("dim"):
             words, tone = (), "good"
         return self._noted(Seen(f"{folder}/{light}" if folder else light, "light", tone, words or ("exposure is right",)))
 
-    def judge_beside(self, name: str, pixels: Image) -> Seen:
+    def note_beside(self, name: str, exposure: Exposure) -> Seen:
         """An ambient image or a shorter exposure of a capture: it may be dark, shows no board, and stands for no light."""
-        words, tone = exposure_words(pixels)
+        words, tone = exposure
         if not words or words[0].startswith("dim"):
             words, tone = ("exposure is right",), "good"
         return self._noted(Seen(name, "light", tone, words))
@@ -159,10 +185,38 @@ class Watched:
         return "enough for the intrinsics"
 
 
-def exposure_words(pixels: Image) -> tuple[tuple[str, ...], Tone]:
-    """Notes on an image's exposure."""
-    grey = _grey(pixels)
-    share, top = float((grey >= BRIGHT).mean()), float(np.quantile(grey, 0.999))
+def measure_board(pixels: Stored, board: Board | None, *, look: bool = True) -> Measured:
+    """Measure an image that should show the board: its exposure, and the board where it is found.
+
+    Parameters
+    ----------
+    pixels : ndarray, shape (H, W) or (H, W, 3)
+        As stored: 8 or 16 bit, or float of full scale 1.
+    board : Board or None
+        None: only the exposure is measured.
+    look : bool
+        Whether there is time to search where a glance does not see the board.
+    """
+    words, tone = exposure_words(pixels)
+    if board is None:
+        return Measured(words, tone)
+    small = _shrunk(pixels)
+    corners_px, why = glance(small, board), "no board at a glance; too many at once to search"
+    if corners_px is None and look:
+        view = find_board(small, board)
+        corners_px, why = view.corners_px, view.why or "no board found"
+    if corners_px is None:
+        return Measured(words, tone, why, searched=look)
+    px = np.asarray(corners_px)
+    return Measured(words, tone, "", look, px / [small.shape[1], small.shape[0]], _sharpness(small, px))
+
+
+def exposure_words(pixels: Stored) -> Exposure:
+    """Notes on an image's exposure: by its brightest channel, on a sample of its pixels."""
+    step = max(int((pixels.shape[0] * pixels.shape[1] / SAMPLED) ** 0.5), 1)
+    sample = pixels[step // 2 :: step, step // 2 :: step]
+    bright = (sample if sample.ndim == 2 else sample.max(axis=2)) / np.float32(_full_scale(pixels))
+    share, top = float((bright >= BRIGHT).mean()), float(np.quantile(bright, 0.999))
     if share > SATURATED:
         return (f"{100 * share:.1f} % saturated: a shorter exposure",), "poor" if share > 10 * SATURATED else "fair"
     if top < DIM:
@@ -170,15 +224,19 @@ def exposure_words(pixels: Image) -> tuple[tuple[str, ...], Tone]:
     return (), "good"
 
 
-def _grey(pixels: Image) -> Image:
-    return pixels if pixels.ndim == 2 else np.asarray(pixels.mean(axis=2), np.float32)
+def _full_scale(pixels: Stored) -> float:
+    return 1.0 if pixels.dtype.kind == "f" else float(np.iinfo(pixels.dtype).max)
 
 
-def _shrunk(grey: Image) -> Image:
-    """Means of blocks, so that it is no more than `WIDTH` pixels across."""
-    step = -(-grey.shape[1] // WIDTH)
-    h, w = (size // step for size in grey.shape)
-    return np.asarray(grey[: h * step, : w * step].reshape(h, step, w, step).mean(axis=(1, 3)), np.float32)
+def _shrunk(pixels: Stored) -> Image:
+    """Means of blocks and channels as fractions of full scale, no more than `WIDTH` pixels across."""
+    import cv2
+
+    step = -(-pixels.shape[1] // WIDTH)
+    h, w = (size // step for size in pixels.shape[:2])
+    small = cv2.resize(np.ascontiguousarray(pixels[: h * step, : w * step]), (w, h), interpolation=cv2.INTER_AREA)
+    grey = small if small.ndim == 2 else small.mean(axis=2)
+    return np.asarray(grey / _full_scale(pixels), np.float32)
 
 
 def _sharpness(grey: Image, corners_px: Array) -> float:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lpcal.cli.engine_words import add_on, engine_of_words, jobs_of
+from lpcal.cli.engine_words import add_on, begin_early, engine_of_words, jobs_of
 from lpcal.cli.rig_option import add_rig_option, length, open_workspace
 from lpcal.errors import InputError, UsageError
 from lpcal.records.outcome import Outcome, Progress
@@ -55,6 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Do it."""
+    jobs = jobs_of(options.jobs)
+    begin_early(options.on, jobs, len(options.captures))
     from lpcal.pipeline.many import reconstruct_all
     from lpcal.pipeline.reconstruct import Wishes, calibration_of, capture_tasks, rig_tasks
 
@@ -69,7 +71,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         keep=options.keep,
         use=tuple(name.strip() for name in options.use.split(",") if name.strip()) if options.use else None,
         outputs=_outputs(options.outputs, pages=not options.no_pages),
-        jobs=jobs_of(options.jobs),
+        jobs=jobs,
         placed_mesh=options.mesh_frame == "placed",
     )
     if not options.captures:

@@ -23,6 +23,9 @@ GARBLED = (OSError, ValueError, SyntaxError, TypeError, LookupError, AttributeEr
 """What comes of tags that cannot be read."""
 ROUNDED = 0.12
 """Relative difference of two stated exposures that cameras' rounding explains."""
+PNG_START, PNG_MARKS = b"\x89PNG", (b"eXIf", b"Raw profile type")
+"""How a PNG begins, and what stands in one that holds EXIF tags, as a chunk or as text: they may stand behind the pixels, and Pillow
+decodes these to get there."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,8 @@ def taken_at(data: bytes) -> TakenAt | None:
     """What an image file's bytes say of its exposure; None where they say nothing, or nothing that can be."""
     from PIL import Image as Picture
 
+    if data.startswith(PNG_START) and not any(mark in data for mark in PNG_MARKS):
+        return None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -27,7 +27,7 @@ from lpcal.formats.marks import CAPTURE_FILE, MASK_FILE, write_board_marks, writ
 from lpcal.formats.named_files import PICTURES
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Image, Mask
-from lpcal.pipeline.watch import LOOPBACK
+from lpcal.pipeline.watch_page import LOOPBACK
 from lpcal.records.outcome import Outcome
 from lpcal.records.pictures import png
 from lpcal.records.rig import BoardSection, RigFile

@@ -1,127 +1,68 @@
 """``lpcal watch``: the folder is looked at five times a second, and each new image is judged as soon as it is whole.
 
-Where more come than can be searched for the board, the newest is searched first and the others are only measured: what is said is never
-far behind. A sphere is looked for once all its lights have come, by a process of its own. A capture's reading of the distance sensor is
-compared with the working distance, and what the newest model still lacks is said. The page is served to this machine alone.
+Images are read and measured by threads, the newest first. Those that would be judged too late wait until nothing newer does, so that
+what is shown is never far behind what the camera does, however many images come. A sphere is looked for once all its lights have come,
+by a process of its own. A capture's reading of the distance sensor is compared with the working distance, and what the newest model still
+lacks is said. The page is served to this machine alone.
 """
 
 from __future__ import annotations
 
 import contextlib
-import json
 import os
+import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future
-from contextlib import contextmanager
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
 import numpy as np
 
 from lpcal.api.boards import board_of
 from lpcal.api.engines import processes
 from lpcal.api.spheres import find_sphere
-from lpcal.api.watching import Seen, Watched, lacking
-from lpcal.detect.board import find_board
-from lpcal.errors import InputError, LpcalError, UsageError
-from lpcal.formats.calibration_yaml import read_calibration
+from lpcal.api.watching import Measured, Seen, Watched, lacking, measure_board
+from lpcal.errors import InputError, LpcalError
 from lpcal.formats.capture import read_capture
-from lpcal.formats.images import read_image
-from lpcal.formats.model_files import SUMMARY
+from lpcal.formats.images import read_numbers
 from lpcal.formats.named_files import hidden, image_endings
-from lpcal.formats.panel_yaml import read_capture_section
-from lpcal.formats.record_documents import known_record_of
+from lpcal.pipeline.watch_page import served
+from lpcal.pipeline.watch_room import WatchedRoom
 from lpcal.pipeline.workspace import natural
-from lpcal.records.calibration import Calibration
-from lpcal.records.model import Missing
-from lpcal.records.observations import SphereView
+from lpcal.records.observations import Board, SphereView
 from lpcal.records.outcome import Outcome
 from lpcal.records.rig import Rig, SphereSection
-from lpcal.report.model_page import missing_words
 from lpcal.report.page_data import WatchData
-from lpcal.report.side_pages import watch_html
-
-BESIDE = 0.1
-"""Share of the working distance beyond which a reading is said to be off it: the lights' axes have parted by a tenth of it there."""
-
-
-@dataclass
-class WatchedRoom:
-    """The rig's calibration, where there is one, and the newest model of its folder."""
-
-    folder: Path | None
-    calibration: Calibration | None = None
-    model: list[str] = field(default_factory=list)
-    """What it lacks, in lines."""
-    seen: tuple[Path, int] | None = None
-    """The summary that these lines are of, and its time."""
-
-    @classmethod
-    def of(cls, folder: Path | None) -> WatchedRoom:
-        """The room of a rig's folder; without a calibration that can be read there is none."""
-        path = None if folder is None else folder / "calib" / "calibration.yaml"
-        try:
-            return cls(folder, read_calibration(path) if path is not None and path.is_file() else None)
-        except LpcalError:
-            return cls(folder)
-
-    def reading(self, capture: Path) -> tuple[str, bool] | None:
-        """What the distance sensor read at a capture, in words, and whether it is well; None where capture.yaml states no distance."""
-        try:
-            distance_m = read_capture_section(capture / "capture.yaml").distance
-        except LpcalError as error:
-            return error.found, False
-        if distance_m is None:
-            return None
-        said = f"the distance sensor reads {1e3 * distance_m:.0f} mm"
-        known = self.calibration
-        if known is None or known.focus_C is None:
-            return said, True
-        wanted_m = float(known.focus_C[2])
-        expected_m = wanted_m if known.distance_sensor is None else known.distance_sensor.reads_m(wanted_m)
-        off_m = distance_m - expected_m
-        if abs(off_m) <= BESIDE * wanted_m:
-            return said, True
-        way = "farther" if off_m > 0 else "nearer"
-        return f"{said}, {1e3 * abs(off_m):.0f} mm {way} than where the lights meet: move the panel, or it has hit something else", False
-
-    def look_at_models(self) -> bool:
-        """Whether the newest model of the folder is another than at the last look; its lines are read then."""
-        found = sorted(self.folder.glob(f"*/{SUMMARY}"), key=lambda path: path.stat().st_mtime_ns) if self.folder is not None else []
-        for path in reversed(found):
-            state = path, path.stat().st_mtime_ns
-            if state == self.seen:
-                return False
-            lines = _lines(path)
-            if lines:
-                self.seen, self.model = state, lines
-                return True
-        return False
-
-
-def _lines(path: Path) -> list[str]:
-    """What the model of a summary.json lacks; nothing where it is none of a model."""
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-        missing = known_record_of(Missing, document.get("missing")) if document.get("kind") == "model" else None
-        return [] if missing is None else [f"{path.parent.name}: {line}" for line in missing_words(missing, document["frame"])]
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return []
-
 
 LOOK_S = 0.2
 """Seconds between two looks at the folder: ten in the two seconds that are allowed."""
-BUDGET_S = 0.4
-"""Seconds after which the images that still wait are no longer searched for the board: with a look and what comes meanwhile, under two."""
-STANDS_BACK = 19
-"""The niceness of a process that looks for a sphere: the least urgent."""
+LATE_S = 1.0
+"""Seconds after which an image that was not begun waits until nothing newer does: half of what is allowed, the rest is for the judging."""
+AT_WORK = min(4, os.cpu_count() or 1)
+"""Images that are judged at a time: decoding and searching use a core each, and four keep up with any camera that writes files."""
+STANDS_BACK = 10
+"""The niceness of a process that looks for a sphere: a tenth of the share of one that judges images. (19, the least urgent, gets a
+seventieth: on a busy machine its imports alone take minutes.)"""
 SHOWN = 60
 """Images that the page lists."""
-LOOPBACK = "127.0.0.1"
+type Sphere = SphereView | LpcalError
+type Judged = Measured | LpcalError
+"""An image as it was measured, or why it cannot be read."""
+
+
+@dataclass(frozen=True)
+class Arrived:
+    """An image that is whole and waits to be judged."""
+
+    path: Path
+    state: tuple[int, int]
+    """Its size and time."""
+    came_s: float
+    """When it was there, as `time.time` has it: its last change, or the first look where it is older."""
 
 
 @dataclass
@@ -131,65 +72,129 @@ class Watch:
     folder: Path
     rig: Rig | None
     session: Watched
+    begun_s: float = field(default_factory=time.time)
     known: dict[Path, tuple[int, int]] = field(default_factory=dict)
     """Size and time of each image when it was last looked at."""
-    done: set[tuple[Path, int, int]] = field(default_factory=set)
-    pending: dict[str, Future[SphereView | LpcalError]] = field(default_factory=dict)
+    taken: dict[Path, tuple[int, int]] = field(default_factory=dict)
+    """The same of each image that waits, is judged or was."""
+    fresh: dict[Path, Arrived] = field(default_factory=dict)
+    """Images that wait, the newest last."""
+    late: dict[Path, Arrived] = field(default_factory=dict)
+    """Those that wait until no fresh one does."""
+    at_work: dict[Future[Judged], Arrived] = field(default_factory=dict)
+    pending: dict[str, Future[Sphere]] = field(default_factory=dict)
     """Spheres that are looked for, by their folders."""
     room: WatchedRoom = field(default_factory=lambda: WatchedRoom(None))
     read: set[str] = field(default_factory=set)
     """Captures whose reading of the distance sensor was looked at."""
+    unshown: deque[float] = field(default_factory=deque)
+    """When the images came that are newer than every one that was judged."""
     behind_s: float = 0.0
-    """The longest that an image has waited from its last change to its verdict."""
+    """The longest that images had been there of which neither they nor a newer one was judged."""
+    longest_wait_s: float = 0.0
+    """The longest that one image waited for its own verdict."""
+    put_off: int = 0
+    """Images that had to wait until no newer one did."""
+    shown: WatchData = field(init=False)
+    """What the page shows: `state` as it was when something was last seen."""
 
-    def new(self) -> list[Path]:
-        """Images that have come or changed, and did not change since the last look."""
+    def __post_init__(self) -> None:
+        self.shown = self.state()
+
+    def look(self) -> None:
+        """Take in the images that have come or changed, and did not change since the last look."""
         found = []
-        for path in sorted(self.folder.rglob("*"), key=natural):
-            if path.suffix.lower() not in image_endings() or hidden(path) or path.stem == "mask":
-                continue
+        for path in images_under(self.folder):
             try:
                 state = path.stat()
             except OSError:
                 continue
             now = (state.st_size, state.st_mtime_ns)
-            if self.known.get(path) == now and (path, *now) not in self.done and state.st_size:
-                found.append(path)
+            if self.known.get(path) == now and self.taken.get(path) != now and state.st_size:
+                found.append(Arrived(path, now, max(state.st_mtime_ns / 1e9, self.begun_s)))
             self.known[path] = now
-        return found
+        for one in sorted(found, key=lambda one: (one.state[1], natural(one.path))):
+            self.taken[one.path] = one.state
+            self.late.pop(one.path, None)
+            self.fresh.pop(one.path, None)
+            self.fresh[one.path] = one
+            self.unshown.append(one.came_s)
 
-    def judge(self, path: Path, *, look: bool) -> Seen:
-        """Judge one image; one that cannot be read says why."""
-        self.done.add((path, *self.known[path]))
-        name = path.relative_to(self.folder).as_posix()
-        try:
-            pixels = read_image(path).pixels
-        except LpcalError as error:
-            seen = Seen(name, "board", "poor", (error.found,))
+    @property
+    def waiting(self) -> int:
+        """Images that are not judged yet."""
+        return len(self.fresh) + len(self.late) + len(self.at_work)
+
+    def hand_over(self, pool: Executor) -> None:
+        """Have the newest images judged, as many as are judged at a time."""
+        now = time.time()
+        for one in [one for one in self.fresh.values() if now - one.came_s > LATE_S][: max(len(self.fresh) - AT_WORK, 0)]:
+            self.late[one.path] = self.fresh.pop(one.path)
+            self.put_off += 1
+        while len(self.at_work) < AT_WORK and (self.fresh or self.late):
+            row = self.fresh or self.late
+            _, one = row.popitem()
+            board = self.session.board if self._kind(one.path) == "board" else None
+            self.at_work[pool.submit(judged, one.path, board, look=not self.fresh)] = one
+
+    def judged_within(self, pause_s: float, touched: set[Path]) -> list[Seen]:
+        """Wait so long for an image that is at work; what was judged, and into `touched` the folders of these images."""
+        if not self.at_work:
+            time.sleep(pause_s)
+            return []
+        done = wait(self.at_work, timeout=pause_s, return_when=FIRST_COMPLETED).done
+        touched |= {self.at_work[future].path.parent for future in done}
+        return [seen for future in done if (seen := self.judge(future)) is not None]
+
+    def waits_in(self, folder: Path) -> bool:
+        """Whether an image of this folder is not judged yet."""
+        return any(one.path.parent == folder for one in (*self.fresh.values(), *self.late.values(), *self.at_work.values()))
+
+    def judge(self, future: Future[Judged]) -> Seen | None:
+        """What came of an image; None where it has changed meanwhile, or is looked at again when there is time."""
+        one, found = self.at_work.pop(future), future.result()
+        if self.taken.get(one.path) != one.state:
+            return None
+        if isinstance(found, Measured) and not found.searched and found.corners_share is None:
+            self.late[one.path] = one
+            return None
+        now = time.time()
+        while self.unshown and self.unshown[0] <= one.came_s:
+            self.behind_s = max(self.behind_s, now - self.unshown.popleft())
+        self.longest_wait_s = max(self.longest_wait_s, now - one.came_s)
+        return self._note(one.path, found)
+
+    def _note(self, path: Path, found: Judged) -> Seen:
+        name, kind = path.relative_to(self.folder).as_posix(), self._kind(path)
+        if isinstance(found, LpcalError):
+            seen = Seen(name, "board", "poor", (found.found,))
             self.session.seen.append(seen)
             return seen
-        stem = path.stem
-        if stem.removeprefix("short_") != stem or stem == "ambient" or stem.startswith("ambient_"):
-            seen = self.session.judge_beside(name, pixels)
-        elif stem in self.session.lights:
-            sphere = self._sphere(path.parent)
+        if kind == "beside":
+            return self.session.note_beside(name, (found.words, found.tone))
+        if kind == "light":
+            sphere, folder = self.sphere_of(path.parent), path.parent.relative_to(self.folder).as_posix()
             chrome = sphere is not None and sphere.kind == "chrome"
-            seen = self.session.judge_light(path.parent.relative_to(self.folder).as_posix(), stem, pixels, chrome=chrome)
-        else:
-            seen = self.session.judge_board(name, pixels, look=look)
-        self.behind_s = max(self.behind_s, time.time() - self.known[path][1] / 1e9)
-        return seen
+            return self.session.note_light(folder, path.stem, (found.words, found.tone), chrome=chrome)
+        return self.session.note_board(name, found)
 
-    def _sphere(self, folder: Path) -> SphereSection | None:
+    def _kind(self, path: Path) -> Literal["beside", "light", "board"]:
+        stem = path.stem
+        if stem.startswith(("short_", "ambient_")) or stem == "ambient":
+            return "beside"
+        return "light" if stem in self.session.lights else "board"
+
+    def sphere_of(self, folder: Path) -> SphereSection | None:
+        """The sphere of the rig whose images this folder holds."""
         spheres = self.rig.spheres if self.rig else {}
         return next((sphere for sphere in spheres.values() if Path(sphere.images).name == folder.name), None)
 
-    def look_for_spheres(self, executor: Executor, touched: Iterable[Path]) -> None:
+    def look_for_spheres(self, find: Callable[[Path, Sequence[str], SphereSection], Future[Sphere]], touched: Iterable[Path]) -> None:
         """Have a sphere looked for in each of these folders that is a sphere's and has all its lights."""
         for folder in sorted(set(touched)):
-            name, sphere = folder.relative_to(self.folder).as_posix(), self._sphere(folder)
+            name, sphere = folder.relative_to(self.folder).as_posix(), self.sphere_of(folder)
             if sphere is not None and self.session.folders.get(name, set()) >= set(self.session.lights):
-                self.pending[name] = executor.submit(sphere_in, folder, self.session.lights, sphere)
+                self.pending[name] = find(folder, self.session.lights, sphere)
 
     def readings(self, touched: Iterable[Path]) -> list[Seen]:
         """What the distance sensor read at each of these captures, once all its lights have come."""
@@ -230,11 +235,48 @@ class Watch:
             "lacking": {folder or ".": list(names) for folder, names in lacking(session).items()},
             "seen": [{"name": one.name, "tone": one.tone, "words": "; ".join(one.words)} for one in session.seen[-SHOWN:][::-1]],
             "model": self.room.model,
+            "waiting": self.waiting,
+            "put_off": self.put_off,
             "behind_s": round(self.behind_s, 2),
+            "longest_wait_s": round(self.longest_wait_s, 2),
         }
 
 
-def sphere_in(folder: Path, lights: Sequence[str], sphere: SphereSection) -> SphereView | LpcalError:
+def images_under(folder: Path) -> Iterator[Path]:
+    """Images of a folder and of those in it."""
+    endings = image_endings()
+    for where, _, names in os.walk(folder):
+        for name in names:
+            path = Path(where, name)
+            if path.suffix.lower() in endings and path.stem != "mask" and not hidden(path):
+                yield path
+
+
+def judged(path: Path, board: Board | None, *, look: bool) -> Judged:
+    """An image as it was measured, or why it cannot be read; `look`: whether there is time to search for the board beyond a glance."""
+    try:
+        return measure_board(read_numbers(path).stored, board, look=look)
+    except LpcalError as error:
+        return error
+
+
+def _warm(board: Board | None) -> None:
+    """Import what the first image would wait for, and search once."""
+    measure_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)
+
+
+def _begin_process(other: Executor) -> None:
+    """Start the process that looks for spheres, by a thread that is niced as it shall be (Linux, where a thread has a niceness)."""
+    if sys.platform == "linux":
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), STANDS_BACK)
+    other.submit(os.getpid).result()
+
+
+def _in_process(other: Executor, folder: Path, lights: Sequence[str], sphere: SphereSection) -> Sphere:
+    return other.submit(sphere_in, folder, lights, sphere).result()
+
+
+def sphere_in(folder: Path, lights: Sequence[str], sphere: SphereSection) -> Sphere:
     """The sphere of a capture, without a camera; or why it was not found. Its process stands back behind the one that judges images."""
     with contextlib.suppress(AttributeError, OSError):  # not on Windows
         os.setpriority(os.PRIO_PROCESS, 0, STANDS_BACK)
@@ -253,7 +295,6 @@ def watch(
     home: Path | None = None,
     port: int | None = 0,
     idle_s: float | None = None,
-    sleep: Any = time.sleep,
 ) -> Outcome:
     """Watch a folder until nothing has come for `idle_s` seconds (None: until it is interrupted).
 
@@ -271,31 +312,41 @@ def watch(
     board = None if rig is None or rig.board is None else board_of(rig.board)
     awaited = tuple(str(sphere.images) for sphere in rig.spheres.values()) if rig else ()
     at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else (), awaited=awaited), room=WatchedRoom.of(home))
-    if board is not None:
-        find_board(np.random.default_rng(0).random((120, 160)).astype(np.float32), board)  # imports and warms what the first would wait for
-    with _served(at, port) as address, processes(1) as executor:
-        if awaited:
-            executor.submit(os.getpid).result()  # a process that is there before the first image is
+    with (
+        served(lambda: at.shown, port) as address,
+        ThreadPoolExecutor(AT_WORK) as pool,
+        ThreadPoolExecutor(1) as aside,
+        processes(1) as other,
+    ):
+        pool.submit(_warm, board)
         if address:
             say(f"watching {folder}; the page: {address}")
-        last, announced = time.monotonic(), ""
-        while idle_s is None or at.pending or time.monotonic() - last < idle_s:
-            waiting = at.new()
-            begun = time.monotonic()
-            for path in reversed(waiting):
-                say(line_of(at.judge(path, look=time.monotonic() - begun < BUDGET_S)))
-            at.look_for_spheres(executor, [path.parent for path in waiting])
+        last, looked, announced = time.monotonic(), -LOOK_S, ""
+        begun: Future[None] | None = None
+        touched: set[Path] = set()
+        while idle_s is None or at.pending or at.waiting or time.monotonic() - last < idle_s:
+            if time.monotonic() - looked >= LOOK_S:
+                looked = time.monotonic()
+                at.look()
+                if at.room.look_at_models():
+                    for line in at.room.model:
+                        say(f"    {line}")
+            at.hand_over(pool)
+            seen = at.judged_within(max(looked + LOOK_S - time.monotonic(), 0.0), touched)
+            if begun is None and any(at.sphere_of(folder) for folder in touched):
+                begun = aside.submit(_begin_process, other)  # one that is there before the sphere's last image is
+            whole = {folder for folder in touched if not at.waits_in(folder)}
+            touched -= whole
+            at.look_for_spheres(lambda *asked: aside.submit(_in_process, other, *asked), whole)
             spheres = at.found_spheres()
-            for seen in [*at.readings([path.parent for path in waiting]), *spheres]:
-                say(line_of(seen))
-            if at.room.look_at_models():
-                for line in at.room.model:
-                    say(f"    {line}")
-            last = time.monotonic() if waiting or spheres else last
-            if (waiting or spheres) and at.session.following() != announced:
+            for one in [*seen, *at.readings(whole), *spheres]:
+                say(line_of(one))
+            last = time.monotonic() if seen or spheres or at.waiting else last
+            if (seen or spheres) and not at.fresh and at.session.following() != announced:
                 announced = at.session.following()
                 say(f"    next: {announced}")
-            sleep(LOOK_S)
+            if seen or spheres or whole:
+                at.shown = at.state()
     found = at.state()
     lines = [f"{found['images']} images, {found['boards']} with the board, {100 * found['covered']:.0f} % of the image covered"]
     lines += [f"{where} lacks {', '.join(names)}" for where, names in found["lacking"].items() if names]
@@ -305,46 +356,3 @@ def watch(
 def line_of(seen: Seen) -> str:
     """A verdict for the terminal."""
     return f"{'ok  ' if seen.tone == 'good' else '!   ' if seen.tone == 'fair' else '!!  '}{seen.name}: {'; '.join(seen.words)}"
-
-
-@contextmanager
-def _served(at: Watch, port: int | None) -> Iterator[str | None]:
-    """The page, served to this machine alone; its address."""
-    if port is None:
-        yield None
-        return
-
-    class Handler(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:
-            host = (self.headers.get("Host") or "").rpartition(":")[0]
-            if host not in {LOOPBACK, "localhost"}:  # a page of elsewhere that calls itself by another name
-                self.send_error(403)
-            elif self.path == "/state.json":
-                self._send("application/json", json.dumps(at.state(), allow_nan=False))
-            elif self.path == "/":
-                self._send("text/html; charset=utf-8", watch_html(at.state()))
-            else:
-                self.send_error(404)
-
-        def _send(self, media: str, text: str) -> None:
-            content = text.encode("utf-8")
-            self.send_response(200)
-            self.send_header("Content-Type", media)
-            self.send_header("Content-Length", str(len(content)))
-            self.send_header("Cache-Control", "no-store")
-            self.end_headers()
-            self.wfile.write(content)
-
-        def log_message(self, *_: Any) -> None:
-            """Say nothing."""
-
-    try:
-        server = ThreadingHTTPServer((LOOPBACK, port), Handler)
-    except (OSError, OverflowError) as error:
-        raise UsageError(f"port {port} cannot be used: {error}", where="--port", needed="a free port, or 0 for any") from error
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    try:
-        yield f"http://{LOOPBACK}:{server.server_address[1]}/"
-    finally:
-        server.shutdown()
-        server.server_close()

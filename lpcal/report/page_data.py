@@ -205,4 +205,11 @@ class WatchData(TypedDict):
     lacking: dict[str, list[str]]
     seen: list[ImageVerdictData]
     model: list[str]
+    waiting: int
+    """Images that are not judged yet."""
+    put_off: int
+    """Images that had to wait until no newer one did."""
     behind_s: float
+    """The longest that images had been there of which neither they nor a newer one was judged."""
+    longest_wait_s: float
+    """The longest that one image waited for its own verdict."""

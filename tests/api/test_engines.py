@@ -76,6 +76,28 @@ def slow_square(item: tuple[int, float]) -> tuple[int, int]:
 
 
 @DASK
+@pytest.mark.parametrize("engine", ["processes", "dask"])
+def test_a_bad_capture_among_two_hundred_costs_itself_and_is_made_good(
+    engine: str, lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    captures = collection(tmp_path, 200, 24)
+    bad = captures[117] / "L2.png"
+    kept = bad.read_bytes()
+    bad.write_bytes(kept[: len(kept) // 2])
+    words = ["reconstruct", *captures, "-c", "dome.yaml", "-o", "out", "--outputs", "normals", "--jobs", "2", "--on", engine]
+    code, told, warned = lpcal(*words, cwd=tmp_path)
+    assert (code, "200 captures: 199 done, 1 failed" in told) == (3, True)
+    assert [line for line in warned.splitlines() if "was not reconstructed" in line and "c0117" in line]
+    assert (tmp_path / "out/surfaces.csv").read_text().splitlines()[1].startswith("c0117,failed")
+    standing = {one: (tmp_path / "out" / one.name / "summary.json").stat().st_mtime_ns for one in captures if one != captures[117]}
+    assert not (tmp_path / "out/c0117").exists()
+    bad.write_bytes(kept)
+    code, told, _ = lpcal(*words, cwd=tmp_path)
+    assert (code, "200 captures: 1 done, 199 up to date" in told) == (0, True)
+    assert standing == {one: (tmp_path / "out" / one.name / "summary.json").stat().st_mtime_ns for one in standing}
+
+
+@DASK
 def test_a_dask_worker_that_is_killed_costs_a_retry(scheduler: tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]) -> None:
     address, _, workers = scheduler
     found = {}

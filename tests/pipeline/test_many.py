@@ -11,9 +11,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ import pytest
 
 import lpcal as library
 from lpcal.api import engines
-from lpcal.api.engines import Lost, each, engine_of
+from lpcal.api.engines import Lost, Processes, each, engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
 from lpcal.pipeline import many
 from lpcal.pipeline.reconstruct import Task
@@ -257,6 +258,29 @@ def test_an_item_that_always_kills_is_lost_and_no_other(tmp_path: Path) -> None:
     assert len(list(tmp_path.glob("died_2_*"))) == engines.TRIES
 
 
+def test_quick_items_go_to_a_worker_together_and_one_that_kills_takes_no_other_with_it(tmp_path: Path) -> None:
+    items = [Item(k, tmp_path, deaths={30: 99, 50: 1}.get(k, 0), wait_s=0.001) for k in range(80)]
+    engine, calls = engine_of("processes", 2), []
+
+    class Counted(Processes):
+        def submit[**P, T](self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+            calls.append(args)
+            return super().submit(fn, *args, **kwargs)
+
+    @contextmanager
+    def counted() -> Iterator[Counted]:
+        with Counted(2) as pool:
+            yield pool
+
+    found = [*each(sturdy, items, replace(engine, start=counted))]
+    assert len(found) == 80
+    by_number = dict(found)
+    assert by_number.pop(30) == Lost("the worker was killed, or ran out of memory")
+    assert by_number == {k: k * k for k in range(80) if k != 30}
+    assert len(list(tmp_path.glob("died_30_*"))) <= engines.TRIES + 1  # once with others, then alone
+    assert len(calls) < 60
+
+
 def test_where_no_worker_can_work_that_is_said_soon(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engines, "FRUITLESS", 3)
     items = [Item(k, tmp_path, deaths=99) for k in range(40)]
@@ -363,7 +387,7 @@ def killed(workers: list[int]) -> bool:
 def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(
     lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, number: int
 ) -> None:
-    captures = collection(tmp_path, 16)
+    captures = collection(tmp_path, 40)
     with started(tmp_path, captures) as run:
         assert wait_for(lambda: len(list((tmp_path / "out").glob("c*/summary.json"))) >= 1)
         workers = children_of(run.pid)
@@ -374,5 +398,5 @@ def test_where_the_parent_ends_its_workers_end_and_the_next_run_resumes(
     stand = len(list((tmp_path / "out").glob("c*/summary.json")))
     code, told, _ = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
     assert code == 0
-    assert f"{16 - stand} done, {stand} up to date" in told
+    assert f"{40 - stand} done, {stand} up to date" in told
     assert not list((tmp_path / "out").glob(".lpcal-draft-*"))

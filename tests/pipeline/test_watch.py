@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import threading
 import time
 import urllib.error
 import urllib.request
+from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Executor, Future
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +26,7 @@ from lpcal.api.watching import Watched, exposure_words
 from lpcal.errors import InputError, UsageError
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.geometry.arrays import Array
-from lpcal.pipeline.watch import watch
+from lpcal.pipeline.watch import AT_WORK, Watch, watch
 from lpcal.records.observations import Board
 
 BOARD = Board((9, 6), (0.025, 0.025))
@@ -168,6 +172,69 @@ def test_what_cannot_be_watched(tmp_path: Path, lpcal: Callable[..., tuple[int, 
     assert lpcal("watch", tmp_path, "--idle", "-1")[0] == 2
     code, told, _ = lpcal("watch", tmp_path, "--idle", "0.3", "--port", "-1", cwd=tmp_path)
     assert (code, told.splitlines()[0]) == (0, "0 images, 0 with the board, 0 % of the image covered")
+
+
+class AtOnce(Executor):
+    """An executor whose calls are done when they are handed over; what was looked at, in that order."""
+
+    def __init__(self) -> None:
+        self.judged: list[tuple[str, bool]] = []
+
+    def submit[**P, T](self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        self.judged.append((args[0].stem, kwargs["look"]))
+        found: Future[T] = Future()
+        found.set_result(fn(*args, **kwargs))
+        return found
+
+
+def test_of_too_many_images_the_newest_come_first_and_each_is_judged_in_the_end(tmp_path: Path, pictures: list[np.ndarray]) -> None:
+    at, pool, touched = Watch(tmp_path, None, Watched(BOARD, ())), AtOnce(), set()
+    for k in range(12):
+        cv2.imwrite(str(tmp_path / f"{k}.png"), pictures[k % len(pictures)] if k else np.full((480, 640), 128, np.uint8))
+        os.utime(tmp_path / f"{k}.png", (2e9 + k, 2e9 + k))
+    at.look()
+    assert at.waiting == 0  # an image may still be written to
+    at.look()
+    at.begun_s = -1.0
+    at.fresh = {path: replace(one, came_s=time.time() - 12.0 + int(path.stem)) for path, one in at.fresh.items()}
+    at.unshown = deque(one.came_s for one in at.fresh.values())
+    assert at.waiting == 12
+    seen = []
+    while at.waiting:
+        at.hand_over(pool)
+        seen += at.judged_within(0.0, touched)
+    names = [name for name, _ in pool.judged]
+    assert names[:AT_WORK] == [str(11 - k) for k in range(AT_WORK)]
+    assert sorted(one.name for one in seen) == sorted(f"{k}.png" for k in range(12))
+    assert sum(one.words[-1] == "board found" for one in seen) == 11
+    assert at.put_off == 12 - AT_WORK
+    assert names.count("0") == 1  # it waited, and was then searched for the board at once
+    assert dict(pool.judged)["0"]
+    assert at.behind_s > 11.0  # for so long none was judged
+    cv2.imwrite(str(tmp_path / "3.png"), np.full((480, 640), 255, np.uint8))
+    at.look(), at.look()
+    at.hand_over(pool)
+    assert [one.tone for one in at.judged_within(1.0, touched)] == ["poor"]
+    assert touched == {tmp_path}
+
+
+def test_an_image_that_changes_while_it_is_judged_is_judged_as_it_is_then(tmp_path: Path, pictures: list[np.ndarray]) -> None:
+    at, pool = Watch(tmp_path, None, Watched(BOARD, ())), AtOnce()
+    (tmp_path / "a.png").write_bytes(b"half of an image")
+    at.look(), at.look()
+    at.hand_over(pool)
+    cv2.imwrite(str(tmp_path / "a.png"), pictures[0])
+    at.look(), at.look()
+    assert at.judged_within(0.0, set()) == []
+    at.hand_over(pool)
+    assert [one.words[-1] for one in at.judged_within(0.0, set())] == ["board found"]
+
+
+def test_exposure_is_told_by_the_brightest_channel_and_in_any_depth() -> None:
+    red = np.zeros((600, 900, 3), np.uint8)
+    red[:, :90, 0] = 255
+    assert exposure_words(red)[0] == ("10.0 % saturated: a shorter exposure",)
+    assert exposure_words(np.full((600, 900), 5000, np.uint16))[0] == ("dim: its brightest is 8 % of full scale",)
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import numpy as np
 import lpcal
 from lpcal.formats.documents import plain
 from lpcal.formats.record_documents import document_of
-from lpcal.pipeline.watch import WatchedRoom
+from lpcal.pipeline.watch_room import WatchedRoom
 from lpcal.records.model import Missing, NextStop
 
 
