@@ -10,7 +10,6 @@ Nothing heavy is imported here: a worker sets its threads before it imports nump
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import multiprocessing
 import os
@@ -43,8 +42,6 @@ ENDING = 3
 """Into how many calls a place of the window what is left is parted at the least, so that all workers end at about the same time."""
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 """The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
-REPLY_S = 15.0
-"""Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
 PRELOADED = (
     *("lpcal.api.surfaces", "lpcal.api.files", "lpcal.formats.surface_files", "scipy.ndimage", "scipy.optimize", "scipy.sparse.linalg"),
     *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2"),
@@ -53,14 +50,6 @@ PRELOADED = (
 imports it once for all workers and for those that take a lost one's place."""
 DASK_PRELOADED = ("distributed.nanny", "distributed.worker")
 """And what dask's own do before that."""
-DASK_LEAN = {
-    "distributed.worker.profile.enabled": False,
-    "distributed.admin.tick.interval": "500ms",
-    "distributed.admin.system-monitor.interval": "5s",
-    "distributed.scheduler.active-memory-manager.start": False,
-}
-"""Settings of a dask cluster that is started here, which nobody watches: by default each of its processes profiles itself a hundred times
-a second and looks at its clock fifty times, a tenth of a core together."""
 WORDS = "processes, dask, dask://HOST:PORT, slurm or slurm-trial"
 
 
@@ -244,14 +233,18 @@ def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) ->
     if word == "processes":
         return Engine("processes", lambda: processes(count), count)
     if word == "dask":
+        from lpcal.api import dask_workers
+
         begin_early(word)
         _package("distributed", "dask")
-        return Engine("dask", lambda: _dask_here(count), 2 * count)
+        return Engine("dask", lambda: dask_workers.here(count), 2 * count)
     if word.startswith("dask://"):
+        from lpcal.api import dask_workers
+
         _package("distributed", "dask")
         address = f"tcp://{word.removeprefix('dask://')}"
-        _dask_answers(address)
-        return Engine(f"dask at {word.removeprefix('dask://')}", lambda: _dask_at(address), 4 * count)
+        dask_workers.refuse_silent(address)
+        return Engine(f"dask at {word.removeprefix('dask://')}", lambda: dask_workers.at(address), 4 * count)
     if word in {"slurm", "slurm-trial"}:
         from lpcal.api import slurm
 
@@ -285,7 +278,7 @@ class Processes(Executor):
             except BrokenExecutor:  # killed while it had nothing to do
                 pool.shutdown(wait=False)
         with one_thread():
-            pool = ProcessPoolExecutor(1, _context(), begin_worker)
+            pool = ProcessPoolExecutor(1, context(), begin_worker)
             return self._noted(pool, pool.submit(fn, *args, **kwargs))
 
     def _noted[T](self, pool: ProcessPoolExecutor, future: Future[T]) -> Future[T]:
@@ -302,13 +295,13 @@ class Processes(Executor):
         self._pools = []
 
 
-def _context() -> Any:
+def context() -> Any:
     """How a process is started: forked off a server that has only imported, where the system can; never off this process."""
     if not sys.platform.startswith("linux"):  # elsewhere libraries of the system may not be forked
         return multiprocessing.get_context("spawn")
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([*PRELOADED])
-    return context
+    found = multiprocessing.get_context("forkserver")
+    found.set_forkserver_preload([*PRELOADED])
+    return found
 
 
 def begin_early(word: str) -> None:
@@ -319,9 +312,9 @@ def begin_early(word: str) -> None:
     word : str
         The engine's, as for `engine_of`; nothing is begun for those that fork no workers off it.
     """
-    context = _context()
-    if word in {"dask", "processes"} and context.get_start_method() == "forkserver":
-        context.set_forkserver_preload([*(DASK_PRELOADED if word == "dask" else ()), *PRELOADED])
+    forks = context()
+    if word in {"dask", "processes"} and forks.get_start_method() == "forkserver":
+        forks.set_forkserver_preload([*(DASK_PRELOADED if word == "dask" else ()), *PRELOADED])
         with one_thread():
             importlib.import_module("multiprocessing.forkserver").ensure_running()
 
@@ -365,62 +358,3 @@ def begin_worker() -> None:
 def _end_with(parent: Any) -> None:
     parent.join()
     os.kill(os.getpid(), signal.SIGTERM)
-
-
-@contextmanager
-def _dask_here(count: int) -> Iterator[Executor]:
-    """A dask cluster on this machine, reached over loopback alone."""
-    distributed: Any = importlib.import_module("distributed")
-    dask: Any = importlib.import_module("dask")
-    with (
-        one_thread(),
-        dask.config.set(DASK_LEAN | {"distributed.worker.multiprocessing-method": _context().get_start_method()}),
-        _preloaded(distributed.utils.get_mp_context()),
-        distributed.LocalCluster(n_workers=count, threads_per_worker=1, memory_limit=0, dashboard_address=None) as cluster,
-        distributed.Client(cluster) as client,
-        _undone_cancelled(client) as executor,
-    ):
-        yield executor
-
-
-@contextmanager
-def _preloaded(context: Any) -> Iterator[None]:
-    """Have dask's own processes forked off a server that has imported lpcal's packages beside dask's."""
-    if context.get_start_method() == "forkserver":
-        context.set_forkserver_preload([*DASK_PRELOADED, *PRELOADED])
-    yield
-
-
-@contextmanager
-def _dask_at(address: str) -> Iterator[Executor]:
-    """The workers of a dask scheduler."""
-    distributed: Any = importlib.import_module("distributed")
-    with distributed.Client(address, timeout=REPLY_S) as client, _undone_cancelled(client) as executor:
-        yield executor
-
-
-@contextmanager
-def _undone_cancelled(client: Any) -> Iterator[Executor]:
-    executor = client.get_executor(pure=False)
-    try:
-        yield executor
-    finally:
-        with contextlib.suppress(Exception):  # a scheduler that is gone cancels nothing
-            executor.shutdown(wait=False)
-
-
-def _dask_answers(address: str) -> None:
-    """Whether a scheduler is there.
-
-    Raises
-    ------
-    InputError
-        It does not answer.
-    """
-    try:
-        with _dask_at(address):
-            return
-    except (OSError, ValueError) as error:
-        raise InputError(
-            "no dask scheduler answers", where=address, needed="the address that dask scheduler prints", todo="start one: dask scheduler"
-        ) from error
