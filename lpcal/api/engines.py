@@ -10,12 +10,9 @@ Nothing heavy is imported here: a worker sets its threads before it imports nump
 
 from __future__ import annotations
 
+import contextlib
 import importlib
-import multiprocessing
 import os
-import signal
-import sys
-import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
@@ -26,6 +23,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from lpcal.api.workers import DASK_PRELOADED, PRELOADED, begin_early, begin_worker, context, one_thread
 from lpcal.errors import InputError, UsageError
 
 TRIES = 3
@@ -40,16 +38,16 @@ BATCH_S = 0.5
 then a few per cent, and a lost worker costs no more than that beside its own item."""
 ENDING = 3
 """Into how many calls a place of the window what is left is parted at the least, so that all workers end at about the same time."""
-THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-"""The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
-PRELOADED = (
-    *("lpcal.api.surfaces", "lpcal.api.files", "lpcal.formats.surface_files", "scipy.ndimage", "scipy.optimize", "scipy.sparse.linalg"),
-    *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2"),
-)
-"""What a worker that reconstructs would import, a second and more of processor time: where processes are forked off a server, the server
-imports it once for all workers and for those that take a lost one's place."""
-DASK_PRELOADED = ("distributed.nanny", "distributed.worker")
-"""And what dask's own do before that."""
+REPLY_S = 15.0
+"""Seconds in which a dask scheduler must answer: dask's own time for a connection is 30, and one that stands answers in one."""
+DASK_LEAN = {
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.scheduler.active-memory-manager.start": False,
+}
+"""Settings of a dask cluster that is started here, which nobody watches: by default each of its processes profiles itself a hundred times
+a second and looks at its clock fifty times, a tenth of a core together."""
 WORDS = "processes, dask, dask://HOST:PORT, slurm or slurm-trial"
 
 
@@ -233,18 +231,14 @@ def engine_of(word: str, jobs: int | None = None, folder: Path | None = None) ->
     if word == "processes":
         return Engine("processes", lambda: processes(count), count)
     if word == "dask":
-        from lpcal.api import dask_workers
-
         begin_early(word)
         _package("distributed", "dask")
-        return Engine("dask", lambda: dask_workers.here(count), 2 * count)
+        return Engine("dask", lambda: _dask_here(count), 2 * count)
     if word.startswith("dask://"):
-        from lpcal.api import dask_workers
-
         _package("distributed", "dask")
         address = f"tcp://{word.removeprefix('dask://')}"
-        dask_workers.refuse_silent(address)
-        return Engine(f"dask at {word.removeprefix('dask://')}", lambda: dask_workers.at(address), 4 * count)
+        _refuse_silent(address)
+        return Engine(f"dask at {word.removeprefix('dask://')}", lambda: _dask_at(address), 4 * count)
     if word in {"slurm", "slurm-trial"}:
         from lpcal.api import slurm
 
@@ -295,30 +289,6 @@ class Processes(Executor):
         self._pools = []
 
 
-def context() -> Any:
-    """How a process is started: forked off a server that has only imported, where the system can; never off this process."""
-    if not sys.platform.startswith("linux"):  # elsewhere libraries of the system may not be forked
-        return multiprocessing.get_context("spawn")
-    found = multiprocessing.get_context("forkserver")
-    found.set_forkserver_preload([*PRELOADED])
-    return found
-
-
-def begin_early(word: str) -> None:
-    """Have the server that workers are forked off import what they need, while this process does what it has to before.
-
-    Parameters
-    ----------
-    word : str
-        The engine's, as for `engine_of`; nothing is begun for those that fork no workers off it.
-    """
-    forks = context()
-    if word in {"dask", "processes"} and forks.get_start_method() == "forkserver":
-        forks.set_forkserver_preload([*(DASK_PRELOADED if word == "dask" else ()), *PRELOADED])
-        with one_thread():
-            importlib.import_module("multiprocessing.forkserver").ensure_running()
-
-
 def _is_broken(future: Future[Any]) -> bool:
     return not future.cancelled() and isinstance(future.exception(), BrokenExecutor)
 
@@ -336,25 +306,59 @@ def processes(count: int) -> Iterator[Executor]:
 
 
 @contextmanager
-def one_thread() -> Iterator[None]:
-    """The environment in which a process that is started now takes one thread of linear algebra."""
-    lacking = [name for name in THREADS if name not in os.environ]
-    os.environ |= dict.fromkeys(lacking, "1")
+def _dask_here(count: int) -> Iterator[Executor]:
+    """A dask cluster on this machine, reached over loopback alone."""
+    distributed: Any = importlib.import_module("distributed")
+    dask: Any = importlib.import_module("dask")
+    with (
+        one_thread(),
+        dask.config.set(DASK_LEAN | {"distributed.worker.multiprocessing-method": context().get_start_method()}),
+        _preloaded(distributed.utils.get_mp_context()),
+        distributed.LocalCluster(n_workers=count, threads_per_worker=1, memory_limit=0, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        _undone_cancelled(client) as executor,
+    ):
+        yield executor
+
+
+@contextmanager
+def _preloaded(forks: Any) -> Iterator[None]:
+    """Have dask's own processes forked off a server that has imported lpcal's packages beside dask's."""
+    if forks.get_start_method() == "forkserver":
+        forks.set_forkserver_preload([*DASK_PRELOADED, *PRELOADED])
+    yield
+
+
+@contextmanager
+def _dask_at(address: str) -> Iterator[Executor]:
+    """The workers of a dask scheduler."""
+    distributed: Any = importlib.import_module("distributed")
+    with distributed.Client(address, timeout=REPLY_S) as client, _undone_cancelled(client) as executor:
+        yield executor
+
+
+@contextmanager
+def _undone_cancelled(client: Any) -> Iterator[Executor]:
+    executor = client.get_executor(pure=False)
     try:
-        yield
+        yield executor
     finally:
-        for name in lacking:
-            os.environ.pop(name, None)
+        with contextlib.suppress(Exception):  # a scheduler that is gone cancels nothing
+            executor.shutdown(wait=False)
 
 
-def begin_worker() -> None:
-    """What a process does first: Ctrl-C is its parent's affair, and where that is gone it ends too."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+def _refuse_silent(address: str) -> None:
+    """Refuse an address at which no scheduler answers.
 
-
-def _end_with(parent: Any) -> None:
-    parent.join()
-    os.kill(os.getpid(), signal.SIGTERM)
+    Raises
+    ------
+    InputError
+        It does not answer.
+    """
+    try:
+        with _dask_at(address):
+            return
+    except (OSError, ValueError) as error:
+        raise InputError(
+            "no dask scheduler answers", where=address, needed="the address that dask scheduler prints", todo="start one: dask scheduler"
+        ) from error

@@ -14,7 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from lpcal.api.engines import Engine, one_thread
+from lpcal.api.engines import Engine
+from lpcal.api.workers import one_thread
 from lpcal.errors import InputError
 
 ARRAY = 1000

@@ -50,9 +50,9 @@ def jobs_of(text: str | None) -> int | None:
 def begin_early(where: str | None, jobs: int | None, items: int) -> None:
     """Begin what an engine's workers import where many items will be worked on at a time, before this process imports its own."""
     if items > 1 and (where is not None or jobs not in {None, 1}):
-        from lpcal.api import engines
+        from lpcal.api import workers
 
-        engines.begin_early(where or "processes")
+        workers.begin_early(where or "processes")
 
 
 def engine_of_words(where: str | None, jobs: int | None, folder: Path) -> Engine | None:

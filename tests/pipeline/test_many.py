@@ -23,7 +23,7 @@ import numpy.typing as npt
 import pytest
 
 import lpcal as library
-from lpcal.api import dask_workers, engines
+from lpcal.api import engines
 from lpcal.api.engines import Lost, Processes, each, engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
 from lpcal.pipeline import many
@@ -195,7 +195,7 @@ def test_where_no_table_can_be_written_what_became_of_each_capture_is_said_all_t
     ],
 )
 def test_engines_that_are_not_there(words: tuple[str, int], error: type[Exception], said: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dask_workers, "REPLY_S", 0.5)
+    monkeypatch.setattr(engines, "REPLY_S", 0.5)
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(error, match=said):
         engine_of(*words)
