@@ -79,7 +79,8 @@ def compare_calibrations(
     -------
     CalibrationChange
         Every light's change against the others (metres, radians, a share of its intensity) with its standard deviation; what all lights
-        share; the hand-eye; the camera. ``changed`` says what is more than chance (three sigma, all lights counted).
+        share; the hand-eye; the camera. ``changed`` says what is more than chance (three sigma, all lights counted);
+        ``lights[k].least`` how small a change of each light would have shown.
 
     Raises
     ------
@@ -132,6 +133,7 @@ def compare_calibrations(
         notes=said,
         highlight_px=float("nan") if seen is None else seen.scatter_px,
         either=() if seen is None else tuple(names[k] for k in seen.either),
+        distant=near == {False},
     )
 
 
@@ -178,12 +180,18 @@ def _in_own_frame(one: LightChange, k: int, seen: _Seen, light: Light, solution:
     if light.H_CL is None:
         return one
     R = light.H_CL[:3, :3]
-    own = R.T @ seen.places.off[k]
+    own, std = R.T @ seen.places.off[k], np.sqrt(np.diag(R.T @ seen.covariance[k] @ R))
     setting = None if solution is None or not solution.evidence.settings else solution.evidence.settings.get(light.name)
     if setting is not None:
         reach_m = setting.d1_m + setting.d2_m * np.cos(np.radians(setting.joint_angle_deg))
-        one = replace(one, by_azimuth_rad=float(own[1] / reach_m), by_joint_rad=float(own[2] / setting.d2_m))
-    return replace(one, moved_L=own, moved_L_std=np.sqrt(np.diag(R.T @ seen.covariance[k] @ R)))
+        one = replace(
+            one,
+            by_azimuth_rad=float(own[1] / reach_m),
+            by_azimuth_std_rad=float(std[1] / reach_m),
+            by_joint_rad=float(own[2] / setting.d2_m),
+            by_joint_std_rad=float(std[2] / setting.d2_m),
+        )
+    return replace(one, moved_L=own, moved_L_std=std)
 
 
 def _places(old: list[Light], new: list[Light]) -> OddOnes:

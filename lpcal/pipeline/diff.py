@@ -33,7 +33,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration, Camera, LightsSolution
-from lpcal.records.comparison import CalibrationChange, LightChange, PartChange
+from lpcal.records.comparison import SEEN_SIGMAS, CalibrationChange, LightChange, PartChange
 from lpcal.records.outcome import Outcome
 from lpcal.records.surface import Surface
 from lpcal.report.side_pages import DIFF_MARK, diff_html
@@ -60,8 +60,9 @@ def diff(one: Path, other: Path, page: Path) -> Outcome:
         solutions=(_solution(files[0], before), _solution(files[1], after)),
     )
     lines = lines_of(change)
-    write_text(page, diff_html((str(one), str(other)), (before, after), change, lines), PAGE)
+    write_text(page, diff_html((str(one), str(other)), (before, after), change, lines, verdict(change)), PAGE)
     document = {"before": str(files[0]), "after": str(files[1]), "changed": list(change.changed), **asdict(change)}
+    document["least"] = {light.name: asdict(light.least) for light in change.lights}
     return Outcome([*lines, verdict(change), f"written {page}"], document, list(change.notes))
 
 
@@ -93,18 +94,39 @@ def _solution(path: Path, calibration: Calibration) -> LightsSolution | None:
 
 
 def verdict(change: CalibrationChange) -> str:
-    """The one sentence."""
-    return f"changed beyond chance: {'; '.join(change.changed)}" if change.changed else "nothing has changed beyond chance"
+    """The one sentence; where nothing has changed, with how small a move would have shown."""
+    if change.changed:
+        return f"changed beyond chance: {'; '.join(change.changed)}"
+    least = [by for light in change.lights if np.isfinite(by := _least_across(light))]
+    if not least:
+        return "nothing has changed beyond chance"
+    low, high = (f"{_length(by, change.distant):.2f}" for by in (min(least), max(least)))
+    span = (low if low == high else f"{low} to {high}") + (" deg" if change.distant else " mm")
+    how = "moved across" if np.isfinite(change.highlight_px) else "moved"
+    return f"nothing has changed beyond chance; a light {how} by less than {span} would not have shown"
+
+
+def _length(moved: float, distant: bool) -> float:
+    """A move in mm; of a distant light's direction, in degrees."""
+    return float(np.degrees(moved)) if distant else 1e3 * moved
+
+
+def _least_across(light: LightChange) -> float:
+    """The larger of what would have shown along its arm and sideways; in any direction where its own frame is not known."""
+    across = light.least.moved_L[:2]
+    return float(across.max()) if np.isfinite(across).all() else light.least.moved
 
 
 def lines_of(change: CalibrationChange) -> list[str]:
     """The table, for people: each figure with what an unmoved rig shows."""
     by_spheres = np.isfinite(change.highlight_px)
-    lines = [f"{'light':<12} {'moved, mm':>18} {'axis turned, deg':>20} {'power, %':>18}"]
-    lines += [_light_line(light) for light in change.lights]
+    moved = "direction, deg" if change.distant else "moved, mm"
+    lines = [f"{'light':<12} {moved:>18} {'axis turned, deg':>20} {'power, %':>18}"]
+    lines += [_light_line(light, change.distant) for light in change.lights]
     if by_spheres:
         lines.append(f"moves are by the chrome spheres of both days, whose highlights scatter by {change.highlight_px:.4f} px")
         lines += [_own_line(light) for light in change.lights if "moved" in light.says and np.isfinite(light.moved_L).all()]
+    lines += _least_lines(change)
     lines.append(_part_line("all lights", change.together) + f", distances {100 * change.scale:+.2f} %")
     if np.isfinite(change.handeye.moved):
         lines.append(_part_line("hand-eye", change.handeye))
@@ -116,8 +138,8 @@ def lines_of(change: CalibrationChange) -> list[str]:
     return lines
 
 
-def _light_line(light: LightChange) -> str:
-    across = 1e3 * light.moved, 1e3 * light.moved_std
+def _light_line(light: LightChange, distant: bool) -> str:
+    across = _length(light.moved, distant), _length(light.moved_std, distant)
     turned = float(np.degrees(light.turned_rad)), float(np.degrees(light.turned_std_rad))
     cells = [f"{value:.2f} ({std:.2f})" if np.isfinite(value) else "-" for value, std in (across, turned)]
     power = f"{100 * light.power:+.2f} ({100 * light.power_std:.2f})"
@@ -131,6 +153,33 @@ def _own_line(light: LightChange) -> str:
         by[1] += f" ({np.degrees(light.by_azimuth_rad):+.2f} deg of azimuth)"
         by[2] += f" ({np.degrees(light.by_joint_rad):+.2f} deg of its joint)"
     return f"  {light.name}: along its arm {by[0]}, sideways {by[1]}, along its emission {by[2]}"
+
+
+def _least_lines(change: CalibrationChange) -> list[str]:
+    """How small a change of each light would have shown; a dash where the comparison does not see that kind of change."""
+    in_own_frame = any(np.isfinite(light.moved_L_std).all() for light in change.lights)
+    if in_own_frame:
+        heads = ["along arm, mm", "sideways, mm (azimuth, deg)", "along emission, mm (joint, deg)"]
+    else:
+        heads = ["direction, deg" if change.distant else "moved, mm"]
+    heads += ["axis turned, deg", "power, %"]
+    said = f"smallest changes that would have shown, at {SEEN_SIGMAS:.0f} sigma; smaller ones are not excluded:"
+    lines = [said, f"{'light':<12}" + "".join(f"{head:>{len(head) + 2}}" for head in heads)]
+    for light in change.lights:
+        least = light.least
+        turns = [float("nan"), least.azimuth_rad, least.joint_rad]
+        cells = [
+            _figure(1e3 * by) + (f" ({np.degrees(turn):.2f})" if np.isfinite(turn) else "")
+            for by, turn in zip(least.moved_L, turns, strict=True)
+        ]
+        cells = cells if in_own_frame else [_figure(_length(least.moved, change.distant))]
+        cells += [_figure(float(np.degrees(least.turned_rad))), _figure(100 * least.power)]
+        lines.append(f"{light.name:<12}" + "".join(f"{cell:>{len(head) + 2}}" for cell, head in zip(cells, heads, strict=True)))
+    return lines
+
+
+def _figure(value: float) -> str:
+    return f"{value:.2f}" if np.isfinite(value) else "-"
 
 
 def _part_line(name: str, part: PartChange) -> str:

@@ -8,6 +8,30 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array
 
+SEEN_SIGMAS = 3.0
+"""Standard deviations of an unmoved light that a change must reach to show: the odds of `UNLIKELY`. A name wants a little more where many
+lights and kinds of change are asked."""
+
+
+@dataclass(frozen=True)
+class LeastChange:
+    """The smallest changes of one light that would have shown, at `SEEN_SIGMAS`: smaller ones are not excluded by silence.
+
+    Lengths in metres, angles in radians, power relative; NaN where the comparison does not see that kind of change at all.
+    """
+
+    moved: float
+    """Of its source in any direction, rms over the axes; of a distant light's direction, as a unit's share."""
+    turned_rad: float
+    """Of its axis of emission."""
+    power: float
+    moved_L: Array
+    """(3,) along its arm, sideways, along its emission."""
+    azimuth_rad: float
+    """Of its wing about the disc's axis, by the move sideways."""
+    joint_rad: float
+    """Of its joint, by the move along its emission."""
+
 
 @dataclass(frozen=True)
 class LightChange:
@@ -36,6 +60,20 @@ class LightChange:
     by_azimuth_rad: float = float("nan")
     """The turn of its wing about the disc's axis, and of its joint, that would move it as far sideways and along its emission."""
     by_joint_rad: float = float("nan")
+    by_azimuth_std_rad: float = float("nan")
+    by_joint_std_rad: float = float("nan")
+
+    @property
+    def least(self) -> LeastChange:
+        """The smallest changes that would have shown."""
+        return LeastChange(
+            SEEN_SIGMAS * self.moved_std,
+            SEEN_SIGMAS * self.turned_std_rad,
+            SEEN_SIGMAS * self.power_std,
+            SEEN_SIGMAS * self.moved_L_std,
+            SEEN_SIGMAS * self.by_azimuth_std_rad,
+            SEEN_SIGMAS * self.by_joint_std_rad,
+        )
 
 
 @dataclass(frozen=True)
@@ -75,6 +113,8 @@ class CalibrationChange:
         Scatter of the chrome spheres' highlights, an axis, where the spheres of both days say what has moved; else NaN.
     either : tuple of str
         Lights one of which has moved, where the data do not say which.
+    distant : bool
+        Whether the lights are distant: what moves is their direction, as a unit's share.
 
     Examples
     --------
@@ -94,6 +134,7 @@ class CalibrationChange:
     notes: tuple[str, ...] = ()
     highlight_px: float = float("nan")
     either: tuple[str, ...] = ()
+    distant: bool = False
 
     @property
     def changed(self) -> tuple[str, ...]:

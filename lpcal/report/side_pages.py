@@ -26,8 +26,10 @@ DIFF_MARK = '<meta name="lpcal-page" content="diff">'
 """What marks the page as lpcal's."""
 
 
-def diff_html(names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str]) -> str:
-    """The page."""
+def diff_html(
+    names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str], verdict: str
+) -> str:
+    """The page: the verdict where nothing has changed, the table in `lines`, and the rigs over each other."""
     scene = scene_of(rigs, change)
     return (
         environment()
@@ -37,6 +39,7 @@ def diff_html(names: tuple[str, str], rigs: tuple[Calibration, Calibration], cha
             names=names,
             change=change,
             lines=lines,
+            verdict=verdict,
             scene=None if scene is None else script_json(scene.document()),
             three=packed_three(),
             version=__version__,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -16,8 +17,10 @@ from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import Provenance
 from lpcal.formats.lights_yaml import write_lights
 from lpcal.geometry import se3, sphere
+from lpcal.pipeline.diff import lines_of, verdict
 from lpcal.records.calibration import Calibration, Light, LightsSolution, SphereFinding
 from lpcal.records.comparison import CalibrationChange
+from lpcal.records.evidence import RefinedSetting
 
 FOCUS = np.array([0.0, 0.0, 0.35])
 
@@ -150,6 +153,36 @@ def test_with_the_spheres_of_both_days_three_tenths_of_a_millimetre_are_named(ax
         assert found.lights[k].moved_L_std[axis] < 1e-4
 
 
+def test_what_would_have_shown_is_stated_and_is_what_shows() -> None:
+    true = rig(6)
+    still = seen_on_two_days(true, true, 1)
+    least = still.lights[2].least
+    assert np.allclose(least.moved_L, 3 * still.lights[2].moved_L_std)
+    assert least.moved_L[2] > 3 * least.moved_L[:2].max()  # along its emission: chrome spheres hardly show it
+    for share, says in ((0.3, ()), (2.0, ("L2: moved",))):
+        for axis in range(2):
+            by = share * least.moved_L[axis] * true.lights[2].H_CL[:3, axis]
+            after = replace(true, lights=(*true.lights[:2], moved(true.lights[2], by), *true.lights[3:]))
+            assert seen_on_two_days(true, after, 1).changed == says
+    assert verdict(still).startswith("nothing has changed beyond chance; a light moved across by less than 0.")
+    heading = next(k for k, line in enumerate(lines_of(still)) if "along arm, mm" in line)
+    assert lines_of(still)[heading + 3].split()[:2] == ["L2", f"{1e3 * least.moved_L[0]:.2f}"]
+
+
+def test_the_turns_that_would_have_shown_are_stated_where_the_wings_are_known() -> None:
+    true = rig(6)
+    both = [spheres(true, seed) for seed in (2, 3)]
+    settings = {light.name: RefinedSetting(azimuth_deg=0.0, joint_angle_deg=30.0, d1_m=0.1, d2_m=0.085) for light in true.lights}
+    both[0] = replace(both[0], evidence=replace(both[0].evidence, settings=settings))
+    found = library.compare_calibrations(measured(true, 2), measured(true, 3), solutions=(both[0], both[1]))
+    for light in found.lights:
+        assert light.least.joint_rad == pytest.approx(3 * light.moved_L_std[2] / 0.085)
+        assert light.least.joint_rad > np.radians(0.1)  # a tenth of a degree of a joint is never excluded by this camera
+    said = lines_of(found)
+    heading = next(k for k, line in enumerate(said) if "along arm, mm" in line)
+    assert re.fullmatch(r"L0( +[\d.]+){2} \([\d.]+\) +[\d.]+ \([\d.]+\)( +[\d.]+){2}", said[heading + 1])
+
+
 def test_with_the_spheres_of_both_days_what_all_lights_share_is_named_as_such_and_no_single_light() -> None:
     true = rig(6)
     knocked = replace(true, lights=tuple(moved(light, np.array([0.0, 3e-3, 0.0])) for light in true.lights))
@@ -200,7 +233,7 @@ def test_what_cannot_be_compared() -> None:
     with pytest.raises(DegenerateError, match="3 lights in common"):
         library.compare_calibrations(true, replace(true, lights=true.lights[:3]))
     far = replace(true, lights=tuple(replace(light, source_C=None, axis_C=None) for light in true.lights))
-    with pytest.raises(DisagreementError, match="near lights beside distant"):
+    with pytest.raises(DisagreementError, match="near lights in one, distant ones in the other"):
         library.compare_calibrations(true, far)
 
 
@@ -209,7 +242,14 @@ def test_distant_lights_are_compared_by_their_directions() -> None:
     turn = se3.rotation(np.radians([0.0, 0.0, 2.0]))
     lights = [replace(light, direction_C=turn @ light.direction_C) for light in far.lights]
     lights[3] = replace(lights[3], direction_C=se3.rotation(np.radians([1.5, 0, 0])) @ lights[3].direction_C)
-    assert library.compare_calibrations(far, replace(far, lights=tuple(lights))).changed == ("L3: moved",)
+    found = library.compare_calibrations(far, replace(far, lights=tuple(lights)))
+    assert found.changed == ("L3: moved",)
+    said = lines_of(found)
+    assert "direction, deg" in said[0]
+    assert re.search(r"^L3 +1\.[34]\d ", said[4])
+    heading = next(k for k, line in enumerate(said) if "would have shown" in line) + 1
+    assert said[heading].split() == ["light", "direction,", "deg", "axis", "turned,", "deg", "power,", "%"]
+    assert re.fullmatch(r"L0 +[\d.]+ +- +[\d.]+", said[heading + 1])
 
 
 def test_the_command_says_it_and_draws_it(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
