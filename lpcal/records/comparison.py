@@ -21,16 +21,16 @@ class LeastChange:
     """
 
     moved: float
-    """Of its source in any direction, rms over the axes; of a distant light's direction, as a unit's share."""
+    """A move of its source in any direction, rms over the axes; of a distant light's direction, as a unit's share."""
     turned_rad: float
-    """Of its axis of emission."""
+    """A turn of its axis of emission."""
     power: float
     moved_L: Array
     """(3,) along its arm, sideways, along its emission."""
     azimuth_rad: float
-    """Of its wing about the disc's axis, by the move sideways."""
+    """A turn of its wing about the disc's axis, by the move sideways."""
     joint_rad: float
-    """Of its joint, by the move along its emission."""
+    """A turn of its joint, by the move along its emission."""
 
 
 @dataclass(frozen=True)
