@@ -112,7 +112,7 @@ def made(rig: Path, name: str, stops: int, size: str, seed: int) -> dict[str, Sp
     run(["export", str(rig)])
     captures = [str(rig / "session" / f"stop_{k:02d}") for k in range(stops)]
     kept = rig.parent / f"{name}_reconstruct.json"
-    words = ["--rig", str(rig), "--no-pages", "--jobs", "1", "--outputs", "npz"]
+    words = ["--rig", str(rig), "--no-pages", "--jobs", "1", "--outputs", "maps"]
     spent = run(["reconstruct", *captures, *words])
     if not kept.is_file():
         kept.write_text(json.dumps(spent.__dict__), encoding="utf-8")

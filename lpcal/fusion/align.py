@@ -6,8 +6,9 @@ twist xi_i and its bending b_i; H_i the tracked pose::
     H_AC,i = exp(xi_i + by_handeye,i e) H_i,      delta_i = c + bending(b_i)
     cost   = sum_pairs sum_points rho(n . (p - q) / sigma) / m  +  priors of e, c, xi_i, b_i
 
-m counts the points that share one error: a residual's neighbours within a knot's cell are off together. rho is Geman and McClure's, so that
-what is not the same surface has no weight. Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for normals of both.
+m counts the points that share one error: a residual's neighbours within a knot's cell are off together, and K views of one place make
+K (K - 1) / 2 differences of K - 1 errors. rho is Geman and McClure's, so that what is not the same surface has no weight.
+Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for normals of both.
 """
 
 from __future__ import annotations
@@ -40,8 +41,9 @@ GATE = 5.0
 """Gate of later rounds, in scales of the residuals."""
 LEAST_GATE_PX = 2.0
 """Least gate, in footprints of a pixel: nearer points are one surface at any rate."""
-LEAST_SIGMA_PX = 0.15
-"""Least standard deviation of a residual, in footprints of a pixel: what interpolation between pixels leaves."""
+LEAST_SIGMA_PX = 0.05
+"""Least standard deviation of a residual, in footprints of a pixel: aligned views differ by 0.02 to 0.03, and their bendings take up about
+as much of what they differ by."""
 ROBUST = 2.5
 """Scale of the loss, in standard deviations of a residual."""
 SHARED = 7
@@ -205,13 +207,13 @@ class _Problem:
         """Information (n, n) and gradient (n,) of the points that meet."""
         from scipy.sparse import csr_array
 
-        share = _share(state)
+        share, seen = _share(state), _seen_by(state, meetings)
         N, g = np.zeros((self.size, self.size)), np.zeros(self.size)
         for (i, j), met in meetings.items():
             if not len(met.residual_m):
                 continue
             columns, values = self._rows(state[i], state[j], i, j, met)
-            w = (1 + (met.residual_m / (ROBUST * sigma_m)) ** 2) ** -2.0 / (share[i] * sigma_m**2)
+            w = (1 + (met.residual_m / (ROBUST * sigma_m)) ** 2) ** -2.0 / (share[i] * sigma_m**2) * 2 / seen[i][met.index]
             used, local = np.unique(columns, return_inverse=True)
             rows = np.repeat(np.arange(len(w)), columns.shape[1])
             J = csr_array((values.ravel(), (rows, local.ravel())), shape=(len(w), len(used)))
@@ -249,6 +251,17 @@ def _share(state: Sequence[Placed]) -> Array:
         step = max(int(np.sqrt(one.view.witness.sum() / POINTS)), 1)
         found.append(max(2 * (one.bending.step_px / (2 * step)) ** 2, 2.0))
     return np.array(found)
+
+
+def _seen_by(state: Sequence[Placed], meetings: dict[tuple[int, int], Meeting]) -> list[Array]:
+    """How many views see each point of a view, its own among them.
+
+    Of K views of one place the K (K - 1) / 2 differences tell K - 1 things: each counts for 2 / K.
+    """
+    found = [np.ones(len(one.row)) for one in state]
+    for (i, _), met in meetings.items():
+        np.add.at(found[i], met.index, 1.0)
+    return found
 
 
 def _information(covariance: Array) -> Array:
