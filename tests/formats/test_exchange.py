@@ -445,3 +445,14 @@ def test_the_table_in_the_docs_is_that_of_the_formats() -> None:
     from make_formats_table import PAGE, page
 
     assert page(PAGE.read_text(encoding="utf-8")) == PAGE.read_text(encoding="utf-8"), "python tools/make_formats_table.py --write"
+
+
+def test_every_format_is_read_back_by_a_test_of_that_name() -> None:
+    from lpcal.formats.exchange import OWN
+    from make_formats_table import READ_BACK
+
+    assert [*READ_BACK] == [one.name for one in OWN]
+    tests = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_exchange*.py"))
+    for name, back in READ_BACK.items():
+        assert f"def {back.test}(" in tests, name
+        assert bool(back.by) or bool(back.instead), name
