@@ -53,7 +53,10 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
     absent = [image for image in options.images if not image.is_file()]
     if absent:
-        raise InputError("no such image", where=str(absent[0]), needed="image files", todo="correct the name or the pattern")
+        from lpcal.formats.named_files import did_you_mean
+
+        todo = did_you_mean(absent[0], "correct the name or the pattern")
+        raise InputError("no such image", where=str(absent[0]), needed="image files", todo=todo)
     images = list(dict.fromkeys(options.images))
     workspace = _of_words(options) if options.corners or options.square else open_workspace(options)
     with cores(jobs_of(options.jobs)):

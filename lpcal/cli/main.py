@@ -142,12 +142,17 @@ def parser_of(commands: Container[str]) -> tuple[argparse.ArgumentParser, dict[s
     subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     modules: dict[str, Command] = {}
     for name, line in COMMANDS.items():
-        subparser = subparsers.add_parser(name, help=line, description=line[0].upper() + line[1:] + ".")
+        subparser = subparsers.add_parser(name, help=line, description=sentence(line))
         if name in commands:
             modules[name] = cast("Command", importlib.import_module(f"lpcal.cli.{name.replace('import', 'import_')}"))
             modules[name].add_arguments(subparser)
             add_log_options(subparser)
     return parser, modules
+
+
+def sentence(line: str) -> str:
+    """A command's line as a sentence; one that begins with a file's name keeps it as it is."""
+    return (line if "." in line.split(maxsplit=1)[0] else line[0].upper() + line[1:]) + "."
 
 
 def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
@@ -158,7 +163,9 @@ def _parse(words: list[str]) -> tuple[argparse.Namespace, Command]:
     if not words:
         parser.print_help(sys.stderr)
         parser.exit(USAGE)
-    options = parser.parse_args(words)
+    options, unknown = parser.parse_known_args(words)
+    if unknown:
+        _refuse_options(parser, chosen, unknown)
     if not modules:  # argparse has already ended the run for an unknown or missing command
         parser.error("no command")
     return options, modules[options.command]
@@ -176,6 +183,17 @@ def _refuse_unknown(word: str) -> None:
     near = get_close_matches(word.lower(), COMMANDS, n=3)
     todo = f"did you mean {' or '.join(f'lpcal {name}' for name in near)}?" if near else "lpcal --help lists them"
     raise UsageError(f"no command is called {word}", needed=f"one of {', '.join(COMMANDS)}", todo=todo)
+
+
+def _refuse_options(parser: argparse.ArgumentParser, command: str | None, unknown: list[str]) -> None:
+    """End as argparse does for words that a command does not know, with the options that may be meant."""
+    from difflib import get_close_matches
+
+    subparsers = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))  # noqa: SLF001
+    owner = subparsers.choices.get(command or "", parser)
+    known = [word for action in owner._actions for word in action.option_strings]  # noqa: SLF001
+    near = [one for word in unknown if word.startswith("--") for one in get_close_matches(word.partition("=")[0], known, n=2)]
+    owner.error(f"unrecognized arguments: {' '.join(unknown)}" + (f"; did you mean {' or '.join(dict.fromkeys(near))}?" if near else ""))
 
 
 class _Versions(argparse.Action):

@@ -6,6 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from lpcal.errors import InputError
+from lpcal.formats.named_files import did_you_mean, nearest
 from lpcal.formats.panel_yaml import FILE_NAME, find
 
 DEFAULT_RIG = "lightpanel-6"
@@ -67,6 +68,6 @@ def rig_file(name: str | None) -> Path:
             "no bundled rig, and no file or folder",
             where=name,
             needed=f"one of {', '.join(rig_names())}, or the path of a panel.yaml",
-            todo="correct the name",
+            todo=nearest(name, rig_names(), did_you_mean(Path(name), "correct the name")),
         )
     return find(Path(name))

@@ -29,6 +29,7 @@ from lpcal.formats.camera_yaml import camera_from_document, read_camera
 from lpcal.formats.cameramodel import read_cameramodel
 from lpcal.formats.documents import read_document
 from lpcal.formats.guarded_yaml import load_yaml
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
@@ -74,7 +75,7 @@ def read_camera_file(path: Path) -> Camera:
 
 def _read(path: Path) -> Camera:
     if not path.is_file():
-        raise InputError("no such camera file", where=str(path), needed=KNOWN)
+        raise InputError("no such camera file", where=str(path), needed=KNOWN, todo=did_you_mean(path))
     if path.suffix == ".bin":
         return read_colmap_camera(path)
     text = read_text(path, KNOWN)

@@ -21,7 +21,7 @@ from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_od
 from lpcal.formats.images import Numbers, read_image, read_numbers
 from lpcal.formats.import_lights import RESERVED, natural_stem
 from lpcal.formats.marks import named_by_capture
-from lpcal.formats.named_files import RAWS, exists, hidden, image_endings, kind_of_other, resolve_named
+from lpcal.formats.named_files import RAWS, did_you_mean, exists, hidden, image_endings, kind_of_other, resolve_named
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import stated_place
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
@@ -131,7 +131,8 @@ def _flat_field(section: CaptureSection, folder: Path) -> Path | None:
     path = resolve_named(folder, section.flat_field)
     if path is None:
         where = f"{folder / 'capture.yaml'}, flat_field"
-        raise InputError(f"no such file: {section.flat_field}", where=where, needed="an image of an evenly lit target", todo="correct it")
+        todo = did_you_mean(folder / section.flat_field, "correct it")
+        raise InputError(f"no such file: {section.flat_field}", where=where, needed="an image of an evenly lit target", todo=todo)
     return path
 
 
@@ -224,7 +225,9 @@ def _kind(shape: tuple[int, ...]) -> str:
 
 def _need_folder(folder: Path, needed: str) -> None:
     if not exists(folder) or not folder.is_dir():
-        raise InputError("not a folder" if exists(folder) else "no such folder", where=str(folder), needed=needed)
+        raise InputError(
+            "not a folder" if exists(folder) else "no such folder", where=str(folder), needed=needed, todo=did_you_mean(folder)
+        )
     try:
         next(folder.iterdir(), None)
     except OSError as error:

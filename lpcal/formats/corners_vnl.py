@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.outputs import write_text
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
@@ -50,7 +51,7 @@ def read_corners(path: Path, count: int) -> dict[str, Array | None]:
         An image with another number of corners.
     """
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a vnlog of corners: # filename x y level")
+        raise InputError("no such file", where=str(path), needed="a vnlog of corners: # filename x y level", todo=did_you_mean(path))
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except UnicodeDecodeError as error:

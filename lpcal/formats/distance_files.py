@@ -24,7 +24,7 @@ from lpcal.errors import InputError
 from lpcal.formats.document_numbers import covariance, number, numbers
 from lpcal.formats.documents import read_record, write_document
 from lpcal.formats.image_times import FILES, TIMES
-from lpcal.formats.named_files import resolve_named
+from lpcal.formats.named_files import did_you_mean, resolve_named
 from lpcal.formats.number_table import COMMENTS, is_number, seconds
 from lpcal.formats.reading import reader
 from lpcal.formats.record_documents import document_of, record_of
@@ -161,7 +161,8 @@ def read_distances(path: Path, *, needed: bool = True) -> list[ReadingRow]:
             raise InputError(f"{names[column]} {cells[column]!r}", where=where, needed="a number, or nothing where there is no reading")
         image = None if file is None or not cells[file] else resolve_named(path.parent, cells[file])
         if file is not None and cells[file] and image is None:
-            raise InputError(f"no such image: {cells[file]}", where=where, needed="a path relative to this csv", todo="correct it")
+            todo = did_you_mean(path.parent / cells[file], "correct it")
+            raise InputError(f"no such image: {cells[file]}", where=where, needed="a path relative to this csv", todo=todo)
         if time is not None and not is_number(cells[time]):
             raise InputError(f"{names[time]} {cells[time]!r}", where=where, needed="seconds", todo="is the file cut off?")
         at = None if time is None else float(seconds([cells[time]], TIMES[names[time]])[0])

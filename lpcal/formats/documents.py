@@ -16,6 +16,7 @@ import yaml
 
 from lpcal.errors import InputError
 from lpcal.formats.guarded_yaml import load_yaml
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.outputs import Kind, marked, refuse_place, write_text
 from lpcal.formats.reading import reader, reading
 from lpcal.formats.record_documents import document_of
@@ -69,7 +70,7 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     """
     todo = "write it again with lpcal export" if kind == "calibration" else "write it again with the command that makes it"
     if not path.is_file():
-        todo = "run lpcal run: it makes it" if kind == "calibration" else todo
+        todo = did_you_mean(path, "run lpcal run: it makes it" if kind == "calibration" else todo)
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
     try:
         document = load_yaml(path.read_text(encoding="utf-8"), path)

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.number_table import COMMENTS, is_number
 from lpcal.formats.outputs import marked, whole
 from lpcal.formats.reading import reader
@@ -75,7 +76,7 @@ def read_field(path: Path) -> tuple[Array, dict[str, tuple[Array, Array]]]:
         Not there, or lines that do not fit.
     """
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a csv that lpcal field wrote")
+        raise InputError("no such file", where=str(path), needed="a csv that lpcal field wrote", todo=did_you_mean(path))
     rows: dict[str, list[list[float]]] = {}
     with path.open(encoding="utf-8-sig", newline="") as stream:
         reader = csv.DictReader(stream)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.named_files import resolve_named
+from lpcal.formats.named_files import did_you_mean, resolve_named
 from lpcal.formats.number_table import COMMENTS, is_number, seconds
 from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text, with_commas
@@ -64,7 +64,8 @@ def read_image_times(path: Path) -> list[tuple[Path, float]]:
             raise InputError(f"{names[time]} {stamp!r}", where=where, needed="seconds", todo="is the file cut off?")
         image = resolve_named(path.parent, cells[file])
         if image is None or not image.is_file():
-            raise InputError(f"no such image: {cells[file]}", where=where, needed="a path relative to this csv", todo="correct it")
+            todo = did_you_mean(path.parent / cells[file], "correct it")
+            raise InputError(f"no such image: {cells[file]}", where=where, needed="a path relative to this csv", todo=todo)
         if image in found:
             raise DisagreementError(
                 f"{cells[file]} stands in line {found[image]} already", where=where, needed="each image once", todo="remove one of them"

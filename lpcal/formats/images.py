@@ -28,7 +28,7 @@ import numpy.typing as npt
 
 from lpcal.errors import InputError
 from lpcal.formats.exif import GARBLED, TakenAt, taken_at
-from lpcal.formats.named_files import PICTURES, RAWS, exists, kind_of_other, raw_is_read
+from lpcal.formats.named_files import PICTURES, RAWS, did_you_mean, exists, kind_of_other, raw_is_read
 from lpcal.formats.raw_photograph import read_raw_photograph
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image
@@ -104,7 +104,7 @@ def read_numbers(path: Path) -> Numbers:
     import cv2
 
     if not exists(path) or not path.is_file():
-        raise InputError("no such image", where=str(path), needed="an image file")
+        raise InputError("no such image", where=str(path), needed="an image file", todo=did_you_mean(path))
     other = kind_of_other([path])
     if other:
         raise InputError(other, where=str(path), needed=f"one of {', '.join(PICTURES)}")

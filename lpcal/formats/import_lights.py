@@ -13,7 +13,7 @@ from pathlib import Path
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
 from lpcal.formats.light_tables import sane_lights
-from lpcal.formats.named_files import exists, image_endings
+from lpcal.formats.named_files import did_you_mean, exists, image_endings
 from lpcal.formats.reading import reading
 from lpcal.records.calibration import Calibration
 
@@ -60,7 +60,8 @@ def import_lights(path: Path, vectors: str | None = None) -> Imported:
         Parts of it contradict each other.
     """
     if not exists(path):
-        raise InputError("no such file or folder", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
+        needed = f"one of: {', '.join([*FORMATS, *VECTORS])}"
+        raise InputError("no such file or folder", where=str(path), needed=needed, todo=did_you_mean(path))
     with reading(path, f"one of: {', '.join([*FORMATS, *VECTORS])}"):
         for name, (is_one, read) in FORMATS.items():
             if is_one(path):
@@ -88,7 +89,7 @@ def named_after(calibration: Calibration, folder: Path) -> Calibration:
         Another number of images than of lights.
     """
     if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light")
+        raise InputError("no such folder", where=str(folder), needed="a folder of images, one a light", todo=did_you_mean(folder))
     stems = [path.stem for path in folder.iterdir() if path.suffix.lower() in image_endings() and not path.name.startswith(".")]
     stems = [stem for stem in stems if not RESERVED & set(re.split(r"[^a-z]+", stem.lower()))]
     stems.sort(key=natural_stem)

@@ -12,6 +12,7 @@ import numpy as np
 
 from lpcal.errors import InputError
 from lpcal.formats.light_tables import numbers, text_of, whole_number
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Lobe
@@ -40,7 +41,10 @@ def read_lobe(path: Path) -> Lobe:
         raise InputError(f"a lobe in {path.suffix or 'no'} format", where=str(path), needed="an .ies or .ldt file", todo="export it as one")
     if not path.is_file():
         raise InputError(
-            "cannot be read: no such file", where=str(path), needed="a photometric file", todo="is the name in panel.yaml right?"
+            "cannot be read: no such file",
+            where=str(path),
+            needed="a photometric file",
+            todo=did_you_mean(path, "is the name in panel.yaml right?"),
         )
     text = text_of(path)
     gamma_deg, plane_deg, intensity = form(text, str(path))

@@ -9,6 +9,7 @@ from lpcal.errors import InputError
 from lpcal.formats import mocap_c3d, mocap_generic, mocap_motive, mocap_qualisys, mocap_ros, mocap_trc, mocap_tum, mocap_vicon
 from lpcal.formats.marker_table import MarkerTable, markers_of
 from lpcal.formats.mocap_added import MocapFormat, format_of, of_packages
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.pose_table import PoseTable, stream_of
 from lpcal.formats.reading import reader, reading
 from lpcal.formats.text import decimal_points, read_text, with_commas
@@ -48,7 +49,8 @@ def read_mocap(
 @reader("a whole motion-capture recording")
 def _read(path: Path, body: str | None, quaternion: str | None, units: str | None, direction: str) -> PoseStream | MarkerStream:
     if not path.is_file() and not mocap_ros.is_ros(path, b"") and not (path.is_dir() and format_of(b"", path)):
-        raise InputError("no such file", where=str(path), needed="a motion-capture recording", todo="correct mocap.file in panel.yaml")
+        todo = did_you_mean(path, "correct mocap.file in panel.yaml")
+        raise InputError("no such file", where=str(path), needed="a motion-capture recording", todo=todo)
     head = b"" if path.is_dir() else _head(path)
     if (added := format_of(head, path)) is not None:
         if quaternion or units:

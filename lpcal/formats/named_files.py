@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from difflib import get_close_matches
 from functools import cache
 from importlib.util import find_spec
+from itertools import islice
 from pathlib import Path, PureWindowsPath
 
 VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".mpg", ".mpeg", ".webm", ".wmv")
@@ -70,6 +72,33 @@ def resolve_named(folder: Path, name: str) -> Path | None:
         if exists(folder / windows.as_posix()):
             return folder / windows.as_posix()
     return None
+
+
+MOST_NAMES = 20_000
+"""Names of a folder among which near ones are looked for: listing more takes longer than a message should."""
+
+
+def did_you_mean(path: Path, otherwise: str = "") -> str:
+    """What to do about a file or folder that is not there: the near names where its path first goes wrong, else `otherwise`."""
+    parts = path.parts
+    for count in range(1, len(parts) + 1):
+        if not exists(Path(*parts[:count])):
+            return nearest(parts[count - 1], _names_in(Path(*parts[: count - 1])), otherwise, within=Path(*parts[: count - 1]))
+    return otherwise
+
+
+def nearest(name: str, names: Iterable[str], otherwise: str = "", *, within: Path = Path()) -> str:
+    """The names most like one that is not known, as a question; `otherwise` where none is, or where it is a pattern."""
+    known = {one.casefold(): one for one in names if one != name}
+    near = [] if set("*?") & set(name) else get_close_matches(name.casefold(), known, n=2, cutoff=0.7)
+    return f"did you mean {' or '.join(str(within / known[one]) for one in near)}?" if near else otherwise
+
+
+def _names_in(folder: Path) -> list[str]:
+    try:
+        return [one.name for one in islice(folder.iterdir(), MOST_NAMES) if not hidden(one)]
+    except OSError:
+        return []
 
 
 def hidden(path: Path) -> bool:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import read_image
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image, Mask
 
@@ -94,7 +95,7 @@ def read_depth(path: Path) -> Image | None:
 
 def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a normal map: .npz, .npy, .png or .tif")
+        raise InputError("no such file", where=str(path), needed="a normal map: .npz, .npy, .png or .tif", todo=did_you_mean(path))
     try:
         if not zipfile.is_zipfile(path):
             with path.open("rb") as stream:

@@ -10,6 +10,7 @@ import yaml
 
 from lpcal.errors import InputError
 from lpcal.formats.guarded_yaml import load_yaml
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text
 from lpcal.records.rig import CaptureSection, Rig, RigFile
@@ -49,7 +50,7 @@ def find(start: Path) -> Path:
         f"no {FILE_NAME} here or above" if start.is_dir() else "no such file or folder",
         where=str(start),
         needed="a rig folder",
-        todo="go into one, name it with --rig, or start one with: lpcal new my_rig",
+        todo=did_you_mean(start, "go into one, name it with --rig, or start one with: lpcal new my_rig"),
     )
 
 

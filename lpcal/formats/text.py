@@ -13,6 +13,7 @@ import unicodedata
 from pathlib import Path
 
 from lpcal.errors import InputError
+from lpcal.formats.named_files import did_you_mean
 
 MOST_BYTES = 2 << 30
 """Bytes of the largest text that is read: four hours of forty markers at 240 Hz."""
@@ -52,7 +53,7 @@ def read_text(path: Path, needed: str = "a text file") -> str:
             raise InputError(f"{size / 1e9:.1f} GB", where=str(path), needed=f"{needed} of at most {MOST_BYTES / 1e9:.1f} GB")
         data = path.read_bytes()
     except FileNotFoundError as error:
-        raise InputError("no such file", where=str(path), needed=needed, todo="correct the name") from error
+        raise InputError("no such file", where=str(path), needed=needed, todo=did_you_mean(path, "correct the name")) from error
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed=needed) from error
     return decode(data, path, needed)

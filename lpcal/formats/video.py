@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.errors import DegenerateError, InputError
+from lpcal.formats.named_files import did_you_mean
 
 VIDEOS = (".mp4", ".mov", ".avi", ".mkv", ".webm", ".m4v", ".mpg", ".mts")
 """Endings of videos' names."""
@@ -44,7 +45,7 @@ def read_frames(path: Path, every_s: float = 0.0) -> Iterator[Frame]:
     except ImportError as error:
         raise InputError("PyAV is not installed, which reads videos", where=str(path), needed="pip install lpcal[video]") from error
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a video")
+        raise InputError("no such file", where=str(path), needed="a video", todo=did_you_mean(path))
     first, last = None, -np.inf
     with _unreadable(path), av.open(str(path)) as container:
         if not container.streams.video:

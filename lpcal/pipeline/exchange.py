@@ -13,7 +13,7 @@ from lpcal.formats.calibration_yaml import read_calibration as read_own
 from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.exchange import known_formats
 from lpcal.formats.handeye_yaml import read_handeye
-from lpcal.formats.named_files import exists
+from lpcal.formats.named_files import did_you_mean, exists
 from lpcal.pipeline import export, intrinsics
 from lpcal.pipeline.run import run_stage
 from lpcal.pipeline.sensor import has_lens
@@ -90,7 +90,8 @@ def read_any(source: Path) -> Calibration:
         Not there, or of no format known.
     """
     if not exists(source):
-        raise InputError("no such file or folder", where=str(source), needed="panel.yaml, calibration.yaml, or a file that lpcal imports")
+        needed = "panel.yaml, calibration.yaml, or a file that lpcal imports"
+        raise InputError("no such file or folder", where=str(source), needed=needed, todo=did_you_mean(source))
     if source.is_file() and source.suffix == ".yaml" and b"kind: handeye" in source.read_bytes()[:100]:
         handeye = read_handeye(source)
         return Calibration(source.stem, (), H_PC=handeye.H_PC, carries=handeye.carries)

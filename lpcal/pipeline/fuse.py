@@ -11,6 +11,7 @@ from lpcal.api.fusing import fuse, refine_rig
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.model_files import MODEL, summary_of, write_model
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import MAPS_FILE, is_placed, read_surface
 from lpcal.pipeline.workspace import Workspace
@@ -113,7 +114,7 @@ def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Pat
         if place is None:
             holds = capture.is_dir() and any(capture.glob("*/capture.yaml"))
             todo = f"name what is in it: {capture}/*" if holds else "run lpcal reconstruct on it first"
-            todo = todo if capture.exists() else "correct the path"
+            todo = todo if capture.exists() else did_you_mean(capture, "correct the path")
             raise InputError(
                 "no surface there", where=str(capture), needed="a surface's folder, or a capture that was reconstructed", todo=todo
             )

@@ -14,6 +14,7 @@ from lpcal.formats.camera_yaml import read_camera
 from lpcal.formats.h_cb_yaml import read_h_cb
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap, read_pose_csv
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.pose_table import timed_poses
 from lpcal.formats.robot_poses import ImagePoses, Stated, read_robot_poses
 from lpcal.geometry.arrays import Array
@@ -77,7 +78,8 @@ def with_recording(workspace: Workspace, recording: Path | None) -> Workspace:
     if recording is None:
         return workspace
     if not recording.exists():
-        raise InputError("no such file", where=str(recording), needed="a motion-capture recording", todo="correct the name")
+        todo = did_you_mean(recording, "correct the name")
+        raise InputError("no such file", where=str(recording), needed="a motion-capture recording", todo=todo)
     rig = workspace.rig_file.rig
     section = (rig.mocap or MocapSection()).model_copy(update={"file": workspace.relative(recording), "poses": None})
     return Workspace(replace(workspace.rig_file, rig=rig.model_copy(update={"mocap": section})))

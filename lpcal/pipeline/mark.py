@@ -24,7 +24,7 @@ import numpy as np
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.images import read_image
 from lpcal.formats.marks import CAPTURE_FILE, MASK_FILE, write_board_marks, write_hint, write_light_images, write_mask
-from lpcal.formats.named_files import PICTURES
+from lpcal.formats.named_files import PICTURES, did_you_mean
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.pipeline.watch_page import LOOPBACK
@@ -198,7 +198,7 @@ def mark(
         The port is taken.
     """
     if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="a capture folder")
+        raise InputError("no such folder", where=str(folder), needed="a capture folder", todo=did_you_mean(folder))
     images = tuple(path.name for path in sorted(folder.iterdir()) if path.suffix.lower() in PICTURES and path.stem != "mask")
     if not images:
         raise InputError("no image", where=str(folder), needed="the images of a capture or of a sphere")

@@ -26,6 +26,7 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.capture import check_lights, read_capture, read_mask
 from lpcal.formats.documents import plain, sha256
+from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.placement_document import stated_place_of
@@ -389,7 +390,7 @@ def integrate_file(
 def _camera(path: Path) -> tuple[Camera | None, float | None]:
     """Camera and working distance of a calibration, or the camera of a file that holds one alone."""
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="calibration.yaml, or any camera file")
+        raise InputError("no such file", where=str(path), needed="calibration.yaml, or any camera file", todo=did_you_mean(path))
     with path.open("rb") as stream:
         begins = stream.read(HEAD)
     if re.search(rb"^kind: calibration\s*$", begins, re.MULTILINE):

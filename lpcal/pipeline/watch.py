@@ -29,7 +29,7 @@ from lpcal.api.watching import Measured, Seen, Watched, lacking, measure_board
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.capture import read_capture
 from lpcal.formats.images import read_numbers
-from lpcal.formats.named_files import hidden, image_endings
+from lpcal.formats.named_files import did_you_mean, hidden, image_endings
 from lpcal.pipeline.watch_page import served
 from lpcal.pipeline.watch_room import WatchedRoom
 from lpcal.pipeline.workspace import natural
@@ -308,7 +308,7 @@ def watch(
         The port is taken.
     """
     if not folder.is_dir():
-        raise InputError("no such folder", where=str(folder), needed="a folder that images come into")
+        raise InputError("no such folder", where=str(folder), needed="a folder that images come into", todo=did_you_mean(folder))
     board = None if rig is None or rig.board is None else board_of(rig.board)
     awaited = tuple(str(sphere.images) for sphere in rig.spheres.values()) if rig else ()
     at = Watch(folder, rig, Watched(board, tuple(rig.lights) if rig else (), awaited=awaited), room=WatchedRoom.of(home))

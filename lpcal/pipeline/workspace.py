@@ -15,7 +15,7 @@ from typing import Any
 from lpcal import __version__
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.documents import document_kind, plain, read_document, sha256
-from lpcal.formats.named_files import hidden, image_endings, kind_of_other, resolve_named, spellings
+from lpcal.formats.named_files import did_you_mean, hidden, image_endings, kind_of_other, resolve_named, spellings
 from lpcal.formats.outputs import Kind, refuse_place
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.provenance import Provenance
@@ -61,7 +61,8 @@ class Workspace:
         """
         path = resolve_named(self.folder, name)
         if path is None:
-            raise InputError(f"no such file: {name}", where=self.rig_file.where(key), needed="a file or folder", todo="correct the path")
+            todo = did_you_mean(self.folder / name, "correct the path")
+            raise InputError(f"no such file: {name}", where=self.rig_file.where(key), needed="a file or folder", todo=todo)
         return path
 
     def images(self, patterns: Iterable[str], key: str) -> list[Path]:
@@ -82,7 +83,7 @@ class Workspace:
                     other or f"no image matches {pattern}",
                     where=self.rig_file.where(key),
                     needed="images",
-                    todo="" if other else "correct the pattern or the folder",
+                    todo="" if other else did_you_mean(self.folder / pattern, "correct the pattern or the folder"),
                 )
             found |= dict.fromkeys(sorted(matches, key=natural))
         return list(found)

@@ -79,3 +79,23 @@ def test_what_is_like_no_command_is_not_guessed(lpcal: Run) -> None:
     assert code == 2
     assert "did you mean" not in err
     assert all(name in err for name in COMMANDS)
+
+
+@pytest.mark.parametrize(("word", "meant"), [("--methd", "--method"), ("--maks=none", "--mask"), ("--outptus", "--outputs")])
+def test_a_misspelt_option_is_guessed(lpcal: Run, word: str, meant: str) -> None:
+    code, out, err = lpcal("reconstruct", word, "somewhere")
+    assert (code, out) == (2, "")
+    assert f"did you mean {meant}" in err
+
+
+def test_an_option_like_no_other_is_not_guessed(lpcal: Run) -> None:
+    code, _, err = lpcal("check", "--zzzz")
+    assert code == 2
+    assert "unrecognized arguments: --zzzz" in err
+    assert "did you mean" not in err
+
+
+def test_help_keeps_the_names_of_files(lpcal: Run) -> None:
+    """A command's help begins with the file's own name, a sentence with a capital."""
+    assert "handeye.yaml: the camera" in lpcal("handeye", "--help")[1]
+    assert "Has my rig moved" in lpcal("diff", "--help")[1]
