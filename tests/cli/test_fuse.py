@@ -52,7 +52,7 @@ def test_where_a_user_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str],
     assert main(["fuse", "rig/session", "-o", "model"]) == 3
     assert "name what is in it: rig/session/*" in capsys.readouterr().err
     assert main(["fuse", "rig/sesion/stop_00", "-o", "model"]) == 3
-    assert "correct the path" in capsys.readouterr().err
+    assert "did you mean rig/session?" in capsys.readouterr().err
     library.write_surface(rig / "surfaces" / "relief", replace(views[0], name="relief", placement=None))
     monkeypatch.chdir(rig)
     assert main(["fuse", "--step", "6mm"]) == 0
