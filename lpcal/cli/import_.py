@@ -24,35 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
-    """Do it."""
-    from lpcal.api.files import read_calibration
-    from lpcal.formats.calibration_yaml import KIND, write_calibration
-    from lpcal.formats.documents import document_kind, sha256
-    from lpcal.formats.outputs import refuse_place
-    from lpcal.records.calibration import NAMES
-    from lpcal.records.provenance import Provenance
+    """Write the calibration."""
+    from lpcal.pipeline.exchange import import_file
 
-    refuse_place(options.output, document_kind(KIND), [options.source])
-    progress("reading", 0, 1)
-    found = read_calibration(options.source, vectors=options.vectors, images=options.images)
-    files = sorted(options.source.glob("*.txt")) + sorted(options.source.glob("*.mat")) if options.source.is_dir() else [options.source]
-    write_calibration(options.output, found, Provenance({path.name: sha256(path) for path in files}, {"format": found.origin}))
-    progress("reading", 1, 1)
-    near = sum(light.source_C is not None for light in found.lights)
-    held = [f"{len(found.lights)} {'near' if near else 'distant'} lights"] if found.lights else ["no lights"]
-    held += ["a camera" if found.camera else "no camera: parallel rays"] if found.lights or found.camera else []
-    held += [f"{NAMES[found.carries][0]}"] * (found.H_PC is not None)
-    return Outcome(
-        [f"{found.origin or KIND}: {', '.join(held)} -> {options.output}"],
-        {
-            "format": found.origin,
-            "lights": len(found.lights),
-            "near": near,
-            "camera": found.camera is not None,
-            "hand-eye": found.H_PC is not None,
-            "file": options.output,
-            "notes": list(found.warnings),
-        },
-        list(found.warnings),
-        next_command=f"lpcal reconstruct CAPTURE -c {options.output}" if found.lights else f"lpcal export {options.output} --format all",
-    )
+    return import_file(options.source, options.output, progress, vectors=options.vectors, images=options.images)

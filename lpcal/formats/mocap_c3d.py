@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from lpcal.errors import InputError
-from lpcal.formats.limited import parse_limited
 from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import is_rate
 from lpcal.formats.pose_table import METRES
+from lpcal.formats.reading import parse_limited
 
 OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")
 """Parameters of POINT that name what a model made and no camera saw."""

@@ -1,24 +1,28 @@
-"""Files of a rig, or any file that lpcal reads, in other systems' formats."""
+"""Files of a rig, or any file that lpcal reads, in other systems' formats; and other systems' files as calibration.yaml."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 from lpcal.api.exchange import ALL, Exported, content_of, export_content
 from lpcal.api.files import read_calibration, read_capture, read_surface
 from lpcal.errors import InputError, UsageError
+from lpcal.formats.calibration_yaml import KIND, write_calibration
 from lpcal.formats.calibration_yaml import read_calibration as read_own
 from lpcal.formats.camera_yaml import read_camera
+from lpcal.formats.documents import document_kind, sha256
 from lpcal.formats.exchange import known_formats
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.named_files import did_you_mean, exists
+from lpcal.formats.outputs import refuse_place
 from lpcal.pipeline import export, intrinsics
 from lpcal.pipeline.run import run_stage
 from lpcal.pipeline.sensor import has_lens
 from lpcal.pipeline.workspace import Workspace
-from lpcal.records.calibration import Calibration
+from lpcal.records.calibration import NAMES, Calibration
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.provenance import Provenance
 
@@ -98,6 +102,42 @@ def read_any(source: Path) -> Calibration:
     return read_calibration(source)
 
 
+def import_file(source: Path, target: Path, progress: Progress, *, vectors: Literal["directions", "positions"] | None, images: Path | None) -> Outcome:
+    """Write calibration.yaml of another system's file or folder.
+
+    `vectors` is what its vectors are stated to be; its lights take the names of the `images` of a folder.
+
+    Raises
+    ------
+    UsageError, InputError, DisagreementError
+        As `read_calibration`; or something that lpcal did not write stands in the place of the target.
+    """
+    refuse_place(target, document_kind(KIND), [source])
+    progress("reading", 0, 1)
+    found = read_calibration(source, vectors=vectors, images=images)
+    files = sorted(source.glob("*.txt")) + sorted(source.glob("*.mat")) if source.is_dir() else [source]
+    write_calibration(target, found, Provenance({path.name: sha256(path) for path in files}, {"format": found.origin}))
+    progress("reading", 1, 1)
+    near = sum(light.source_C is not None for light in found.lights)
+    held = [f"{len(found.lights)} {'near' if near else 'distant'} lights"] if found.lights else ["no lights"]
+    held += ["a camera" if found.camera else "no camera: parallel rays"] if found.lights or found.camera else []
+    held += [f"{NAMES[found.carries][0]}"] * (found.H_PC is not None)
+    return Outcome(
+        [f"{found.origin or KIND}: {', '.join(held)} -> {target}"],
+        {
+            "format": found.origin,
+            "lights": len(found.lights),
+            "near": near,
+            "camera": found.camera is not None,
+            "hand-eye": found.H_PC is not None,
+            "file": target,
+            "notes": list(found.warnings),
+        },
+        list(found.warnings),
+        next_command=f"lpcal reconstruct CAPTURE -c {target}" if found.lights else f"lpcal export {target} --format all",
+    )
+
+
 def _write(calibration: Calibration, inputs: list[Path], wishes: ExchangeWishes, target: Path, body: str, progress: Progress) -> Outcome:
     capture = None if wishes.capture is None else read_capture(wishes.capture, calibration)
     surface = None if wishes.surface is None else read_surface(wishes.surface)
@@ -127,4 +167,4 @@ def _told(found: list[Exported], target: Path) -> Outcome:
     )
 
 
-__all__ = ["ALL", "ExchangeWishes", "export_file", "export_rig", "list_formats", "read_any"]
+__all__ = ["ALL", "ExchangeWishes", "export_file", "export_rig", "import_file", "list_formats", "read_any"]

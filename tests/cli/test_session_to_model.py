@@ -17,7 +17,7 @@ import lpcal
 from lpcal.cli.main import main
 from lpcal.formats.mocap_motive import write_motive
 from lpcal.geometry import se3
-from lpcal.pipeline.simulated_captures import write_capture
+from lpcal.pipeline.simulate import write_capture
 from lpcal.simulate import tour
 
 pytest.importorskip("skimage")
