@@ -143,7 +143,13 @@ def parse_limited(function: Callable[[str], Any], path: Path, needed: str) -> An
     """
     size = path.stat().st_size
     seconds = SECONDS + SECONDS_A_BYTE * size
-    words = [function.__module__, function.__name__, str(path.resolve()), str(CHILD_SPARE_BYTES + CHILD_TIMES_SIZE * size), str(int(seconds))]
+    words = [
+        function.__module__,
+        function.__name__,
+        str(path.resolve()),
+        str(CHILD_SPARE_BYTES + CHILD_TIMES_SIZE * size),
+        str(int(seconds)),
+    ]
     todo = "is it whole? export or copy it again"
     try:
         alone = os.environ | ONE_THREAD

@@ -102,7 +102,9 @@ def read_any(source: Path) -> Calibration:
     return read_calibration(source)
 
 
-def import_file(source: Path, target: Path, progress: Progress, *, vectors: Literal["directions", "positions"] | None, images: Path | None) -> Outcome:
+def import_file(
+    source: Path, target: Path, progress: Progress, *, vectors: Literal["directions", "positions"] | None, images: Path | None
+) -> Outcome:
     """Write calibration.yaml of another system's file or folder.
 
     `vectors` is what its vectors are stated to be; its lights take the names of the `images` of a folder.
