@@ -104,7 +104,7 @@ def register_mocap(
         ``recognise(head: bytes) -> bool``: whether a file that begins so (4096 bytes; b"" for a folder) is one.
     read : callable
         ``read(path: Path, body: str | None) -> PoseStream | MarkerStream``: H_OP (N, 4, 4) in metres at increasing times (N,) in seconds.
-        What it raises is reported as an error of the file; what it returns is checked. `body` is None where nobody asks for one. Bare
+        What it raises is reported as an error of the file; what it returns is checked. `body` is None where none is asked for. Bare
         markers are a `MarkerStream` of `lpcal.extend`.
 
     Returns

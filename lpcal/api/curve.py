@@ -48,7 +48,7 @@ def settle_sensor(raw: RawCapture, calibration: Calibration, saying: Sequence[tu
     Raises
     ------
     DisagreementError
-        Black is not below white; or the numbers are clearly not linear, and nobody has said by what curve they are stored.
+        Black is not below white; or the numbers are clearly not linear, and the curve by which they are stored is not stated.
     DegenerateError
         The flat field is dark or saturated.
     """
@@ -72,7 +72,7 @@ def _stated_gamma_judged(raw: RawCapture, used: SensorInUse, calibration: Calibr
 
 
 def _claim_judged(raw: RawCapture, used: SensorInUse, calibration: Calibration) -> Settled:
-    """With the gamma that the images claim where the object bears it out, and notes where nobody states one."""
+    """With the gamma that the images claim where the object bears it out, and notes where none is stated."""
     claim = raw.claim if raw.claim is not None and raw.claim.gamma != 1.0 else None
     claimed = "srgb" if claim is None or claim.gamma is None else claim.gamma
     curve = curve_of(raw, used.sensor, calibration, claimed)

@@ -131,7 +131,7 @@ def assemble_calibration(
     H_PC : HandEye, or ndarray (4, 4), optional
         What `solve_handeye` found; or the camera in the tracked body, metres, alone.
     intensity_std : float
-        Relative standard deviation of an intensity that nobody measured.
+        Relative standard deviation of an intensity that was not measured.
     sensor : StatedSensor, optional
         What is known of the sensor, where there is no camera to hold it.
     distance_sensor : SensorSolution or DistanceSensor, optional

@@ -31,7 +31,7 @@ def capture(
 ) -> RawCapture:
     """A capture as it is read from a folder, of a stack of images (L, H, W) or (L, H, W, 3), one a light; a capture is left as it is.
 
-    The lights are called L0, L1, ... where nobody names them. Whole numbers count by their type's largest, floats as fractions of full
+    The lights are called L0, L1, ... where no names are given. Whole numbers count by their type's largest, floats as fractions of full
     scale.
 
     Raises

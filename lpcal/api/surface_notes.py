@@ -14,7 +14,7 @@ from lpcal.records.surface import Surface
 from lpcal.surface.convention import mirrored
 
 VAGUE_DEG = 6.0
-"""Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so ill known serves nobody."""
+"""Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so poorly known is of no use."""
 IN_DOUBT = 0.33
 """Odds of being wrong from which a mask is spoken of: a third, so that two of three wrong ones are named and one in seven right ones."""
 
@@ -80,12 +80,12 @@ def _with_ambient_said(notes: tuple[str, ...], surface: Surface) -> tuple[str, .
 
 
 def _intensities_said(surface: Surface) -> tuple[str, ...]:
-    """Notes on intensities that nobody has measured and that were taken from the object."""
+    """Notes on intensities that were not measured but taken from the object."""
     found = surface.figures.intensities_found
     if not found:
         return ()
     least, most = (100 * (value - 1) for value in (min(found.values()), max(found.values())))
-    return (f"nobody states the lights' intensities: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
+    return (f"the lights' intensities are not stated: they were estimated from the object, {least:+.0f} % to {most:+.0f} % of their mean",)
 
 
 def _exchange_said(surface: Surface) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ Symbols: data y of one light and a of the room at the pixels of an outline (norm
 
     y^e - a^e = g . n  where it is lit        e is where the misfit, over the signal, is least; 1 for a linear camera
 
-A gamma that nobody stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law. A light as near as fourteen radii
+A gamma that is not stated gives e = gamma, one stated and not there 1 / gamma. Source: Lambert's law. A light as near as fourteen radii
 takes a third off e (a linear camera's is .75), a rough surface adds to it, so only the plainest curves are refused here; where chrome
 spheres say where the lights are, `chain.refine_lights.matte` judges again.
 

@@ -1,7 +1,7 @@
 r"""What no view has seen well, where the panel should stand next, and what that would show.
 
 Symbols: s a sample of the surface with area a_s and normal n_s; H_AC a camera that might stand somewhere, d its distance to the object's
-middle. Samples are the model's vertices that one view alone sees, and points of the caps that close its open edges: nobody saw what is
+middle. Samples are the model's vertices that one view alone sees, and points of the caps that close its open edges: no view saw what is
 there, a flat cap through the loop stands for it. A candidate sees a sample that faces it within 65 degrees, lies in its image, and is not
 behind the model or a cap (a depth buffer)::
 

@@ -6,7 +6,7 @@ Symbols: x a grid point, q what a view shows in its direction, n the view's norm
     D(x) = sum_i w_i clip(d_i, -T, T) / sum_i w_i          views for which x is not hidden: d_i > -T
 
 w falls with the view's own doubt: the normal's standard deviation, the slant. Only boxes near points of any view are computed, tile by tile
-of space (`tiles`), and triangles are made only where every corner was seen: what nobody saw stays open. Source: B. Curless and M. Levoy, A
+of space (`tiles`), and triangles are made only where every corner was seen: what no view saw stays open. Source: B. Curless and M. Levoy, A
 volumetric method for building complex models from range images (1996); marching cubes are scikit-image's.
 """
 

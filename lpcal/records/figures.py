@@ -100,7 +100,7 @@ class SurfaceFigures:
     mask_doubt_why: str | None = None
     """What the doubtful area may be, and where it is, in words."""
     intensities_found: dict[str, float] | None = None
-    """The lights' intensities over those of the calibration, where nobody measured them."""
+    """The lights' intensities over those of the calibration, where they were not measured."""
     images_exchanged: dict[str, str] | None = None
     """Images that fit another light than their own, and which."""
     pixels: int = 0

@@ -15,7 +15,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.shown import Shown
 
 POSE_STD = (5e-4, float(np.radians(0.05)))
-"""Metres and radians, one sigma an axis, of a stated pose that says no tolerance and of a body whose noise nobody measured: what
+"""Metres and radians, one sigma an axis, of a stated pose that says no tolerance and of a body whose noise was not measured: what
 motion-capture systems of a room and industrial arms keep."""
 
 

@@ -257,7 +257,7 @@ APART_M = 1e-4
 DEPTHS = (0.8, 1.2)
 """Shares of the focus' depth between which the camera's view is drawn as the working volume: the lights' axes meet within it."""
 MOST_FIELDS = 24
-"""Lights whose fields can be chosen: more are a list that nobody reads."""
+"""Lights whose fields can be chosen: a longer list is too long to read."""
 
 
 def sources(report: RigReport) -> list[LineItem]:

@@ -1,4 +1,4 @@
-"""Relative intensities of distant lights that nobody measured, from the object itself, and whether the object determines them.
+"""Relative intensities of distant lights that were not measured, from the object itself, and whether the object determines them.
 
 They are what brings the signals into the spaces of their lights (surface.light_space), and believed where those that one half of the object
 gives explain the other half clearly better than equal ones.
@@ -36,7 +36,7 @@ ACCEPTED = (0.2, 5.0)
 
 
 def unmeasured(lights: Sequence[Light]) -> bool:
-    """Whether lights are distant, of one intensity, and nobody says how well that is known."""
+    """Whether lights are distant, of one intensity, with no statement of how well that is known."""
     same = np.ptp(np.concatenate([light.intensity for light in lights])) == 0
     return bool(same and all(light.source_C is None and not np.isfinite(light.intensity_std) for light in lights))
 

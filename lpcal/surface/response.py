@@ -8,7 +8,7 @@ curve g that makes light of numbers, its misfit::
 as a share of the stored numbers, over the n samples that are neither its darkest nor its brightest ones. The samples are chosen by their
 rank, which no curve changes. The median of e over pixels, at the g that makes it least, against that at the g that is taken, tells a tone
 curve from all that also spoils the fit (gloss, shadows, interreflection): none of these is undone by a power. A curve and the lights'
-powers can be taken for each other: where nobody has measured these, each curve's misfit is that with equal powers, or that with those
+powers can be taken for each other: where these were not measured, each curve's misfit is that with equal powers, or that with those
 which one half of the object gives the other (surface.light_space), whichever is less. Source: the linear subspace of Lambertian images
 (Shashua 1997); Shi et al. 2010 (self-calibration of the response).
 """
@@ -97,7 +97,7 @@ class ShownResponse:
     B: Array
     """(L, P, 3), or (L, P, 4) with ones where the room's light is not known."""
     free: bool = False
-    """Whether nobody has measured the lights' powers."""
+    """Whether the lights' powers were not measured."""
 
 
 def stored_curve(shown: ShownResponse, taken: Gamma, claimed: Gamma) -> Curve | None:

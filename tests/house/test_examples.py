@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import runpy
 import subprocess
 import sys
@@ -16,6 +17,32 @@ import lpcal
 REPOSITORY = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((REPOSITORY / "examples").glob("*.py"))
 MOST_LINES = 25
+CLEAN = """
+import importlib.metadata, importlib.util, re, runpy, sys
+wanted, allowed = ["lpcal"], set()
+while wanted:
+    name = re.match(r"[A-Za-z0-9._-]+", wanted.pop()).group().lower().replace("_", "-")
+    if name in allowed:
+        continue
+    allowed.add(name)
+    try:
+        requirements = importlib.metadata.requires(name) or []
+    except importlib.metadata.PackageNotFoundError:
+        continue
+    wanted += [each for each in requirements if "extra ==" not in each]
+owners = importlib.metadata.packages_distributions()
+class Refused:
+    def find_spec(self, name, path=None, target=None):
+        of = {each.lower().replace("_", "-") for each in owners.get(name, [])}
+        if of and not of & allowed:
+            raise ModuleNotFoundError(f"{name} is not among lpcal's dependencies", name=name)
+sys.meta_path.insert(0, Refused())
+try:
+    import pytest
+except ModuleNotFoundError:
+    runpy.run_path(sys.argv[1])
+"""
+"""Runs a script with only the packages that lpcal's metadata require: those that the tests or an extra add are refused."""
 
 
 def run(name: str) -> dict[str, Any]:
@@ -30,6 +57,17 @@ def test_all_roles_are_there() -> None:
 def test_an_example_is_short(path: Path) -> None:
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
     assert len(lines) <= MOST_LINES
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_runs_in_a_clean_environment(path: Path, tmp_path: Path) -> None:
+    """In an empty folder, with no variable of the environment but the path and the home, without the packages of the tests."""
+    alone = {name: os.environ[name] for name in ("PATH", "SYSTEMROOT") if name in os.environ} | {"HOME": str(tmp_path)}
+    found = subprocess.run(
+        [sys.executable, "-I", "-c", CLEAN, str(path)], cwd=tmp_path, env=alone, capture_output=True, text=True, check=False
+    )
+    assert (found.returncode, found.stderr) == (0, ""), found.stderr
+    assert len(found.stdout.splitlines()) > 1
 
 
 def test_examples_are_clean() -> None:

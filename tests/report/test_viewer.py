@@ -14,7 +14,8 @@ import pytest
 from browser_pages import Opened, chromium, findings, opened, ready
 from lpcal.records.surface import Component
 from lpcal.report import relight_page
-from lpcal.report.distant_shape import bend_of, render
+from lpcal.report.distant_shape import bend_of
+from lpcal.report.relight_page import render
 from relight_ball import CENTRE, SIZE, ball, lights
 
 SCALE_STD = 0.004

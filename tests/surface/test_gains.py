@@ -113,6 +113,6 @@ def test_powers_that_are_estimated_are_said_on_the_terminal(
     write_calibration(tmp_path / "c.yaml", drawn.calibration, Provenance())
     code, _, told = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out", cwd=tmp_path)
     assert code == 0, told
-    said = "nobody states the lights' intensities: they were estimated from the object" in told
+    said = "the lights' intensities are not stated: they were estimated from the object" in told
     figures = json.loads((tmp_path / "out/summary.json").read_text())["counts_and_residuals"]
     assert said == (kind == "found") == ("intensities_found" in figures)

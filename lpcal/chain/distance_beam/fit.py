@@ -112,7 +112,7 @@ class Fit:
 
 
 def drawn_in_camera(drawn: BeamDrawn, H_CD: Array, H_CD_covariance: Array) -> tuple[Beam, Array]:
-    """The beam of the drawing in C, and its covariance (7, 7): of the tolerance, of H_CD, of a zero and a scale that nobody measured."""
+    """The beam of the drawing in C, and its covariance (7, 7): of the tolerance, of H_CD, of a zero and a scale that were not measured."""
     origin_C = se3.apply(H_CD, drawn.position_D[None])[0]
     direction_C = se3.rotate(H_CD, drawn.direction_D[None])[0]
     beam = Beam.along(origin_C, direction_C)
