@@ -120,10 +120,11 @@ def room_scene(report: RigReport) -> LineScene | None:
     if report.boards is not None and report.boards.points_B is not None:
         outline = se3.apply(handeye.H_OB, _outline(report.boards.points_B))
         drawn.append(LineItem(kind="line", points=outline, tone="board", closed=True, fill=0.25, layer="board"))
-        drawn += _triad(handeye.H_OB, 0.08, "B", "board")
         reach += list(outline)
     if not reach:
         return None
+    drawn += _triad(handeye.H_OB, 0.08, "B", "board")
+    reach.append(handeye.H_OB[:3, 3])
     up = -np.mean([pose[:3, 1] for pose in H_OC.values()], axis=0) if H_OC else np.array([0, 0, 1.0])
     return _scene(drawn, np.array(reach), up=up / max(float(np.linalg.norm(up)), 1e-9), yaw=0.6, pitch=0.4)
 

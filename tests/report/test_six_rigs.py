@@ -15,6 +15,7 @@ from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.calibration import Calibration
 from lpcal.report.page import render
 from lpcal.report.rig_report import PARTS, RigReport
+from lpcal.report.scene import room_scene
 from report_rig import documents, read, report_of, surface
 
 SCREENS = {"desk": (1280, 800), "hand": (390, 844)}
@@ -78,6 +79,16 @@ def test_a_page_has_the_sections_of_its_rig(kind: str) -> None:
     assert found.ids & set(PARTS) == SECTIONS[kind]
     assert {f"#{part}" for part in SECTIONS[kind]} <= set(found.references)
     assert ("rays are taken as parallel" in " ".join(found.words)) == (kind == "dome without camera"), "a hand-eye alone takes no rays"
+
+
+def test_the_board_stands_in_the_room_of_a_hand_eye_alone() -> None:
+    """Its corners are not known there, but its place is."""
+    report = rigs()["hand-eye only"]
+    scene = room_scene(report)
+    assert scene is not None
+    board = [item for item in scene.items if item.layer == "board"]
+    assert [item.text for item in board if item.kind == "label"] == ["B"]
+    assert any(np.allclose(item.points[0], report.handeye.H_OB[:3, 3]) for item in board)
 
 
 @pytest.fixture(scope="module")
