@@ -4,10 +4,10 @@ rigs     rendered rigs with a truth: rig_a of the recordings and calib_data/demo
 drawn    corners of boards drawn by ray casting: rms against where the pattern's edges cross
 spread   100 seeded calibrations: predicted projection uncertainty against the spread; NEES of the intrinsics
 bouguet  Bouguet's example 1 by opencv4 and a flat board, and by what is chosen
-boards   boards found on real sets, beside OpenCV's detectors alone
-frames   1920x1080 frames without a board: seconds of processor an image, beside OpenCV's classic and sector detectors
+boards   boards found on real sets, compared with OpenCV's detectors alone
+frames   1920x1080 frames without a board: seconds of processor an image, compared with OpenCV's classic and sector detectors
 count    28x17 boards asked for as 24x17, thirty images: what ``lpcal intrinsics`` says and the seconds of processor that it takes
-speed    bouguet_ex1: ``lpcal intrinsics`` beside mrcal-calibrate-cameras fed the same corners plus OpenCV's detection
+speed    bouguet_ex1: ``lpcal intrinsics`` compared with mrcal-calibrate-cameras fed the same corners plus OpenCV's detection
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Normals under imported lights of unknown powers, by lpcal beside plain least squares, over simulated captures (tools/lit_heights.py).
+"""Normals under imported lights of unknown powers, by lpcal and by plain least squares, over simulated captures (tools/lit_heights.py).
 
 ``python tools/bench_gains.py [COUNT] [KIND...]``: COUNT captures a kind (default 20). Mean errors in degrees over the object:
 

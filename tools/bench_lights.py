@@ -2,9 +2,9 @@
 
 rig_a    the rendered rig of LPCAL_DATA, from its images: one to four chrome spheres, without matte, with the LEDs unknown
 speed    12 lights, 8 chrome and 8 matte spheres: time and peak memory of the solve, and of ``lpcal refine`` from images
-rigs     100 simulated rigs that know more than the model: errors beside their sigmas; of 30 of them, what more spheres do
+rigs     100 simulated rigs that know more than the model: errors compared with their sigmas; of 30 of them, what more spheres do
 whole    8 of them from whole images instead of windows about the spheres
-exact    50 rigs without model error: errors beside the Bayesian Cramer-Rao bound
+exact    50 rigs without model error: errors compared with the Bayesian Cramer-Rao bound
 clicks   50 joints stated one click off, and as many rigs without: found, and falsely found
 A number after a colon takes so many rigs: ``rigs:20:5`` solves 20, and 5 of them with all numbers of spheres.
 """
@@ -171,7 +171,7 @@ def _solved(make: Callable[[int], Drawn], seeds: Sequence[int], ladder: list[tup
 
 
 def rigs(count: int = RIGS, ladder: int = LADDER_RIGS) -> None:
-    """Errors beside sigmas, and what more spheres do."""
+    """Errors compared with sigmas, and what more spheres do."""
     most = [(4, 0), (4, 4)]
     found = _solved(drawn, range(ladder), LADDER)
     print(f"{ladder} simulated rigs of 6 lights; NEES wanted 0.5-1.2\n{HEADER}")
@@ -204,7 +204,7 @@ def whole(count: int = WHOLE) -> None:
 
 
 def exact_rigs(count: int = EXACT) -> None:
-    """Errors beside the bound."""
+    """Errors compared with the bound."""
     found = _solved(exact, range(count), [(2, 0), (4, 0), (4, 4)])
     print(f"{count} rigs without model error: rms over bound, wanted <= 1.10\n{HEADER}   rms/bound: dir   pos   int")
     for (chrome, matte), errors in found.items():

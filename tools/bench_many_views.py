@@ -3,7 +3,7 @@
 ``python tools/bench_many_views.py [VIEWS] [--size WxH] [--jobs N] [--on ENGINE]``. A carved wall, some metres long, under views that each
 see a third of a metre of it: surfaces are made directly, with the errors of reconstructions (a scale of each, a slow bending, normals
 off by a degree, poses off by a tracker's noise, one H_PC error for all). Prints processor time and peak memory of the fusion, and how far
-the model is from the wall, beside the single surfaces.
+the model is from the wall, compared with the single surfaces.
 """
 
 from __future__ import annotations

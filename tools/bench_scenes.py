@@ -51,7 +51,7 @@ def reconstructed(capture: Path, calibration: Path, target: Path, words: list[st
 
 
 def figures(scene: Path, target: Path) -> dict[str, float]:
-    """The figures of a surface beside its truth."""
+    """The figures of a surface compared with its truth."""
     true, found = np.load(scene / "truth/surface.npz"), np.load(target / "surface.npz")
     both = found["mask"] & true["mask"]
     n, m = (one["normals"][both].astype(float) for one in (found, true))

@@ -1,4 +1,4 @@
-"""Processor time and peak memory of lpcal beside an older commit of itself, and of its solvers beside plain peers.
+"""Processor time and peak memory of lpcal compared with an older commit of itself, and of its solvers with plain peers.
 
 ``python tools/bench_speed.py [--check]``: prints the table of docs/benchmarks.md; ``--check`` fails where a ratio has slid by more than a
 quarter from the committed one. Each row is a ratio of two things that run one after the other on the same machine, so that how fast the
@@ -89,7 +89,7 @@ def ball(folder: Path, lights: int, size: tuple[int, int], radius: float) -> lis
 
 
 def captures(folder: Path) -> list[Row]:
-    """Whole commands beside the pinned commit."""
+    """Whole commands compared with the pinned commit."""
     old, rows = laid_out(folder), []
     for name, lights, size, radius in (("8 lights of 240x180", 8, (180, 240), 80.0), ("96 lights of 612x512", 96, (512, 612), 115.0)):
         words = ball(folder / f"ball{lights}", lights, size, radius)
@@ -110,7 +110,7 @@ def timed(work: Callable[[], object]) -> float:
 
 
 def integration() -> Row:
-    """The masked solve of 153,756 pixels beside scipy's spsolve, to the same depth."""
+    """The masked solve of 153,756 pixels compared with scipy's spsolve, to the same depth."""
     y, x = np.indices((470, 470))
     mask = ((x - 235) / 1.0) ** 2 + (y - 235) ** 2 < 221.5**2
     grid, rng = Grid.of(mask), np.random.default_rng(1)
@@ -139,7 +139,7 @@ def reweighted(B: np.ndarray, signal: np.ndarray) -> np.ndarray:
 
 
 def robust_normals() -> Row:
-    """Robust normals of 12 lights with shadows and highlights beside the same by an iteratively reweighted L1 a pixel."""
+    """Robust normals of 12 lights with shadows and highlights compared with the same by an iteratively reweighted L1 a pixel."""
     rng, lights, pixels = np.random.default_rng(2), 12, 40_000
     turn = 2 * np.pi * np.arange(lights) / lights
     S = np.stack([0.6 * np.cos(turn), 0.6 * np.sin(turn), np.full(lights, -0.8)], axis=1)

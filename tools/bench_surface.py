@@ -1,4 +1,4 @@
-"""Normals of DiLiGenT by lpcal beside plain least squares on the same images.
+"""Normals of DiLiGenT by lpcal compared with plain least squares on the same images.
 
 ``python tools/bench_surface.py [FOLDER]``: FOLDER holds diligent_ball, diligent_bear (default: the recordings' surface folder);
 ``python tools/bench_surface.py card`` is tools/bench_card.py.

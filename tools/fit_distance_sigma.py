@@ -55,7 +55,7 @@ def factor_of(error: np.ndarray, stated: np.ndarray, calibration: np.ndarray) ->
 
 
 def broken_off(error: np.ndarray, stated: np.ndarray, gap: np.ndarray) -> float:
-    """The share of the gap (N,) to the largest piece that makes errors (N,) of the others likeliest beside what is stated of them."""
+    """Share of the gap (N,) to the largest piece that makes errors (N,) of the others likeliest together with what is stated of them."""
 
     def cost(log_share: float) -> float:
         variance = stated**2 + (np.exp(log_share) * gap) ** 2

@@ -1,4 +1,4 @@
-"""Fit the weights by which the automatic mask tells the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE]``.
+"""Fit the weights by which the automatic mask judges the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
 estimated, as the mask does it. Prints the weights for lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts,
@@ -30,7 +30,7 @@ FOLDS, INNER = 6, 5
 RIDGE = 0.3
 """Penalty on the square of a weight of a clue of standard deviation 1, by the loss of scenes left out, which is flat from .1 to .3."""
 CROPS = 2
-"""Crops of a scene that are fitted to beside the whole, so that the object lies anywhere in the picture."""
+"""Crops of a scene that are fitted to besides the whole, so that the object lies anywhere in the picture."""
 WRONG = 0.9
 """IoU under which a mask is wrong."""
 SMALLEST = 3

@@ -1,6 +1,6 @@
 """Proves that frame letters chain: ``python tools/frame_letters.py lpcal`` (folders or files), exit 1 on a mistake.
 
-A name tells its frames: ``H_AB`` and ``R_AB`` take B to A, ``x_A``, ``axis_A``, ``points_A_true`` are points or directions in A.
+A name states its frames: ``H_AB`` and ``R_AB`` take B to A, ``x_A``, ``axis_A``, ``points_A_true`` are points or directions in A.
 Over the syntax tree, without running anything::
 
     H_AB @ H_BC -> AC     inv(H_AB) -> BA     apply(H_AB, x_B), rotate(H_AB, v_B), R_AB @ v_B -> A

@@ -1,4 +1,4 @@
-"""Models of whole simulated sessions beside their truth.
+"""Models of whole simulated sessions compared with their truth.
 
 ``python tools/fuse_shapes.py OUT [--shapes bust,stone] [--stops 16] [--size WxH] [--peers]``. Each shape gets a rig of its own, of another
 seed: its images are drawn, camera, hand-eye and lights are calibrated from them by the commands, every stop is reconstructed and all are
@@ -143,11 +143,11 @@ def run(words: list[str]) -> Spent:
         [sys.executable, "-m", "lpcal", *words, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     ) as process:
         assert process.stderr is not None
-        told = process.stderr.read()
+        said = process.stderr.read()
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
-        raise RuntimeError(f"lpcal {' '.join(words[:2])} ...: {told.strip()}")
+        raise RuntimeError(f"lpcal {' '.join(words[:2])} ...: {said.strip()}")
     return Spent(used.ru_utime + used.ru_stime, used.ru_maxrss / 1e6)
 
 

@@ -1,4 +1,4 @@
-"""How far found lights are from true ones: over a working volume, and beside their own standard deviations."""
+"""How far found lights are from true ones: over a working volume, and compared with their own standard deviations."""
 
 from __future__ import annotations
 

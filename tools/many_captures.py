@@ -1,4 +1,4 @@
-"""Many small captures: drawn, and reconstructed by an engine beside the plain loop.
+"""Many small captures: drawn, and reconstructed by an engine, compared with the plain loop.
 
 ``python tools/many_captures.py DIR [--count 200] [--size 48] [--jobs 2] [--on dask]`` draws a ball under six distant lights so many
 times, each another ball, reconstructs them one after the other and by the engine, and prints wall clock and processor time of both, the

@@ -13,7 +13,7 @@ Spheres are drawn once and kept in a folder of the system's temporary files; the
 joint turned by 0.1 deg is.
 
 Printed otherwise: silent pairs; named lights of the moved, those named as one of two, and false names; the sigma that is stated, which is
-the Cramer-Rao bound by the scatter of the highlights, and the errors of the found moves beside it.
+the Cramer-Rao bound by the scatter of the highlights, and the errors of the found moves compared with it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How far outlines are off, beside what they show of it: ``python tools/outline_errors.py [COUNT]``, the spheres of so many simulated rigs.
+"""Outlines: errors and what they show of them: ``python tools/outline_errors.py [COUNT]``, the spheres of so many simulated rigs.
 
 From the rigs of `light_sigmas`: the true outline is known, so each seen one's shift and radial bias are. Fitted, by maximum likelihood on
 the even seeds and held against the odd ones, a kind each, with s the scatter of the points and r the radius in pixels::

@@ -216,7 +216,7 @@ def one(base: str, fault: Fault | None, seed: int, kept: Path | None, number: in
         shutil.rmtree(rig, ignore_errors=True)
         shutil.copytree(source, rig)
         truth = (fault.plant(rig, rng) if fault else None) or Truth()
-        stages = [*(["intrinsics"] if fault and fault.anew else []), *STAGES[base]]
+        stages = [*(["intrinsics"] if fault and fault.boards_again else []), *STAGES[base]]
         for words in stages:
             if words == "handeye":
                 row.check, _ = run(rig, "check")

@@ -40,7 +40,7 @@ class Fault:
     plant: Callable[[Path, Rng], Truth | None]
     named: str
     """Words of which one stands in a message that names it."""
-    anew: bool = False
+    boards_again: bool = False
     """Whether the images changed, so that the boards are to be found again."""
 
 
@@ -382,15 +382,17 @@ FAULTS: dict[str, Fault] = {
     "Euler order": Fault("robot", euler_order, "order|rotation|Euler|angles"),
     "quaternion order": Fault("robot", quaternion_order, "quaternion"),
     "units": Fault("robot", units, "unit"),
-    "square 1.5 % small": Fault("robot", partial(edited, old="square: 25 mm", new="square: 24.625 mm"), "its stated size", anew=True),
+    "square 1.5 % small": Fault(
+        "robot", partial(edited, old="square: 25 mm", new="square: 24.625 mm"), "its stated size", boards_again=True
+    ),
     "mocap scale": Fault("recording", mocap_scale, "its stated size"),
-    "images cropped": Fault("robot", cropped, "size|stated|focal|crop", anew=True),
-    "corner count": Fault("robot", partial(edited, old="corners: [9, 6]", new="corners: [8, 6]"), "corners", anew=True),
-    "images mirrored": Fault("robot", mirrored, "mirror", anew=True),
+    "images cropped": Fault("robot", cropped, "size|stated|focal|crop", boards_again=True),
+    "corner count": Fault("robot", partial(edited, old="corners: [9, 6]", new="corners: [8, 6]"), "corners", boards_again=True),
+    "images mirrored": Fault("robot", mirrored, "mirror", boards_again=True),
     "poses one row off": Fault("robot", shifted_rows, "shifted"),
-    "lens refocused midway": Fault("robot", refocused, "focus|zoom|lens|moved between", anew=True),
+    "lens refocused midway": Fault("robot", refocused, "focus|zoom|lens|moved between", boards_again=True),
     "board stretched 1 %": Fault(
-        "stretched", partial(edited, old="[25.25 mm, 25 mm]", new="25 mm"), "longer along|its stated size", anew=True
+        "stretched", partial(edited, old="[25.25 mm, 25 mm]", new="25 mm"), "longer along|its stated size", boards_again=True
     ),
     "clock offset misstated": Fault("recording", clock_misstated, "clock"),
     "clock epoch": Fault("recording", other_epoch, "epoch|clock"),
