@@ -1,6 +1,6 @@
-r"""Which distance the light speaks for: the rounds of a reconstruction in coarse pixels, from many distances.
+r"""Which distance the light supports: the rounds of a reconstruction in coarse pixels, from many distances.
 
-Near light tells an object's distance by a cost that has more than one minimum, and rounds from one distance find the nearest. So plain
+Near light determines an object's distance by a cost that has more than one minimum, and rounds from one distance find the nearest. So plain
 rounds (no gloss, no light from elsewhere, the lights' field from a table) run from every start of a sweep; each ends in a basin, with the
 cost of its samples there::
 
@@ -8,7 +8,7 @@ cost of its samples there::
 
 The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the least cost a light, as what the model lacks is common to
 many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
-which decides where the light hardly does. The full solve begins in the likeliest.
+which decides where the light hardly determines it. The full solve begins in the likeliest.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
 ROUNDS = 5
 GRADUATED = 2
-"""Rounds whose depths look for their jumps anew."""
+"""Rounds whose depths look for their jumps again."""
 OUTLIER2 = normals.OUTLIER**2
 MOST = 50.0
 """Cost of a pixel at most: one that nothing explains does not decide."""
 APART = 0.03
 """Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
 INDEPENDENT = 3.1
-"""Pixels that an object's are worth: errors of the model are common to whole regions. By tools/fit_basin_odds.py on drawn scenes."""
+"""Independent pixels that an object counts as: regions share the model's errors. By tools/fit_basin_odds.py on simulated scenes."""
 WORKING = 0.3
 """Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
 STATED = 0.02
-"""Odds under which another basin is not worth a word."""
+"""Odds under which another basin is not reported."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Basins:
         return np.asarray(large[mask])
 
     def others(self) -> list[tuple[float, float]]:
-        """Basins beside the likeliest that the images allow: their distance over its, and their odds."""
+        """Basins other than the likeliest that the images allow: their distance over its, and their odds."""
         odds = odds_of(self.ends, self.lights, self.about_m)
         best = self.ends[0]
         return [(float(np.exp(np.median(one.u - best.u))), float(p)) for one, p in zip(self.ends[1:], odds[1:], strict=True) if p > STATED]
@@ -103,7 +103,7 @@ def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
 def search(
     maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
 ) -> Basins | None:
-    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is what progress calls it."""
+    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
     factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
     rows, columns = image.shape

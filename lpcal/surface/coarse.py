@@ -21,7 +21,7 @@ from lpcal.surface.room_samples import RoomPrior
 from lpcal.surface.sight import Grey, Indices, light_vectors
 
 SPAN = (0.25, 6.0)
-"""Depths of the table, as shares of the working distance: beyond, lights neither reach nor are calibrated."""
+"""Depths of the table, as shares of the working distance: beyond, lights do not reach, nor are they calibrated there."""
 NODES = 60
 """Steps of the table, 5 per cent of the depth each: cubic between them, the field is right to some thousandths."""
 LATTICE = (19, 25)

@@ -1,4 +1,4 @@
-r"""What near light says of each pixel's own distance.
+r"""Each pixel's own distance, as near light determines it.
 
 Symbols: u = log z, samples ``I_k = B_k(u) . b + e_k`` of variance s_k^2. With b projected out, whitened residual r and derivative
 ``J = dr/du``::
@@ -24,15 +24,15 @@ from lpcal.surface.sight import Lit, Sight, vectors
 
 DELTA = 1e-3
 FURTHEST = 0.5
-"""A pixel by itself moves log z by no more than this in a round."""
+"""Most that a pixel's own distance moves log z in a round."""
 SCORE = 3.0
 """Upper bound on that step, in the pixel's own standard deviations."""
 GLOSS_DOUBT = 2.0
 """Standard deviation of the gloss that was taken off, as a share of it: distances depend on small parts of the signal."""
 ALIKE = 0.005
-"""What neighbouring samples err by alike, of the signal."""
+"""Error that neighbouring samples share, as a share of the signal."""
 UNSEEN_DOUBT, THROWN_DOUBT, SHINE_DOUBT = 0.3, 0.2, 0.5
-"""Further correlated errors, as shares of: the unseen sides about a pixel, the light known to be thrown on it, and gloss."""
+"""Further correlated errors, as shares of: the unseen sides about a pixel, the light known to be reflected onto it, and gloss."""
 PATCHES_ACROSS = 40
 """Patches across an object whose pixels are asked for their distance together."""
 ESTRANGED = 1.5
@@ -41,7 +41,7 @@ LEAST_DIFFERENCE = 0.003
 """Relative difference of distances under which patches agree."""
 MIND_ROUNDS = 8
 WEAK = 1e-6
-"""Curvature for pixels that know nothing, so that every piece is held somewhere."""
+"""Curvature of pixels that do not determine a distance, so that every piece has one."""
 
 
 def own_distance(light: Lit | Array, B_at: Callable[[Array, slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
@@ -79,7 +79,7 @@ def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> 
 
 
 def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
-    """The own distances with less weight where light from other parts of the object is told ill: a whole region errs alike there."""
+    """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
     if lit.unseen is None:
         return own
     square = (UNSEEN_DOUBT * lit.unseen) ** 2 + (THROWN_DOUBT * thrown_share(lit, found)) ** 2
@@ -90,9 +90,9 @@ def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
 
 
 def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
-    """The own distances, less weight on patches that differ in theirs from most of their piece (P,): light from elsewhere misleads them.
+    """The own distances, less weight on patches whose distances differ from most of their piece (P,): light from elsewhere biases them.
 
-    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about what most of the piece says.
+    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about that of most of the piece.
     """
     from scipy import ndimage
 

@@ -4,9 +4,9 @@ Each layer states a cost (see surface.samples) and an appearance, the histogram 
 
     sum_p  cost_l(p) - 2 log(appearance_l(p))   +   sum_ab  w_ab [l_a != l_b]
 
-with w low across edges of the picture, by a convex relaxation whose indicators lie on the simplex. Appearances and planes are learnt anew
-from the labels, in rounds. Sources: Zach, Gallup, Frahm and Niethammer 2008, Vision, Modeling and Visualization (the relaxation); Isack and
-Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (appearances in turn).
+with w low across edges of the picture, by a convex relaxation whose indicators lie on the simplex. Appearances and planes are estimated
+again from the labels, in rounds. Sources: Zach, Gallup, Frahm and Niethammer 2008, Vision, Modeling and Visualization (the relaxation);
+Isack and Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (appearances in turn).
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from lpcal.surface.regions import View
 from lpcal.surface.sight import Indices, strength
 
 FREE_PRICE = 10.0
-"""Cost of a normal of one's own: twice the logarithm of how many normals the samples can tell apart."""
+"""Cost of a normal of one's own: twice the logarithm of how many normals the samples can distinguish."""
 OTHER_PRICE = 2.0
 """Cost of matter like a plane's that lies in none of the planes, above that of the object's matter."""
 NOTHING_PRICE = 6.0
-"""Cost of saying, where no light comes back, that matter is there."""
+"""Cost of the label matter where no light comes back."""
 LEAST_NOTHING = 0.003
 """Share of the image's rim that is taken to show nothing at least."""
 BOUNDARY = 10.0
@@ -37,9 +37,9 @@ EDGE = 6.0
 PLANE_SAYS, OBJECT_SAYS = 4.0, 8.0
 """Most that an appearance adds to a cost: by the albedo in a plane, and by the brightest shading for and against the object."""
 ROUNDS = 4
-"""Times that labels are drawn, planes and appearances learnt anew between them: further rounds move next to nothing."""
+"""Times that labels are found, planes and appearances estimated again in between: further rounds change next to nothing."""
 STEPS = 250
-"""Steps of the primal-dual method: labels then stand still."""
+"""Steps of the primal-dual method: labels then no longer change."""
 BINS = 40
 """Cells of an appearance."""
 RARE = 0.02
@@ -49,7 +49,7 @@ BRIGHTEST = 75
 FEWEST = 30
 """Pixels from which an appearance is learnt."""
 KEPT = 0.006
-"""Share of the image under which a plane's own pixels do not keep it."""
+"""Share of the image under which a plane is dropped."""
 CEILING = 30.0
 """Cost over a pixel's cheapest layer beyond which layers are all alike."""
 

@@ -57,7 +57,7 @@ def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 
 def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
-    """Labels (P,) from 1, the largest first, of what hangs together over edges that are no breaks; crumbs join the nearest piece.
+    """Labels (P,) from 1, the largest first, of what is connected over edges that are no breaks; crumbs join the nearest piece.
 
     A bridge of a pixel or two between the ends of a break does not hold two pieces together.
     """
@@ -106,7 +106,7 @@ def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 
 def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
-    """A label (P,) for each set of pixels that hang together over edges that are no breaks."""
+    """A label (P,) for each set of pixels that are connected over edges that are no breaks."""
     from scipy import sparse
     from scipy.sparse.csgraph import connected_components
 

@@ -1,13 +1,13 @@
-"""A surface from the linear images of a capture and the calibrated lights: what is seen, the rounds, what is made of them.
+"""A surface from the linear images of a capture and the calibrated lights: what is seen, the rounds, what is computed from them.
 
-Without a camera, or with distant lights, the light does not tell the distance: parallel rays give a depth in pixels about zero, a camera
-one about the distance that is given or designed.
+Without a camera, or with distant lights, the light does not determine the distance: parallel rays give a depth in pixels about zero, a
+camera one about the distance that is given or designed.
 
 Normals of a depth: the cross product of its slopes along rows and columns, taken where the surface does not break.
 
 Where to begin when nothing says how far away the object is: the distance of a flat front at which near light explains the images best.
 
-At each distance of a sweep every pixel has a normal and an albedo of its own; what is left over is the light's word on the distance.
+At each distance of a sweep every pixel has a normal and an albedo of its own; the residual shows how well the distance fits.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ AGREE_DEG = 2.0
 STATED_DISTANCE = 0.003
 """Relative standard deviation of a distance that the user states."""
 UNKNOWN_DISTANCE = 0.5
-"""Relative standard deviation of a distance that nothing tells."""
+"""Relative standard deviation of a distance that nothing determines."""
 DISTANCE_M = 0.35
 """Where nothing else says how far away the object is."""
 
@@ -66,22 +66,22 @@ class Options:
     """What the user may ask for."""
 
     near: bool = True
-    """Whether lights act from where they are, where that is known; else all as distant ones."""
+    """Whether lights act from where they are, where that is known; else all as distant lights."""
     distance_m: float | None = None
     """Median depth of the largest piece, where the user knows it."""
     reading: Reading | None = None
-    """What the panel's distance sensor reads, where the user does not know better."""
+    """What the panel's distance sensor reads, where the user states no distance."""
     mask: Mask | None = None
     automatic_mask: bool = True
     """Whether the object is to be found where no mask is given; else every pixel counts."""
     hints: Hints = NO_HINTS
-    """What the user says of where the object is."""
+    """Where the user says that the object is."""
     keep: Keep = "object"
     """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
     linear: bool = True
-    """Whether nothing speaks against the signals being linear; else powers of lights that nobody measured are held, not estimated."""
+    """Whether the signals may be taken as linear; else powers of lights that were not measured are held, not estimated."""
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,7 @@ def _how(background: mask.Found | None, radiance: Radiance, options: Options) ->
 
 
 def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: planes.Plane, camera: Camera) -> State:
-    """The state with pieces put where their shadows on the wall say, and one more round of normals there."""
+    """The state with pieces put where their shadows on the wall place them, and one more round of normals there."""
     shown = shadow_anchor.screen(whole.seen, wall, scene.lights, whole.hidden, whole.factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
     model_std = {int(one): _model_std(state, label == one) for one in np.unique(label)}
@@ -206,7 +206,7 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
 def _read(
     radiance: Radiance, scene: Scene, state: State, surface: Surface, found: Basins | None, options: Options, camera: Camera | None
 ) -> tuple[State, Surface]:
-    """The state and its surface with the piece that the distance sensor's beam meets put where light and reading together say."""
+    """The state and its surface with the piece that the distance sensor's beam meets put at the distance of light and reading together."""
     if options.reading is None or options.distance_m is not None or camera is None:
         return state, surface
     said = reading.of_surface(surface, camera, options.reading)

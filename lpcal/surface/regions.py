@@ -1,7 +1,7 @@
 r"""Connected regions of a map of labels, and the clues by which a region is the object or not.
 
 A clue is one number a region: how much of the image's frame it holds, what its plane spares over matter of any normal, where it lies, what
-lies beside it. None needs a scale: shares of the frame or the outline, natural logarithms of brightness and depth, costs of the labels.
+adjoins it. None needs a scale: shares of the frame or the outline, natural logarithms of brightness and depth, costs of the labels.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from lpcal.surface.flats import Sweep
 from lpcal.surface.sight import Indices, strength
 
 SPARED = (-10.0, 30.0)
-"""Bounds of the cost that a plane spares a pixel, so that a few pixels do not speak for a region."""
+"""Bounds of the cost that a plane spares a pixel, so that a few pixels do not decide for a region."""
 BEFORE = 0.02
 """Natural logarithm of a ratio of depths from which a region stands before the plane that holds most of the frame."""
 FEWEST = 6
@@ -62,7 +62,7 @@ class Regions:
     label: Labels
     """(N,)."""
     pairs: Indices
-    """(K, 2) regions of two pixels that lie beside each other, of different regions."""
+    """(K, 2) regions of two adjacent pixels of different regions."""
     pixels: Indices
     """(K, 2) these pixels."""
 
@@ -96,7 +96,7 @@ class Regions:
         )
 
     def outline(self, weight: Array, beside: Array) -> Array:
-        """Means (N,) over a region's outline of weight (K,) times what `beside` (N,) says of the region across."""
+        """Means (N,) over a region's outline of weight (K,) times what `beside` (N,) is for the region across."""
         count = len(self.label)
         a, b = self.pairs.T
         total = np.bincount(a, weights=weight * beside[b], minlength=count) + np.bincount(b, weights=weight * beside[a], minlength=count)
@@ -124,7 +124,7 @@ class Pictures:
     planes: list[Array]
     """q (3,) each, of labels 1..; label 0 is matter of any normal, then come nothing and other matter."""
     spared: Array
-    """Cost that the label spares a pixel, beside matter of any normal."""
+    """Cost that the label spares a pixel, compared with matter of any normal."""
     bright: Array
     """Log of the brightest signal but one."""
     normals: Array
@@ -154,7 +154,7 @@ class Pictures:
 
 
 def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
-    """The clues (N,) of a region by itself."""
+    """The clues (N,) of a region alone."""
     rows, columns = regions.number.shape
     count = len(pictures.planes)
     plane = ((regions.label > 0) & (regions.label <= count)).astype(float)

@@ -1,7 +1,7 @@
 """A scene with blocks of pixels joined, and what the rounds settle there carried back to its own pixels.
 
-What the rounds settle over many pixels, the distance, which lights the surface hides, gloss, and what its parts throw on each other, is the
-same in coarse pixels and takes a quarter of the time. Normals, albedo and steps of each pixel are found at full size after that.
+What the rounds settle over many pixels, the distance, which lights the surface hides, gloss, and what its parts reflect onto each other, is
+the same in coarse pixels and takes a quarter of the time. Normals, albedo and steps of each pixel are found at full size after that.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from lpcal.surface.normals import Estimate
 from lpcal.surface.sight import Indices, Lit, Sight
 
 PIXELS = 8000
-"""Blocks that an object is joined to, about: they tell distance and gloss as well as many more do, and 2000 patches that throw light."""
+"""Blocks, about, that an object is joined to: enough for distance and gloss, and for 2000 patches that reflect light."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Blocks:
     """The pixels, with a mask that is cut to them."""
     grid: Grid
     coarse: Sight
-    """The blocks as pixels, each with the noise of one pixel: what they say of their distances weighs against the steps as at full size."""
+    """The blocks as pixels, each with the noise of one pixel: their distances have the same weight against the steps as at full size."""
     coarse_grid: Grid
     side: int
     """Pixels of a block along its side."""
@@ -116,11 +116,11 @@ class Blocks:
         return Lit(lambert.unit(vectors(lit.d))[0], self.between(lit.E.T).T.copy(), thrown, unseen)
 
     def estimate(self, found: Estimate) -> Estimate:
-        """What the shading of each pixel's block says."""
+        """The estimate of each pixel's block from its shading."""
         return found.at(self.of_pixel)
 
     def own(self, own: Own) -> Own:
-        """What each pixel's block says of its own distance."""
+        """Each pixel's own distance, that of its block."""
         return Own(own.curvature[self.of_pixel], own.optimum[self.of_pixel])
 
 
