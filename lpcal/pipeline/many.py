@@ -47,6 +47,8 @@ class Job:
     wishes: Wishes
     anew: bool = False
     """Whether it is done again although it stands and is up to date."""
+    pictured: bool = False
+    """Whether a small picture of the surface is wanted, for the table of many."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,8 @@ class Done:
     """That of summary.json; empty where there is no surface."""
     error: LpcalError | None = None
     exit_code: int = 0
+    picture: bytes | None = None
+    """The shaded surface, a small PNG."""
 
 
 def do(job: Job, progress: Progress = silent) -> Done:
@@ -65,9 +69,10 @@ def do(job: Job, progress: Progress = silent) -> Done:
     try:
         stands = None if job.anew else standing(job.task, job.calibration_path, job.wishes)
         if stands is not None:
-            return Done("up to date", stands)
+            return Done("up to date", stands, picture=_picture(job))
         calibration = _calibration(job.calibration_path, job.calibration_path.stat().st_mtime_ns)
-        return Done("done", reconstruct_one(job.task, calibration, job.calibration_path, job.wishes, progress))
+        document = reconstruct_one(job.task, calibration, job.calibration_path, job.wishes, progress)
+        return Done("done", document, picture=_picture(job))
     except LpcalError as error:
         return Done("failed", error=error, exit_code=error.exit_code)
     except MemoryError:
@@ -123,7 +128,7 @@ def reconstruct_all(
     read_calibration(calibration_path).with_lights()  # once here: what is wrong with it is wrong with every capture
     if engine is not None and len(tasks) > 1:
         wishes = replace(wishes, jobs=1)  # a core a capture
-    jobs = [Job(task, calibration_path, of_rig(wishes, workspace, task, calibration_path), anew) for task in tasks]
+    jobs = [Job(task, calibration_path, of_rig(wishes, workspace, task, calibration_path), anew, root is not None) for task in tasks]
     done = _here(jobs, progress) if engine is None or len(jobs) == 1 else _there(jobs, engine, progress)
     if len(done) == 1 and done[0].error is not None:
         raise done[0].error
@@ -135,7 +140,7 @@ def reconstruct_all(
     if root is not None:
         summary.append(_counted(done))
         try:
-            page = write_collection(root, [(task, one.state, one.document, one.error) for task, one in zip(tasks, done, strict=True)])
+            page = write_collection(root, [*zip(tasks, done, strict=True)])
             summary.append(f"written {page}")
         except LpcalError as error:  # a full disk has room for no table either; what became of each capture is said all the same
             remarks.append(str(error))
@@ -221,7 +226,7 @@ PAGE = marked("a page of surfaces", COLLECTION_MARK)
 COLLECTION = Table()
 
 
-def write_collection(root: Path, found: Sequence[tuple[Task, str, dict[str, Any], LpcalError | None]]) -> Path:
+def write_collection(root: Path, found: Sequence[tuple[Task, Done]]) -> Path:
     """Write the table of what became of each capture; the page's path.
 
     Raises
@@ -239,16 +244,16 @@ def write_collection(root: Path, found: Sequence[tuple[Task, str, dict[str, Any]
     return root / COLLECTION.page
 
 
-def row_of(root: Path, task: Task, state: str, document: dict[str, Any], error: LpcalError | None) -> Row:
+def row_of(root: Path, task: Task, done: Done) -> Row:
     """One capture's line: its figures, and how much is to be doubted, 1 for one that has no surface."""
+    document, error = done.document, done.error
     figures, pieces = document.get("counts_and_residuals", {}), document.get("components", [])
     metric = document.get("units") == "metres"
     largest = max(pieces, key=lambda piece: piece["pixels"], default=None)
     odds = max((one["odds"] for one in (largest or {}).get("alternatives", [])), default=None)
-    picture = _picture(task.target) if document else None
     return Row(
         name=task.name,
-        state=state,
+        state=done.state,
         doubt=round(1.0 if not document else max(float(document.get("mask_doubt") or 0), float(odds or 0)), 3),
         pixels=figures.get("pixels"),
         pieces=len(pieces) if document else None,
@@ -263,7 +268,7 @@ def row_of(root: Path, task: Task, state: str, document: dict[str, Any], error: 
         folder=_seen_from(root, task.target),
         notes=" | ".join(document.get("notes", [])),
         error="" if error is None else " ".join(str(error).split()),
-        picture=data_uri(picture) if picture else None,
+        picture=data_uri(done.picture) if done.picture else None,
     )
 
 
@@ -275,11 +280,14 @@ def _written(cell: Any) -> str:
     return "" if cell is None else f"{cell:.6g}" if isinstance(cell, float) else str(cell)
 
 
-def _picture(folder: Path) -> bytes | None:
-    """The shaded surface, small; None where its pictures are not there."""
+def _picture(job: Job) -> bytes | None:
+    """The shaded surface, small; None where it is not wanted, or its pictures are not there."""
+    folder = job.task.target
+    if not job.pictured:
+        return None
     try:
         inside = read_image(folder / "mask.png").pixels > 0
         normals_gl = read_image(folder / "normals_gl.png").pixels
-    except (InputError, OSError):
+    except (InputError, OSError, MemoryError):
         return None
     return png(shrink(shaded((2 * normals_gl - 1) * np.array([1, -1, -1], np.float32)), inside, THUMBNAIL))

@@ -27,7 +27,7 @@ from lpcal.api import engines
 from lpcal.api.engines import Lost, Processes, each, engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
 from lpcal.pipeline import many
-from lpcal.pipeline.reconstruct import Task
+from lpcal.pipeline.reconstruct import Task, Wishes
 from many_captures import collection, dome, draw, same_bytes
 
 
@@ -242,6 +242,22 @@ def sturdy(item: Item) -> int:
         os.kill(os.getpid(), signal.SIGKILL)
     time.sleep(item.wait_s)
     return item.number * item.number
+
+
+def test_pictures_of_the_table_are_made_by_the_workers(captures: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The process that writes the table reads no surface again: at ten thousand captures it alone would take an hour for that."""
+    tasks = [Task(one, tmp_path / "out" / one.name, one.name) for one in captures]
+    jobs = [
+        many.Job(task, tmp_path / "dome.yaml", Wishes(), pictured=pictured)
+        for task, pictured in zip(tasks, (True, False, True), strict=True)
+    ]
+    done = [many.do(job) for job in jobs]
+    assert [one.picture is not None for one in done] == [True, False, True]
+    again = many.do(jobs[0])
+    assert (again.state, again.picture) == ("up to date", done[0].picture)
+    monkeypatch.setattr(many, "read_image", None)
+    page = many.write_collection(tmp_path / "out", [*zip(tasks, done, strict=True)]).read_text()
+    assert page.count("data:image/png") == 2
 
 
 @pytest.mark.parametrize("deaths", [1, 2])
