@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 import json
 import os
+import shutil
 import sys
+import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, TextIO
 
 from lpcal.records.outcome import Outcome, Progress, silent
 
@@ -20,7 +22,7 @@ def show(outcome: Outcome, *, as_json: bool) -> None:
 
         print(json.dumps(plain(outcome.document | {"warnings": outcome.warnings}), indent=1, allow_nan=False))  # noqa: T201
     else:
-        print("\n".join(outcome.summary))  # noqa: T201
+        print(fitted("\n".join(outcome.summary), sys.stdout))  # noqa: T201
         if outcome.next_command:
             print(f"next: {outcome.next_command}")  # noqa: T201
     for warning in outcome.warnings:
@@ -30,7 +32,26 @@ def show(outcome: Outcome, *, as_json: bool) -> None:
 def complain(text: str) -> None:
     """One message on stderr, where that is still there."""
     with suppress(OSError):
-        print(text, file=sys.stderr, flush=True)  # noqa: T201
+        print(fitted(text, sys.stderr), file=sys.stderr, flush=True)  # noqa: T201
+
+
+def fitted(text: str, stream: TextIO) -> str:
+    """Lines broken between words at a terminal's width, elsewhere as they are.
+
+    A line that says what to do may hold a command, which stays in one piece to be copied.
+    """
+    if not stream.isatty():
+        return text
+    width = shutil.get_terminal_size().columns
+    lines = []
+    for line in text.split("\n"):
+        if len(line) <= width or line.startswith("  do:"):
+            lines.append(line)
+            continue
+        indent = line[: len(line) - len(line.lstrip())]
+        wrapper = textwrap.TextWrapper(width, indent, f"{indent}  ", break_long_words=False, break_on_hyphens=False)
+        lines += wrapper.wrap(line.strip())
+    return "\n".join(lines)
 
 
 def open_streams() -> None:
