@@ -19,9 +19,18 @@ from lpcal.formats import full_size
 from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import Numbers, read_image, read_numbers
-from lpcal.formats.import_lights import RESERVED, natural_stem
 from lpcal.formats.marks import named_by_capture
-from lpcal.formats.named_files import RAWS, did_you_mean, exists, hidden, image_endings, kind_of_other, resolve_named
+from lpcal.formats.named_files import (
+    RAWS,
+    RESERVED,
+    did_you_mean,
+    exists,
+    hidden,
+    image_endings,
+    kind_of_other,
+    natural_stem,
+    resolve_named,
+)
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import stated_place
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr

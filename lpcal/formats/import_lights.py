@@ -13,7 +13,7 @@ from pathlib import Path
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import import_diligent, import_directions, import_luces, import_near_ps
 from lpcal.formats.light_tables import sane_lights
-from lpcal.formats.named_files import did_you_mean, exists, image_endings
+from lpcal.formats.named_files import RESERVED, did_you_mean, exists, image_endings, natural_stem
 from lpcal.formats.reading import reading
 from lpcal.records.calibration import Calibration
 
@@ -24,8 +24,6 @@ FORMATS = {
 }
 VECTORS = {"RTI light file (.lp)": import_directions.LP, "light directions in a text": import_directions.TABLE}
 """Files of vectors alone, which may be directions or positions."""
-RESERVED = {"mask", "ambient", "short", "dark", "gt"}
-"""Words of a name, apart by _ - or blanks, that say that an image is no light's: `photometric_sample_mask_raw`, `Normal_gt`."""
 
 
 def read_lights(path: Path) -> tuple[str, Calibration]:
@@ -71,11 +69,6 @@ def import_lights(path: Path, vectors: str | None = None) -> Imported:
                 calibration, notes = read_vectors(path, vectors)
                 return Imported(name, sane_lights(calibration, str(path)), tuple(notes))
     raise InputError("of no format that lpcal imports", where=str(path), needed=f"one of: {', '.join([*FORMATS, *VECTORS])}")
-
-
-def natural_stem(stem: str) -> list[tuple[bool, int, str]]:
-    """A key that sorts IMG_9 before IMG_10."""
-    return [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)]
 
 
 def named_after(calibration: Calibration, folder: Path) -> Calibration:

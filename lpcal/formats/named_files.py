@@ -5,6 +5,7 @@ A name that is there as it is written is taken so, before anything else is made 
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -35,6 +36,8 @@ RAWS = (
 )
 PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".webp")
 """What names of images end in that are read."""
+RESERVED = {"mask", "ambient", "short", "dark", "gt"}
+"""Words of a name, apart by _ - or blanks, that say that an image is no light's: `photometric_sample_mask_raw`, `Normal_gt`."""
 OTHERS = (".heic", ".heif", ".gif", ".psd", ".exr", ".hdr", ".svg", ".pdf")
 
 
@@ -47,6 +50,11 @@ def raw_is_read() -> bool:
 def image_endings() -> tuple[str, ...]:
     """What names of images end in that are read here."""
     return PICTURES + (RAWS if raw_is_read() else ())
+
+
+def natural_stem(stem: str) -> list[tuple[bool, int, str]]:
+    """A key that sorts IMG_9 before IMG_10."""
+    return [(part.isdigit(), int(part) if part.isdigit() else 0, part) for part in re.split(r"(\d+)", stem)]
 
 
 def exists(path: Path) -> bool:

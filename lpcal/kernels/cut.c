@@ -16,9 +16,10 @@ static inline double held(double x, double most) {
 }
 
 /* u (rows, columns) of two labels after so many steps, from where the evidence points to. `across` (rows, columns - 1) and `down`
-   (rows - 1, columns) are costs of the outline; `work` holds three images. */
-KERNEL void lpcal_two_labels(int64_t rows, int64_t columns, const float *evidence, const float *across, const float *down, int64_t steps,
-                             double length, float *work, float *u) {
+   (rows - 1, columns) are costs of the outline; `work` holds three images. Only pixels in stretches (stretches, 3) of a row from a first to
+   before a last column change: beyond them the evidence stands. */
+KERNEL void lpcal_two_labels(int64_t rows, int64_t columns, const float *evidence, const float *across, const float *down,
+                             int64_t stretches, const int64_t *stretch, int64_t steps, double length, float *work, float *u) {
     int64_t n = rows * columns, wide = columns - 1;
     float *ahead = work, *right = work + n, *below = work + 2 * n, step = (float)length;
     for (int64_t i = 0; i < n; i++) {
@@ -26,17 +27,19 @@ KERNEL void lpcal_two_labels(int64_t rows, int64_t columns, const float *evidenc
         right[i] = below[i] = 0.0f;
     }
     for (int64_t k = 0; k < steps; k++) {
-        for (int64_t y = 0; y < rows; y++) {
+        for (int64_t s = 0; s < stretches; s++) {
+            int64_t y = stretch[3 * s], begin = stretch[3 * s + 1], end = stretch[3 * s + 2], inner = end < wide ? end : wide;
             const float *from = ahead + y * columns, *most = across + y * wide, *under = from + columns, *deep = down + y * columns;
             float *flow = right + y * columns, *fall = below + y * columns;
-            for (int64_t x = 0; x < wide; x++) flow[x] = clipped(flow[x] + step * (from[x + 1] - from[x]), -most[x], most[x]);
+            for (int64_t x = begin; x < inner; x++) flow[x] = clipped(flow[x] + step * (from[x + 1] - from[x]), -most[x], most[x]);
             if (y + 1 < rows)
-                for (int64_t x = 0; x < columns; x++) fall[x] = clipped(fall[x] + step * (under[x] - from[x]), -deep[x], deep[x]);
+                for (int64_t x = begin; x < end; x++) fall[x] = clipped(fall[x] + step * (under[x] - from[x]), -deep[x], deep[x]);
         }
-        for (int64_t y = 0; y < rows; y++) {
+        for (int64_t s = 0; s < stretches; s++) {
+            int64_t y = stretch[3 * s], begin = stretch[3 * s + 1], end = stretch[3 * s + 2];
             const float *flow = right + y * columns, *fall = below + y * columns, *said = evidence + y * columns;
             float *now = u + y * columns, *next = ahead + y * columns;
-            for (int64_t x = 0; x < columns; x++) {
+            for (int64_t x = begin; x < end; x++) {
                 float pull = said[x];
                 if (x < wide) pull += flow[x];
                 if (x) pull -= flow[x - 1];

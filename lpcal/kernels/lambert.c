@@ -1,4 +1,4 @@
-/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), surface/normals.py (_best_three), surface/coarse.py
+/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), surface/normals.py (_few), surface/coarse.py
    (LightTable.at). Light vectors B are (L, P, 3), signals and weights (L, P). */
 
 #include "kernel.h"
@@ -97,38 +97,79 @@ KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *sign
     }
 }
 
-/* b (P, 3) of the three usable lights whose proposal the others contradict least, a light by no more than `most`; NaN where none are. */
-KERNEL void lpcal_best_three(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
-                             double most, double singular, double *best) {
-    double light[8][3], crossed[8][8][3], size[8], s[8], weight[8];
-    for (int64_t p = 0; p < P; p++) {
-        double least = INFINITY;
-        for (int i = 0; i < 3; i++) best[3 * p + i] = NAN;
-        for (int k = 0; k < L; k++) {
-            memcpy(light[k], B + 3 * (k * P + p), sizeof light[k]);
-            size[k] = dot3(light[k], light[k]);
-            s[k] = signal[k * P + p];
-            weight[k] = usable[k * P + p] ? 1.0 / variance[k * P + p] : 0.0;
-            for (int i = 0; i < k; i++) cross3(light[i], light[k], crossed[i][k]);
-        }
-        for (int i = 0; i < L; i++)
-            for (int j = i + 1; j < L; j++)
-                for (int k = j + 1; k < L; k++) {
-                    if (!(usable[i * P + p] && usable[j * P + p] && usable[k * P + p])) continue;
-                    double determinant = dot3(light[k], crossed[i][j]), b[3], cost = 0.0;
-                    if (!(fabs(determinant) > singular * sqrt(size[i] * size[j] * size[k]))) continue;
-                    double factor = 1 / determinant;
-                    for (int a = 0; a < 3; a++)
-                        b[a] = s[i] * factor * crossed[j][k][a] - s[j] * factor * crossed[i][k][a] + s[k] * factor * crossed[i][j][a];
-                    for (int l = 0; l < L; l++) {
-                        double apart = s[l] - fmax(dot3(light[l], b), 0.0), square = weight[l] * (apart * apart);
-                        cost += square > most ? most : square;
-                    }
-                    if (cost < least) {
-                        least = cost;
-                        memcpy(best + 3 * p, b, sizeof b);
-                    }
+/* What a pixel's few lights show it, gathered: light vectors, signals, weights 1 / variance (0 where a sample does not count). */
+typedef struct {
+    double light[8][3], signal[8], weight[8];
+} Few;
+
+static inline double square_residual(const Few *of, int64_t k, const double b[3]) {
+    double predicted = dot3(of->light[k], b), apart = of->signal[k] - (predicted < 0.0 ? 0.0 : predicted); /* NaN stays NaN */
+    return of->weight[k] * (apart * apart);
+}
+
+/* b (3) of the three lights that count whose proposal the others contradict least, a light by no more than `most`; NaN where none are. */
+static void best_three(int64_t L, const Few *of, double most, double singular, double best[3]) {
+    double crossed[8][8][3], size[8], least = INFINITY;
+    for (int i = 0; i < 3; i++) best[i] = NAN;
+    for (int k = 0; k < L; k++) {
+        size[k] = dot3(of->light[k], of->light[k]);
+        for (int i = 0; i < k; i++) cross3(of->light[i], of->light[k], crossed[i][k]);
+    }
+    for (int i = 0; i < L; i++)
+        for (int j = i + 1; j < L; j++)
+            for (int k = j + 1; k < L; k++) {
+                if (!(of->weight[i] > 0.0 && of->weight[j] > 0.0 && of->weight[k] > 0.0)) continue;
+                double determinant = dot3(of->light[k], crossed[i][j]), b[3], cost = 0.0;
+                if (!(fabs(determinant) > singular * sqrt(size[i] * size[j] * size[k]))) continue;
+                double factor = 1 / determinant;
+                for (int a = 0; a < 3; a++)
+                    b[a] = of->signal[i] * factor * crossed[j][k][a] - of->signal[j] * factor * crossed[i][k][a] +
+                           of->signal[k] * factor * crossed[i][j][a];
+                for (int64_t l = 0; l < L; l++) {
+                    double square = square_residual(of, l, b);
+                    cost += square > most ? most : square;
                 }
+                if (cost < least) {
+                    least = cost;
+                    memcpy(best, b, sizeof b);
+                }
+            }
+}
+
+/* Estimates of few lights: b (P, 3), NaN where there is none, the samples (L, P) that agree, the inverse (P, 3, 3) of the normal matrix, the
+   squares of the samples that agree (P), and of all that count, each `most` at most (P). Twin: surface/normals.py (_few). */
+KERNEL void lpcal_few(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
+                      const double *rays, double most, int64_t rounds, int64_t needed, double facing, double singular, double *b,
+                      bool *agree, double *inverse, double *chi2, double *cost) {
+    for (int64_t p = 0; p < P; p++) {
+        Few of;
+        double *now = b + 3 * p;
+        for (int64_t k = 0; k < L; k++) {
+            int64_t at = k * P + p;
+            memcpy(of.light[k], B + 3 * at, sizeof of.light[k]);
+            of.signal[k] = signal[at];
+            of.weight[k] = usable[at] ? 1.0 / variance[at] : 0.0;
+        }
+        best_three(L, &of, most, singular, now);
+        for (int64_t round = 0; round < rounds; round++) {
+            Equations found = {{{0.0}}, {0.0}};
+            for (int64_t k = 0; k < L; k++)
+                add(&found, of.light[k], of.signal[k], square_residual(&of, k, now) < most ? of.weight[k] : 0.0);
+            solve(&found, singular, now, inverse + 9 * p);
+        }
+        int64_t count = 0;
+        chi2[p] = cost[p] = 0.0;
+        for (int64_t k = 0; k < L; k++) {
+            double square = square_residual(&of, k, now);
+            bool counts = of.weight[k] > 0.0, close = counts && square < most;
+            agree[k * P + p] = close;
+            count += close;
+            chi2[p] += close ? square : 0.0;
+            cost[p] += close ? square : counts ? most : 0.0;
+        }
+        const double *ray = rays + 3 * p;
+        if (count < needed || !(dot3(now, ray) < facing * sqrt(dot3(now, now)) * sqrt(dot3(ray, ray))))
+            for (int i = 0; i < 3; i++) now[i] = NAN;
     }
 }
 
@@ -150,5 +191,34 @@ KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const fl
                     (at[i] * weight[0] + at[3 * L + i] * weight[1]) + (at[6 * L + i] * weight[2] + at[9 * L + i] * weight[3]);
             doubt[l * Q + q] = doubts[(pixel[q] * nodes + nearest) * L + l];
         }
+    }
+}
+
+static inline void cubic_weights(double f, double weight[4]) {
+    weight[0] = -f * (f - 1) * (f - 2) / 6;
+    weight[1] = (f + 1) * (f - 1) * (f - 2) / 2;
+    weight[2] = -(f + 1) * f * (f - 2) / 2;
+    weight[3] = (f + 1) * f * (f - 1) / 6;
+}
+
+static inline int64_t node_before(double t, int64_t nodes) {
+    int64_t node = (int64_t)t;
+    return node < 1 ? 1 : node > nodes - 3 ? nodes - 3 : node;
+}
+
+/* Values (L, P) of a lattice (nodes, nodes, L) at places (P, 2) in steps, cubic along each side. Twin: surface/planes.py (between). */
+KERNEL void lpcal_lattice(int64_t L, int64_t nodes, int64_t P, const double *lattice, const double *place, double *found) {
+    for (int64_t p = 0; p < P; p++) {
+        int64_t x = node_before(place[2 * p], nodes), y = node_before(place[2 * p + 1], nodes);
+        double across[4], down[4];
+        cubic_weights(place[2 * p] - (double)x, across);
+        cubic_weights(place[2 * p + 1] - (double)y, down);
+        for (int64_t k = 0; k < L; k++) found[k * P + p] = 0.0;
+        for (int64_t i = 0; i < 4; i++)
+            for (int64_t j = 0; j < 4; j++) {
+                const double *at = lattice + ((x + i - 1) * nodes + y + j - 1) * L;
+                double by = across[i] * down[j];
+                for (int64_t k = 0; k < L; k++) found[k * P + p] += by * at[k];
+            }
     }
 }

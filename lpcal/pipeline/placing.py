@@ -8,10 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from lpcal.api.placement import place
-from lpcal.chain.h_op_body import body_of
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.documents import plain, sha256
-from lpcal.formats.mocap import read_mocap
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.digits import fine
@@ -126,5 +124,8 @@ def _stream(
     places: tuple[tuple[str, tuple[float, float, float]], ...],
 ) -> PoseStream:
     """A body's poses, read once for all captures of a recording."""
+    from lpcal.chain.h_op_body import body_of
+    from lpcal.formats.mocap import read_mocap
+
     found = read_mocap(path, body, quaternion=stated[0], units=stated[1], direction=stated[2])
     return found if isinstance(found, PoseStream) else body_of(found, dict(places) or None)

@@ -184,23 +184,32 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence 
     light, pixel = light[some], pixel[some]
     signal, top = seen.signal[light, pixel], np.maximum(seen.signal[:, pixel].max(axis=0), 1e-12)
     noise2 = seen.sigma[light, pixel] ** 2 + (DARK * top) ** 2
-    by_seen, by_sides, by_beyond = by.on(b, light, pixel)
-
-    def cost(one: float, sides: float, beyond: float) -> float:
-        thrown = one / middle * (by_seen + sides * by_sides + beyond * by_beyond)
-        variance = noise2 + (DOUBT * thrown) ** 2
-        density = np.exp(-((signal - thrown) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
-        fit = np.log((1 - ELSE) * density + ELSE / top)
-        return float(-2 * worth / max(len(pixel), 1) * fit.sum() + ((one - COMMON) / COMMON_SIGMA) ** 2)
-
     possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing throws on more than it gets
     trials = np.array(list(product(possible, SHARES, SHARES)))
-    costs = np.array([cost(*trial) for trial in trials])
+    strengths = trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]])
+    fits = _fits(strengths, np.stack(by.on(b, light, pixel)), signal, noise2, top)
+    costs = -2 * worth / max(len(pixel), 1) * fits + ((trials[:, 0] - COMMON) / COMMON_SIGMA) ** 2
     if lit is not None:
-        costs += lit.cost(trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]]))
+        costs += lit.cost(strengths)
     odds = np.exp(-(costs - costs.min()) / 2)
     one, sides, beyond = np.average(trials * np.stack([np.ones(len(trials)), trials[:, 0], trials[:, 0]], axis=1), axis=0, weights=odds)
     return Reflectance(float(one), float(one / middle), float(sides / max(one, 1e-9)), float(beyond / max(one, 1e-9)))
+
+
+def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Array) -> Array:
+    """Log likelihoods (T,) of signals (N,) in shadow, where strengths (T, 3) of the parts (3, N) are thrown there."""
+    if run := kernel("thrown_fits"):
+        found = np.empty(len(strengths))
+        given = (np.ascontiguousarray(one, float) for one in (strengths, parts, signal, noise2, top))
+        run(len(strengths), len(signal), *given, DOUBT, ELSE, found)
+        return found
+    fits = []
+    for one in strengths:
+        thrown = one @ parts
+        variance = noise2 + (DOUBT * thrown) ** 2
+        density = np.exp(-((signal - thrown) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
+        fits.append(np.log((1 - ELSE) * density + ELSE / top).sum())
+    return np.array(fits)
 
 
 def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:

@@ -68,27 +68,29 @@ def factor_of(maps: Grey, most: int) -> int:
 def joined(picture: Image, factor: int) -> Image:
     """A picture (H, W) with blocks of factor x factor pixels joined."""
     rows, columns = (side // factor for side in picture.shape)
-    blocks = picture[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor)
-    return np.asarray(blocks.mean(axis=(1, 3), dtype=float))
+    blocks = picture[: rows * factor, : columns * factor].reshape(rows, factor, columns * factor)
+    return np.asarray(blocks.sum(axis=1, dtype=float).reshape(rows, columns, factor).sum(axis=2) / factor**2)
 
 
 def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
     """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
     rows, columns = (side // factor for side in maps.signal.shape[1:])
 
-    def blocks[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
-        return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns, factor)
+    def cut[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Rows of a block, and whole rows of pixels (..., rows, factor, columns x factor)."""
+        return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns * factor)
 
     def means(values: npt.NDArray[np.floating]) -> Array:
         if factor == 1:
             return values.astype(float)
-        return np.asarray(blocks(values).mean(axis=(-3, -1), dtype=float))
+        by_row = cut(values).sum(axis=-2, dtype=float).reshape(*values.shape[:-2], rows, columns, factor)
+        return np.asarray(sum(by_row[..., k] for k in range(factor)) / factor**2)
 
     signal = means(maps.signal)
     return Coarse(
         signal.reshape(len(signal), -1),
         (np.sqrt(means(maps.sigma.astype(np.float32) ** 2)) / factor).reshape(len(signal), -1),
-        blocks(maps.usable).all(axis=(-3, -1)).reshape(len(signal), -1),
+        cut(maps.usable).all(axis=-2).reshape(len(signal), rows, columns, factor).all(axis=-1).reshape(len(signal), -1),
         np.moveaxis(means(np.moveaxis(rays_C, -1, 0)), 0, -1).reshape(-1, 3),
         (rows, columns),
         factor,
@@ -148,15 +150,32 @@ class LightTable:
             places = (np.ascontiguousarray(u, float), np.ascontiguousarray(pixels, np.int64))
             run(L, nodes, P, Q, self.B, self.doubt, self.first, self.step, *places, B, doubt)
             return B, doubt
+        t, f, first = self._between(u)
+        weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
+        z = np.exp(self.first + t * self.step)
+        total = self._joined(pixels, first, weights) / z[:, None, None] ** 2
+        return np.moveaxis(total, 0, 1), self.doubt[pixels, np.rint(t).astype(int)].T
+
+    def slope(self, u: Array, pixels: Indices) -> Array:
+        """Derivatives (L, Q, 3) of the light vectors by log depth at log depths u (Q,) of pixels (Q,)."""
+        t, f, first = self._between(u)
+        weights = (-(3 * f * f - 6 * f + 2) / 6, (3 * f * f - 4 * f - 1) / 2, -(3 * f * f - 2 * f - 2) / 2, (3 * f * f - 1) / 6)
+        z = np.exp(self.first + t * self.step)
+        total = self._joined(pixels, first, weights) / (self.step * z[:, None, None] ** 2)
+        return np.moveaxis(total, 0, 1) - 2 * self.at(u, pixels)[0]
+
+    def _between(self, u: Array) -> tuple[Array, Array, Indices]:
+        """Places (Q,) of log depths in steps of the table, how far they lie beyond their second node, and the first node that they ask."""
         t = np.clip((u - self.first) / self.step, 0, self.B.shape[1] - 1.001)
         k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
-        f = t - k
-        weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
-        total = np.zeros((len(u), *self.B.shape[2:]))
+        return t, t - k, k - 1
+
+    def _joined(self, pixels: Indices, first: Indices, weights: Sequence[Array]) -> Array:
+        """Sums (Q, L, 3) of the nodes from the first on (Q,), by weights (Q,)."""
+        total = np.zeros((len(pixels), *self.B.shape[2:]))
         for j, weight in enumerate(weights):
-            total += self.B[pixels, k + j - 1] * weight[:, None, None]
-        z = np.exp(self.first + t * self.step)
-        return np.moveaxis(total / z[:, None, None] ** 2, 0, 1), self.doubt[pixels, np.rint(t).astype(int)].T
+            total += self.B[pixels, first + j] * weight[:, None, None]
+        return total
 
     def at_pixels(self, some: Indices) -> LightTable:
         """The table on some of the pixels."""

@@ -39,16 +39,29 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
     (top, bottom), (left, right) = ((max(at.min() - MARGIN, 0), at.max() + MARGIN + 1) for at in np.nonzero(unsettled))
     box = (slice(top, bottom), slice(left, right))
     rows, columns = evidence[box].shape
-    found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1]) > 0.5
+    found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1], _about(unsettled[box])) > 0.5
     return np.asarray(found)
 
 
-def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Image) -> Image:
-    """The relaxed cut (H, W), 0..1, by costs of an outline between neighbours across (H, W - 1) and down (H - 1, W)."""
+def _about(unsettled: Mask) -> Mask:
+    """What is open (H, W), with MARGIN about it."""
+    from scipy import ndimage
+
+    return np.asarray(ndimage.maximum_filter(unsettled, 2 * MARGIN + 1, mode="constant"))
+
+
+def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Image, free: Mask) -> Image:
+    """The relaxed cut (H, W), 0..1, by costs of an outline between neighbours across (H, W - 1) and down (H - 1, W).
+
+    Pixels that are not `free` (H, W) are so sure that they need not be asked: they stay as their evidence says.
+    """
     if run := kernel("two_labels"):
         given = [np.ascontiguousarray(one, np.float32) for one in (evidence, across_most, down_most)]
+        ends = np.diff(np.pad(free, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+        (row, first), (_, last) = np.nonzero(ends > 0), np.nonzero(ends < 0)
+        stretches = np.stack([row, first, last], axis=1).astype(np.int64)
         u, work = np.empty(evidence.shape, np.float32), np.empty((3, *evidence.shape), np.float32)
-        run(*evidence.shape, *given, STEPS, float(np.float32(1 / np.sqrt(8))), work, u)
+        run(*evidence.shape, *given, len(stretches), stretches, STEPS, float(np.float32(1 / np.sqrt(8))), work, u)
         return u
     u = (evidence > 0).astype(np.float32)
     ahead, across, down = u.copy(), np.zeros_like(across_most), np.zeros_like(down_most)

@@ -17,7 +17,8 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Labels, Mask
-from lpcal.surface import bands
+from lpcal.kernels.library import kernel
+from lpcal.surface import bands, normals
 from lpcal.surface.integrate import Own
 from lpcal.surface.normals import Estimate, thrown_share, variances
 from lpcal.surface.sight import Lit, Sight, vectors
@@ -60,6 +61,14 @@ def own_distance(light: Lit | Array, B_at: Callable[[Array, slice], Array], dept
 
 def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> Own:
     """The same by light vectors B (L, P, 3) and their slope by u."""
+    if run := kernel("own_distance"):
+        constants = np.array([normals.MODEL, GLOSS_DOUBT, WEAK, FURTHEST, SCORE, lambert.SINGULAR])
+        gloss = np.zeros(0) if found.gloss is None else found.gloss
+        curvature, optimum = np.empty(seen.pixels), np.empty(seen.pixels)
+        light, at, sigma, off, b, z = (np.ascontiguousarray(one, float) for one in (B, slope, seen.sigma, gloss, found.b, depth))
+        signal, agree = np.ascontiguousarray(seen.signal, float), np.ascontiguousarray(found.inliers)
+        run(*signal.shape, light, at, signal, sigma, off.size > 0, off, agree, b, z, constants, curvature, optimum)
+        return Own(curvature, optimum)
     variance = variances(seen)
     signal = seen.signal
     if found.gloss is not None:

@@ -9,12 +9,18 @@ Sources: Hough 1962; Isack and Boykov 2012, Int. J. Computer Vision 97 (hypothes
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
+from lpcal.geometry import cauchy_fit, lambert
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.surface import room_samples, samples
+from lpcal.geometry.cauchy_fit import Equations
+from lpcal.kernels.library import kernel
+from lpcal.surface import bands, room_samples, samples
 from lpcal.surface.coarse import Coarse, LightTable
+from lpcal.surface.room_samples import RoomPrior
 from lpcal.surface.sight import Indices
 
 SWEEP = (0.3, 5.0)
@@ -45,6 +51,8 @@ FIT_PIXELS = 600
 """Pixels that a plane is fitted to, spread over its own: more do not improve three numbers."""
 ACCEPTED = 3.0
 """Cost a light under which a pixel takes part in the fit of a plane."""
+FIT_STEPS = 8
+"""Times that a fit asks for its equations at most: the pixels that take part are chosen anew after it."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +66,12 @@ class Sweep:
     cost: Array
     """(D, P)."""
 
-    @property
+    @cached_property
     def least(self) -> Array:
         """Cost (P,) at each pixel's best depth."""
         return np.asarray(self.cost.min(axis=0))
 
-    @property
+    @cached_property
     def normals(self) -> Array:
         """Normal (P, 3) at each pixel's best depth."""
         b = self.b[np.argmin(self.cost, axis=0), np.arange(self.b.shape[1])]
@@ -76,9 +84,12 @@ def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -
     u = table.nodes[(table.nodes >= low) & (table.nodes <= high)][::every]
     everywhere = np.arange(len(image.rays_C))
     b, cost = np.empty((len(u), len(everywhere), 3)), np.empty((len(u), len(everywhere)))
-    for k, one in enumerate(u):
-        B, doubt = table.at(np.full(len(everywhere), one), everywhere)
+
+    def ask(k: int) -> None:
+        B, doubt = table.at(np.full(len(everywhere), u[k]), everywhere)
         b[k], cost[k] = _free(image, B, doubt)
+
+    bands.shared(ask, range(len(u)))
     return Sweep(u, b, cost)
 
 
@@ -92,11 +103,26 @@ def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
 
 def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[Array, Array]:
     """Signals (L, Q) of a white plane q along rays (Q, 3) that lie in the table's pixels (Q,), and their doubt; 0 where a ray misses it."""
-    slope = rays_C @ q
-    u = -np.log(np.maximum(slope, 1e-12))
-    hit = (slope > 0) & table.holds(u)
+    if run := kernel("white"):
+        (_, nodes, L, _), Q = table.B.shape, len(rays_C)
+        m, doubt = np.empty((L, Q)), np.empty((L, Q), table.doubt.dtype)
+        run(L, nodes, Q, table.B, table.doubt, table.first, table.step, *_placed(q, rays_C, pixels), m, doubt)
+        return m, doubt
+    u, hit = _met(q, rays_C, table)
     B, doubt = table.at(u, pixels)
     return np.where(hit, np.maximum(B @ (-q / np.linalg.norm(q)), 0.0), 0.0), doubt
+
+
+def _met(q: Array, rays_C: Array, table: LightTable) -> tuple[Array, Mask]:
+    """Log depths (Q,) at which rays (Q, 3) meet a plane q (3,), and where they do within the table."""
+    slope = rays_C @ q
+    u = -np.log(np.maximum(slope, 1e-12))
+    return u, (slope > 0) & table.holds(u)
+
+
+def _placed(q: Array, rays_C: Array, pixels: Indices) -> tuple[npt.NDArray[np.generic], ...]:
+    """A plane and pixels as kernels take them."""
+    return np.ascontiguousarray(q, float), np.ascontiguousarray(rays_C, float), np.ascontiguousarray(pixels, np.int64)
 
 
 def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None = None) -> tuple[Array, Array, Mask]:
@@ -113,7 +139,7 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
     """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
     from scipy import ndimage
 
-    left = lit.copy()
+    left, votes = lit.copy(), _Votes.of(image, swept, distance_m)
     found: list[Array] = []
 
     def explains(q: Array) -> Mask:
@@ -124,7 +150,7 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
         return int(ndimage.binary_opening(image.image(own)).sum())
 
     while len(found) < MOST and left.sum() > SMALLEST * left.size:
-        trials = [fitted(image, table, q, left, rounds=2) for q in _peaks(image, swept, left, distance_m)]
+        trials = [fitted(image, table, q, left, rounds=2) for q in votes.peaks(left)]
         if not trials:
             break
         q = fitted(image, table, max(trials, key=lambda one: size(explains(one))), left, rounds=4)
@@ -163,8 +189,6 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
 
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
     """The plane q (3,) fitted to those pixels `among` (P,) that it explains."""
-    from scipy import optimize
-
     pixels = np.flatnonzero(among)
     pixels = pixels[:: max(1, len(pixels) // FIT_PIXELS)]
     for _ in range(rounds):
@@ -176,43 +200,97 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
         _, doubt = white(q, image.rays_C[own], own, table)
         signal = image.signal[:, own]
         weight = lit[:, good] / np.sqrt(samples.variance(signal, image.sigma[:, own], doubt))
-
-        def residuals(x: Array, own: Indices = own, weight: Array = weight, signal: Array = signal, first: Array = albedo[good]) -> Array:
-            m = white(x, image.rays_C[own], own, table)[0]
-            if image.room is not None:
-                return room_samples.residuals(signal, weight, m, first, image.room)
-            m = weight * m
-            albedo = np.sum(m * weight * signal, axis=0) / np.maximum(np.sum(m**2, axis=0), 1e-12)
-            return np.asarray((weight * signal - albedo * m).ravel())
-
-        q = np.asarray(optimize.least_squares(residuals, q, loss="cauchy", max_nfev=8, x_scale=np.linalg.norm(q)).x)
+        fit = _Fit(image.rays_C[own], own, table, signal, weight, image.room, albedo[good])
+        q = cauchy_fit.fitted(fit.equations, q, float(np.linalg.norm(q)), FIT_STEPS)
     return q
 
 
-def _peaks(image: Coarse, swept: Sweep, left: Mask, distance_m: float) -> list[Array]:
-    """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
-    from scipy import ndimage
+@dataclass(frozen=True)
+class _Fit:
+    """Pixels that a plane is fitted to: Q of L lights."""
 
-    b = swept.b[:, left]
-    n = b / np.maximum(np.linalg.norm(b, axis=2, keepdims=True), 1e-12)
-    towards = -np.einsum("dpi,pi->dp", n, image.rays_C[left])
-    cost = swept.cost[:, left]
-    votes = np.exp(-(cost - cost.min(axis=0)) / max(2, len(image.signal))) * ((towards > STEEPEST) & (n[..., 2] < 0))
-    votes /= np.maximum(votes.sum(axis=0), 1e-9)
-    offset = swept.u[:, None] + np.log(np.maximum(towards, 1e-3)) - np.log(distance_m)
-    column, row = (np.rint((n[..., axis] + 1) / 2 * (SLOPE_BINS - 1)).astype(int) for axis in (0, 1))
-    depth = np.clip(np.rint((offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) * (OFFSET_BINS - 1)), 0, OFFSET_BINS - 1).astype(int)
-    cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
-    where = np.ravel_multi_index((column, row, depth), cells)
-    total = ndimage.gaussian_filter(np.bincount(where.ravel(), votes.ravel(), int(np.prod(cells))).reshape(cells), BLUR)
-    found = []
-    for _ in range(PEAKS):
-        top = np.unravel_index(int(np.argmax(total)), cells)
-        if total[top] <= 0:
-            break
-        x, y = (2 * top[axis] / (SLOPE_BINS - 1) - 1 for axis in (0, 1))
-        n_top = np.array([x, y, -np.sqrt(max(1 - x * x - y * y, 0.01))])
-        distance = distance_m * np.exp(OFFSETS[0] + top[2] / (OFFSET_BINS - 1) * (OFFSETS[1] - OFFSETS[0]))
-        found.append(-n_top / np.linalg.norm(n_top) / distance)
-        total[tuple(slice(max(at - by, 0), at + by + 1) for at, by in zip(top, APART, strict=True))] = 0
-    return found
+    rays_C: Array
+    pixels: Indices
+    table: LightTable
+    signal: Array
+    weight: Array
+    room: RoomPrior | None
+    albedo: Array
+    """(Q,) by the plane of the round before; a room's prior goes by it."""
+
+    def equations(self, q: Array) -> Equations:
+        """The loss of a plane q (3,) and its quadratic model, the albedo of each pixel eliminated."""
+        if self.room is not None:
+            room = self.room
+            return Equations.differenced(lambda x: self.in_room(x, room), q)
+        L, Q = self.signal.shape
+        if L <= samples.MOST_LIGHTS and (run := kernel("plane")):
+            found, table = np.empty(13), self.table
+            given = (np.ascontiguousarray(one, float) for one in (self.signal, self.weight))
+            placed = _placed(q, self.rays_C, self.pixels)
+            run(L, table.B.shape[1], Q, table.B, table.first, table.step, *placed, *given, cauchy_fit.LEAST, found)
+            return Equations(float(found[0]), found[1:4], found[4:].reshape(3, 3))
+        m, turned = self._turned(q)
+        m, turned, y = self.weight * m, self.weight * turned, self.weight * self.signal
+        square = np.maximum(np.sum(m**2, axis=0), 1e-12)
+        albedo = np.sum(m * y, axis=0) / square
+        change = np.sum(turned * np.where(square > 1e-12, y - 2 * albedo * m, y), axis=1) / square
+        return Equations.of((y - albedo * m).ravel(), -(change[:, None] * m + albedo * turned).reshape(3, -1))
+
+    def in_room(self, q: Array, room: RoomPrior) -> Array:
+        """Residuals (M,) where a room's light is in the signals."""
+        m, _ = white(q, self.rays_C, self.pixels, self.table)
+        return room_samples.residuals(self.signal, self.weight, m, self.albedo, room)
+
+    def _turned(self, q: Array) -> tuple[Array, Array]:
+        """Signals (L, Q) of a white plane q (3,), and their derivatives (3, L, Q) by q."""
+        u, hit = _met(q, self.rays_C, self.table)
+        size, B = float(np.linalg.norm(q)), self.table.at(u, self.pixels)[0]
+        n = -q / size
+        shading, deeper = B @ n, self.table.slope(u, self.pixels) @ n
+        turned = -(np.moveaxis(B, 2, 0) - shading * n[:, None, None]) / size - deeper * (self.rays_C.T / (self.rays_C @ q))[:, None]
+        lit = hit & (shading > 0)
+        return np.where(lit, shading, 0.0), np.where(lit, turned, 0.0)
+
+
+@dataclass(frozen=True)
+class _Votes:
+    """What each pixel votes for at each depth of a sweep: D depths, P pixels."""
+
+    cell: Indices
+    """(D, P) number of the cell."""
+    weight: Array
+    """(D, P), of sum 1 a pixel."""
+    distance_m: float
+
+    @staticmethod
+    def of(image: Coarse, swept: Sweep, distance_m: float) -> _Votes:
+        """The votes of all pixels."""
+        n = swept.b / np.maximum(np.linalg.norm(swept.b, axis=2, keepdims=True), 1e-12)
+        towards = -lambert.dot(n, image.rays_C)
+        weight = np.exp(-(swept.cost - swept.least) / max(2, len(image.signal))) * ((towards > STEEPEST) & (n[..., 2] < 0))
+        weight /= np.maximum(weight.sum(axis=0), 1e-9)
+        offset = swept.u[:, None] + np.log(np.maximum(towards, 1e-3)) - np.log(distance_m)
+        column, row = (np.rint((n[..., axis] + 1) / 2 * (SLOPE_BINS - 1)).astype(int) for axis in (0, 1))
+        share = (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0])
+        depth = np.clip(np.rint(share * (OFFSET_BINS - 1)), 0, OFFSET_BINS - 1).astype(int)
+        return _Votes((column * SLOPE_BINS + row) * OFFSET_BINS + depth, weight, distance_m)
+
+    def peaks(self, left: Mask) -> list[Array]:
+        """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
+        from scipy import ndimage
+
+        cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
+        votes = np.bincount(self.cell[:, left].ravel(), self.weight[:, left].ravel(), int(np.prod(cells)))
+        total = ndimage.gaussian_filter(votes.reshape(cells), BLUR)
+        found = []
+        for _ in range(PEAKS):
+            top = np.unravel_index(int(np.argmax(total)), cells)
+            if total[top] <= 0:
+                break
+            x, y = (2 * top[axis] / (SLOPE_BINS - 1) - 1 for axis in (0, 1))
+            n_top = np.array([x, y, -np.sqrt(max(1 - x * x - y * y, 0.01))])
+            distance = self.distance_m * np.exp(OFFSETS[0] + top[2] / (OFFSET_BINS - 1) * (OFFSETS[1] - OFFSETS[0]))
+            found.append(-n_top / np.linalg.norm(n_top) / distance)
+            total[tuple(slice(max(at - by, 0), at + by + 1) for at, by in zip(top, APART, strict=True))] = 0
+        return found

@@ -139,6 +139,13 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The best three, then least squares on the inliers, in rounds."""
+    if run := kernel("few"):
+        (L, P), given = signal.shape, (np.ascontiguousarray(one, float) for one in (B, signal))
+        rest = (np.ascontiguousarray(one, float) for one in (variance, rays_C))
+        fixed = (OUTLIER**2, ROUNDS, LEAST, FACING, lambert.SINGULAR)
+        found = Estimate(np.empty((P, 3)), np.empty((L, P), bool), np.empty((P, 3, 3)), np.empty(P), np.empty(P))
+        run(L, P, *given, np.ascontiguousarray(usable), *rest, *fixed, found.b, found.inliers, found.covariance, found.chi2, found.cost)
+        return found
     b = _best_three(signal, B, usable, variance)
     inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
     for _ in range(ROUNDS):
@@ -195,10 +202,6 @@ def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Arra
 def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
     """b (P, 3) of the three lights whose proposal the other candidates contradict least."""
     best, least = np.full(B.shape[1:], np.nan), np.full(B.shape[1], np.inf)
-    if run := kernel("best_three"):
-        own, others = (np.ascontiguousarray(one, float) for one in (B, signal)), np.ascontiguousarray(variance, float)
-        run(*signal.shape, *own, np.ascontiguousarray(usable), others, OUTLIER**2, lambert.SINGULAR, best)
-        return best
     crossed, weight = lambert.crosses(B), usable / variance
     for three in combinations(range(len(B)), 3):
         b = lambert.three_lights(B, signal, crossed, three)

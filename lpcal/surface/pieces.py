@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
 from lpcal.surface import multigrid
@@ -107,10 +108,14 @@ def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
     """A label (P,) for each set of pixels that are connected over edges that are no breaks."""
+    whole = weight > BREAK_WEIGHT
+    if run := kernel("connected"):
+        label = np.empty(int(mask.sum()), np.int64)
+        run(len(label), len(whole), grid.a, grid.b, whole, label)
+        return label
     from scipy import sparse
     from scipy.sparse.csgraph import connected_components
 
-    whole = weight > BREAK_WEIGHT
     links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(int(mask.sum()), int(mask.sum())))
     return np.asarray(connected_components(links, directed=False)[1], np.int64)
 

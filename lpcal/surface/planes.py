@@ -7,12 +7,13 @@ shadow. Near light alone places the plane: E and d change with x. Robust least s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.surface.sight import Sight, light_vectors
 
@@ -23,12 +24,11 @@ SHADE = 0.5
 WEAK = 0.1
 """A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
 FIT_PIXELS = 700
-SPAN = (0.55, 3.5)
-"""Nearest and furthest planes that are tried, as shares of the working distance."""
-TRIED = 3
-SHADE_PRICE = 3.0
-"""Sigmas that a sample costs which a plane takes for shadow: else one that fits nothing is as good as one that fits all."""
 BEHIND = 1e-3
+"""Reciprocal of a depth, 1/m, under which a ray misses a plane."""
+NODES, MANY_RAYS = 64, 10_000
+"""Nodes along a side of the lattice of rays on which the light of a plane is summed, and rays from which on it is: between the nodes it is
+right to 1e-4 of its most."""
 TRUSTED = 4.0
 """Misfit of a pixel under which the plane is believed there."""
 
@@ -44,11 +44,47 @@ class Plane:
 
 def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
     """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
+    if len(rays_C) > MANY_RAYS:
+        m = interpolated(lambda xy: _at_infinity(q, np.column_stack([xy, np.ones(len(xy))]), lights), rays_C[:, :2], NODES)
+    else:
+        m = _at_infinity(q, rays_C, lights)
     slope = rays_C @ q
-    depth = np.where(slope > BEHIND, 1 / np.maximum(slope, BEHIND), np.nan)
-    d, E = light_vectors(lights, np.nan_to_num(depth, nan=1.0)[:, None] * rays_C)
-    shading = E * np.maximum(d @ (-q / np.linalg.norm(q)), 0.0)
-    return np.where(np.isfinite(depth), shading, np.nan)
+    return np.where(slope > BEHIND, np.maximum(m, 0.0) * slope**2, np.nan)
+
+
+def _at_infinity(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
+    """Signals (L, P) of a white plane times the square of its depth, which stay smooth up to its horizon; negative where it looks away."""
+    depth = 1 / np.maximum(rays_C @ q, BEHIND)
+    d, E = light_vectors(lights, depth[:, None] * rays_C)
+    return E * (d @ (-q / np.linalg.norm(q))) * depth**2
+
+
+def interpolated(values: Callable[[Array], Array], at: Array, nodes: int) -> Array:
+    """Values (L, P) at places (P, 2), by those (L, N) at places (N, 2) on a lattice of nodes x nodes about them.
+
+    Cubic along each side, through the two nodes before a place and the two after it (Lagrange).
+    """
+    low, high = at.min(axis=0), at.max(axis=0)
+    step = np.maximum((high - low) / (nodes - 3), 1e-12)  # a node beyond each end
+    side = [low[axis] + (np.arange(nodes) - 1) * step[axis] for axis in (0, 1)]
+    lattice = np.stack(np.meshgrid(*side, indexing="ij"), axis=-1).reshape(-1, 2)
+    return between(np.moveaxis(values(lattice), 0, -1).reshape(nodes, nodes, -1), (at - low) / step + 1)
+
+
+def between(lattice: Array, place: Array) -> Array:
+    """Values (L, P) of a lattice (N, N, L) at places (P, 2) in steps from its first node."""
+    if run := kernel("lattice"):
+        found = np.empty((lattice.shape[2], len(place)))
+        run(len(found), len(lattice), len(place), *(np.ascontiguousarray(one, float) for one in (lattice, place)), found)
+        return found
+    node = np.clip(place.astype(int), 1, len(lattice) - 3)
+    f = (place - node).T
+    weight = np.stack([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6])
+    total = np.zeros((len(place), lattice.shape[2]))
+    for i in range(4):
+        for j in range(4):
+            total += (weight[i, 0] * weight[j, 1])[:, None] * lattice[node[:, 0] + i - 1, node[:, 1] + j - 1]
+    return total.T
 
 
 def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
@@ -91,33 +127,6 @@ def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]
     """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
-
-
-def fit(seen: Sight, lights: Sequence[Light], distance_m: float) -> Plane | None:
-    """The plane that most of the pixels lie in; None where they are too few."""
-    from scipy import optimize
-
-    if seen.pixels < 30:
-        return None
-    some = thinned(seen)
-    fewer = some.at(np.arange(0, some.pixels, 3))
-
-    def cost(q: Array) -> Array:
-        r, _ = residuals(some, predicted(q, some.rays_C, lights), shaded=False)
-        return np.nan_to_num(r, posinf=1e2).ravel()
-
-    def robust(q: Array) -> float:
-        m = predicted(q, fewer.rays_C, lights)
-        r, _ = residuals(fewer, m, shaded=False)
-        shade = (r == 0) & strong(fewer, m)[0]
-        return float(np.sum(np.log1p(np.where(shade, SHADE_PRICE, np.nan_to_num(r, posinf=1e2)) ** 2)))
-
-    nearest, furthest = SPAN
-    starts = [np.array([0.0, 0.0, 1 / (distance_m * share)]) for share in np.geomspace(nearest, furthest, 14)]
-    best = sorted(starts, key=robust)[:TRIED]
-    q = min((np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=6).x) for q in best), key=robust)
-    q = np.asarray(optimize.least_squares(cost, q, loss="cauchy", max_nfev=25).x)
-    return Plane(q, float(np.sqrt(np.median(misfit(some, predicted(q, some.rays_C, lights), shaded=False)[0]))))
 
 
 def thinned(seen: Sight) -> Sight:

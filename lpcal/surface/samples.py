@@ -12,9 +12,11 @@ Costs are twice negative logarithms of likelihoods: those of independent samples
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 
 MODEL = 0.03
 """Share of a signal that a model of matte matter lacks."""
@@ -34,11 +36,13 @@ ROUNDS = 3
 """Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
 WIDTH2 = 9.0
 """Square of the residual, in sigmas, at which a sample's weight for the normal has fallen to a quarter."""
+MOST_LIGHTS = 32
+"""Lights that the kernels have room for."""
 
 
 def variance(signal: Array, sigma: Array, doubt: Array) -> Array:
     """Variance (L, P) of samples but for indirect light."""
-    return np.asarray(sigma**2 + (MODEL**2 + doubt**2) * signal**2)
+    return np.asarray(sigma**2 + (MODEL**2 + np.asarray(doubt, float) ** 2) * signal**2)
 
 
 def square_residual(signal: Array, predicted: Array, spread2: Array) -> Array:
@@ -58,6 +62,10 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
 
     A sample in shadow costs the same whether the surface turns away from its light or something stands between.
     """
+    if len(signal) <= MOST_LIGHTS and (run := kernel("free")):
+        b, cost = np.empty(B.shape[1:]), np.empty(B.shape[1])
+        run(*signal.shape, *_given(signal, sigma, usable, B, doubt), ROUNDS, b, cost)
+        return b, cost
     spread2, E = variance(signal, sigma, doubt), np.linalg.norm(B, axis=2)
     shading = np.where(usable & (E > 0), signal / np.maximum(E, 1e-12), 0.0)
     shadow = shading < SHADOW * np.sort(shading, axis=0)[-2]
@@ -77,6 +85,10 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
 
     The albedo of least cost among those that a sample by itself states is taken, then the mean of the samples that agree with it.
     """
+    if len(signal) <= MOST_LIGHTS and (run := kernel("planar")):
+        found, one, agreed = np.empty(m.shape[1]), np.empty(m.shape[1]), np.empty(m.shape, bool)
+        run(*signal.shape, *_given(signal, sigma, usable, m, doubt), found, one, agreed)
+        return found, one, agreed
     spread2 = variance(signal, sigma, doubt)
     least, albedo, lit = np.full(m.shape[1], np.inf), np.zeros(m.shape[1]), np.zeros(m.shape, bool)
 
@@ -96,6 +108,13 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
         consider(mean, mean > 0)
     blind = usable.sum(axis=0) < 2
     return np.where(blind, 0.0, np.where(np.isfinite(least), least, OUTLIER * len(m))), albedo, lit
+
+
+def _given(signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array) -> tuple[npt.NDArray[np.generic], ...]:
+    """What the kernels are given: samples (L, P), their light, and the constants."""
+    constants = np.array([MODEL**2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, WIDTH2, lambert.SINGULAR])
+    signal, sigma, light = (np.ascontiguousarray(one, float) for one in (signal, sigma, light))
+    return signal, sigma, np.ascontiguousarray(usable), light, np.ascontiguousarray(doubt, np.float32), constants
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array) -> Array:

@@ -214,7 +214,8 @@ def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Mask, block: Indic
     area = (depth * step) ** 2 / (rays @ unit)
     slab = np.floor(np.log(depth) / SLAB).astype(int)
     slab -= slab.min()
-    _, of_block = np.unique(block[inside] * (slab.max() + 1) + slab, return_inverse=True)
+    key = block[inside] * (slab.max() + 1) + slab
+    of_block = (np.cumsum(np.bincount(key) > 0) - 1)[key]
     total = np.bincount(of_block, area)
 
     def joined(values: Array) -> Array:

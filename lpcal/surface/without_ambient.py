@@ -23,8 +23,9 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.geometry import lambert
+from lpcal.geometry import cauchy_fit, lambert
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.cauchy_fit import Equations
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
@@ -153,6 +154,8 @@ LAW_STD, BLIND_STD = 0.06, 0.25
 """Relative standard deviation of A over an object: of the law besides that of its level; of both where lights are distant."""
 PATCHY = 0.12
 """Relative standard deviation of A about the law, from part to part of an object."""
+WALL_STEPS = 25
+"""Times that the fit of the wall asks for its equations at most."""
 LAMPS_SHARE = 0.25
 """A plane of whose light the lamps bring less shows the room alone, and not where it is."""
 
@@ -183,8 +186,6 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
 
     `outside` (H, W) is what is not the object; the room's light on matter of albedo 1 is about `level`.
     """
-    from scipy import optimize
-
     if not found.planes or found.layer is None:
         return None
     coarse, coarse_rays, f = mask.binned(maps, rays_C)
@@ -200,7 +201,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
         return np.nan_to_num(r, posinf=1e2).ravel()
 
     first = np.append(found.planes[0].q, level)
-    x = np.asarray(optimize.least_squares(cost, first, loss="cauchy", max_nfev=25, x_scale=np.abs(first).clip(np.abs(first[:3]).max())).x)
+    x = cauchy_fit.fitted(lambda x: Equations.differenced(cost, x), first, np.abs(first).clip(np.abs(first[:3]).max()), WALL_STEPS)
     lamps = planes.predicted(x[:3], some.rays_C, lights)
     m = lamps + x[3] / h
     if (

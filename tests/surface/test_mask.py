@@ -341,3 +341,26 @@ def test_an_edge_between_pixels_is_put_where_it_lies(offset: float) -> None:
     for slip in (-1, 0, 1):
         found = cut.halfway(np.roll(truth, slip, axis=1) if slip else truth, signal, np.full_like(signal, 0.05))
         assert np.abs(found[5:-5, 10:30].sum(axis=1) - truth[5:-5, 10:30].sum(axis=1)).max() <= (0 if offset == 0 else 1)
+
+
+@pytest.mark.parametrize("q", [WALL, FLOOR], ids=["wall", "floor up to its horizon"])
+def test_a_plane_of_many_rays_is_lit_as_one_of_few(q: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> None:
+    camera, lights = calibration().camera, calibration().lights
+    rays = ray_map((112, 160), camera).reshape(-1, 3)
+    assert len(rays) > planes.MANY_RAYS
+    between = planes.predicted(q, rays, lights)
+    monkeypatch.setattr(planes, "MANY_RAYS", len(rays))
+    each = planes.predicted(q, rays, lights)
+    assert np.array_equal(np.isnan(between), np.isnan(each))
+    assert np.nanmax(np.abs(between - each)) < 1e-4 * np.nanmax(each)
+
+
+def test_what_is_smooth_is_right_between_nodes() -> None:
+    at = np.random.default_rng(2).uniform(-1, 1, (4000, 2)) * [1.0, 0.6]
+
+    def smooth(xy: np.ndarray) -> np.ndarray:
+        return np.stack([np.exp(-((xy[:, 0] - 0.2) ** 2) / 0.1) + xy[:, 1], np.cos(3 * xy[:, 0] * xy[:, 1])])
+
+    assert np.abs(planes.interpolated(smooth, at, 64) - smooth(at)).max() < 1e-4  # nodes a thirtieth apart
+    alone = np.zeros((20, 2))  # no extent: every place is one node
+    np.testing.assert_allclose(planes.interpolated(smooth, alone, 8), smooth(alone), atol=1e-9)
