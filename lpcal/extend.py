@@ -80,7 +80,9 @@ def register_lobe(name: str, formula: Callable[[Array, float], Array]) -> LobeKi
         value = np.asarray(formula(angle_rad, exponent))
         if value.shape != angle_rad.shape or not np.isfinite(value).all() or np.any(value < 0) or abs(value[0] - 1) > ON_AXIS:
             found = f"gives {value.ravel()[:1]} on the axis, {value.shape} values for {angle_rad.shape} angles, at exponent {exponent:g}"
-            raise InputError(found, where=where, needed="1 at the angle 0, a number of 0 or more at every other", todo="mend the formula")
+            raise InputError(
+                found, where=where, needed="1 at the angle 0, a number of 0 or more at every other", todo="correct the formula"
+            )
     kind = LobeKind(name, formula)
     lobes.register(kind)
     return kind

@@ -1,4 +1,4 @@
-"""Before any hand-eye solve: what is wrong with a body's poses and a board's views, in words, with what mends it."""
+"""Before any hand-eye solve: what is wrong with a body's poses and a board's views, in words, with what corrects it."""
 
 from __future__ import annotations
 

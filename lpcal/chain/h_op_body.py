@@ -2,7 +2,7 @@
 
 Symbols: marker m at x_O,m(t), in the template at x_P,m: ``x_O,m = H_OP(t) x_P,m + e``. The template is the median, over the slower
 half of the samples, of the tracks brought back by their own fits. A sample whose residual is beyond the usual is tried again without
-each marker in turn, and with each two markers' names exchanged; what mends it is kept and counted, what nothing mends is lost::
+each marker in turn, and with each two markers' names exchanged; what corrects it is kept and counted, what nothing corrects is lost::
 
     sigma^2 = sum |e|^2 / (3 markers - 6),   covariance of H_OP(t) = sigma^2 (sum J_m^T J_m)^-1
 
@@ -146,7 +146,7 @@ def _template(x_O: Array, seen: Mask) -> tuple[Array, int]:
 
 
 def _mended(fits: _Fits, template: Array, limit_m: float) -> tuple[_Fits, int, int]:
-    """The fits, those beyond the limit tried without one marker or with two exchanged, and how many each of these mended."""
+    """The fits, those beyond the limit tried without one marker or with two exchanged, and how many each of these corrected."""
     bad = np.flatnonzero(fits.rms_m > limit_m)
     if not bad.size:
         return fits, 0, 0

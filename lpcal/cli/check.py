@@ -1,4 +1,4 @@
-"""``lpcal check [mocap.csv]``: before any solve, what is wrong with mocap and images, with the key or the command that mends it."""
+"""``lpcal check [mocap.csv]``: before any solve, what is wrong with mocap and images, with the key or the command that corrects it."""
 
 from __future__ import annotations
 

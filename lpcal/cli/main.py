@@ -86,7 +86,7 @@ def main(words: list[str] | None = None) -> int:
         return error.exit_code
     except KeyboardInterrupt as stop:
         return say_stopped(stop)
-    except (OSError, MemoryError) as error:  # what the system refuses is the user's to mend
+    except (OSError, MemoryError) as error:  # what the system refuses is the user's to correct
         return say_stopped(Stopped(received[0])) if received else _refused(error)
     except Exception as error:  # noqa: BLE001 - the boundary: whatever is left is a bug of lpcal's
         if received:
@@ -125,7 +125,7 @@ def _refused(error: OSError | MemoryError) -> int:
     if isinstance(error, MemoryError):
         said = InputError("not enough memory", needed="inputs that fit into it", todo="take fewer or smaller images")
     else:
-        said = InputError(error.strerror or str(error), where=str(error.filename or ""), todo="mend that, or name another place")
+        said = InputError(error.strerror or str(error), where=str(error.filename or ""), todo="correct that, or name another place")
     complain(f"lpcal: {said}")
     return said.exit_code
 

@@ -55,7 +55,7 @@ def _read(path: Path, body: str | None, quaternion: str | None, units: str | Non
     if (added := format_of(head, path)) is not None:
         if quaternion or units:
             what = "units" if units else "quaternion"
-            todo = f"leave mocap.{what} out, or mend the format"
+            todo = f"leave mocap.{what} out, or correct the format"
             raise InputError(
                 f"mocap.{what} says nothing to the format {added.name}", where=str(path), needed="metres, as it reads", todo=todo
             )

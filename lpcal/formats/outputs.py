@@ -234,7 +234,7 @@ def recover(folder: Path) -> None:
 
 
 def _replace_folder(draft: Path, path: Path) -> None:
-    """Put a folder in the place of another, at once where the system can, else so that a kill between can be mended."""
+    """Put a folder in the place of another, at once where the system can, else so that a kill between can be undone."""
     if _exchange(draft, path):
         return
     aside = draft.parent / ASIDE / path.name

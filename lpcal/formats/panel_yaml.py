@@ -103,9 +103,9 @@ def _not_yaml(error: yaml.YAMLError, text: str, path: Path) -> InputError:
         if "<stream end>" in str(error.problem):
             found = "ends in the middle of a [list] or a {section}"
             return InputError(found, where=f"{path}:{line}", needed="the whole file", todo="close it, or fetch the file again")
-        return InputError(f"not YAML: {error.problem}", where=f"{path}:{line}", needed="key: value lines", todo="mend that line")
+        return InputError(f"not YAML: {error.problem}", where=f"{path}:{line}", needed="key: value lines", todo="correct that line")
     line = text.count("\n", 0, getattr(error, "position", 0)) + 1
-    return InputError("not YAML: a control character", where=f"{path}:{line}", needed="plain text", todo="mend that line")
+    return InputError("not YAML: a control character", where=f"{path}:{line}", needed="plain text", todo="correct that line")
 
 
 def _collect_lines(node: yaml.Node, prefix: str, lines: dict[str, int]) -> None:

@@ -194,7 +194,7 @@ class HandEyeEvidence:
     moved_from_closed_form_m: float
     """How far the solve moved H_PC from its start."""
     weakest: str | None = None
-    """The direction in which H_PC is known worst, and what would mend it, in words."""
+    """The direction in which H_PC is known worst, and what would improve it, in words."""
 
 
 type LightsModel = Literal["sum of LEDs", "round lobe", "geometry only", "distant lights"]

@@ -68,7 +68,7 @@ class ConventionFound:
 
 @dataclass(frozen=True, kw_only=True)
 class Flatness:
-    """How far a nearly flat piece strays from a plane, mm."""
+    """How far a nearly flat piece deviates from a plane, mm."""
 
     bowl_mm: float
     plane_rms_mm: float
@@ -114,7 +114,7 @@ class SurfaceFigures:
     gloss: GlossFound | None = field(default=None, metadata=ALWAYS)
     """Strength and roughness of the object's gloss; null where none was found."""
     reflectance: float | None = field(default=None, metadata=ALWAYS)
-    """Reflectance of the object's median pixel, as light that it throws on itself shows it."""
+    """Reflectance of the object's median pixel, as interreflected light shows it."""
     residual_sigmas_rms: float | None = None
     """Rms residual of the images in their own standard deviations: 1 where the noise model holds."""
     normals_away_from_the_camera: float | None = None

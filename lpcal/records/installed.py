@@ -23,8 +23,8 @@ def installed[T](group: str, kind: type[T], needed: str) -> tuple[T, ...]:
         try:
             one = point.load()
         except Exception as error:
-            raise InputError(f"cannot be loaded: {error}", where=where, needed=needed, todo="mend or uninstall it") from error
+            raise InputError(f"cannot be loaded: {error}", where=where, needed=needed, todo="correct or uninstall it") from error
         if not isinstance(one, kind):
-            raise InputError(f"is a {type(one).__name__}", where=where, needed=needed, todo="mend or uninstall it")
+            raise InputError(f"is a {type(one).__name__}", where=where, needed=needed, todo="correct or uninstall it")
         found.append(one)
     return tuple(found)

@@ -82,7 +82,7 @@ class HandEyePart:
     used: str
     evidence: list[Row]
     weakest: str | None
-    """The direction that is known worst, and the motion that mends it."""
+    """The direction that is known worst, and the motion that improves it."""
     rms: list[Row]
     residuals: list[Row]
     """Titles and charts of those residuals that there are."""

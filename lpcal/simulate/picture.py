@@ -1,14 +1,14 @@
 r"""Images of a scene, each light by itself and the room's light by itself.
 
-Symbols: rho a point's albedo, n its normal, J what the scene throws on it (see interreflection), A the room's radiance on white::
+Symbols: rho a point's albedo, n its normal, J the interreflected light on it (see interreflection), A the room's radiance on white::
 
     radiance = direct + rho J             a light
     radiance = rho A (1 + n . up / 3)     the room
 
-A pixel is one ray, or sixteen where an outline crosses it. A chrome sphere shows what its mirrored rays meet instead; what it throws on
-the wall, a thin glow far from it, is left out, and so is what the thin dark rod under a sphere throws.
+A pixel is one ray, or sixteen where an outline crosses it. A chrome sphere shows what its mirrored rays meet instead; what it reflects onto
+the wall, a thin glow far from it, is left out, and so is what the thin dark rod under a sphere reflects.
 
-Light that the scene throws on itself: cosine-distributed rays, which end at surfels of the true surfaces.
+Interreflected light of the scene: cosine-distributed rays, which end at surfels of the true surfaces.
 
 Symbols: d_m the M rays of a point, of density cos / pi over its hemisphere, s(m) the surfel nearest to where ray m ends, D_s a surfel's
 radiance under the lamp alone, rho_s its albedo, L_s its radiance with every bounce::
@@ -44,7 +44,7 @@ ROD_ALBEDO = 0.04
 ROOM_SHARE = (0.6, 0.8)
 """Radiance of the room over that of a white surface in it: beside the object, and how much more of it behind the camera."""
 NODES = 20000, 6000
-"""Pixels, of the shape and of the wall, at which the light that the scene throws on itself is gathered."""
+"""Pixels, of the shape and of the wall, at which the interreflected light of the scene is gathered."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ def _samples(lens: Lens, plane: Array, edge: Mask) -> tuple[Array, Index, Array]
 
 
 def _nodes(on_shape: Mask, width: int) -> Index:
-    """Pixels, by their index, at which the light that the scene throws on itself is gathered: grids on the shape and on the wall."""
+    """Pixels, by their index, at which the interreflected light of the scene is gathered: grids on the shape and on the wall."""
     found = []
     for on, most in zip((on_shape, ~on_shape), NODES, strict=True):
         step = int(np.ceil(np.sqrt(on.sum() / most)))
@@ -211,7 +211,7 @@ class ThrownLight:
 
 
 def thrown(scene: DrawnScene, nodes: Points) -> ThrownLight:
-    """The light that the scene throws on nodes on its surfaces, every bounce of it."""
+    """The interreflected light of the scene on nodes on its surfaces, every bounce of it."""
     length_m = float(np.median(np.linalg.norm(np.diff(nodes.x_C, axis=0), axis=1)))
     ends, of_node = gather(scene, nodes, RAYS)
     if not len(of_node):

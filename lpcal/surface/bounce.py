@@ -53,7 +53,7 @@ SAMPLE = 4000
 INDEPENDENT, NEIGHBOURS = 25.0, 9.0
 """Samples that all in shadow are worth at most, and how many neighbours are worth one: what the model lacks they have in common."""
 DOUBT, DARK = 0.3, 0.01
-"""Standard deviation of thrown light as a share of itself, and of other light in a shadow as a share of the pixel's brightest sample."""
+"""Standard deviation of reflected light as a share of itself, and of other light in a shadow as a share of the pixel's brightest sample."""
 ELSE = 0.1
 """Share of the samples taken for shadows that are none: the shape hides a light that in truth arrives, or the rim is near."""
 LIT_NEIGHBOURS, LIT_DOUBT = 100.0, 0.2
@@ -66,7 +66,7 @@ AWAY, RIM = 0.05, 2
 
 @dataclass(frozen=True)
 class Thrown:
-    """Light that surfaces throw on P pixels under L lights, before the reflectance that makes it one."""
+    """Light that surfaces reflect onto P pixels under L lights, but for the factor of their reflectance."""
 
     seen: Array
     """J (L, P, 3) of the object's own parts and of what is seen around it."""
@@ -95,7 +95,7 @@ class Thrown:
 
 @dataclass(frozen=True)
 class Reflectance:
-    """How much of the light that is thrown goes on from the object, and what of the guessed is there."""
+    """How much of the light that falls on it the object reflects, and what share of the guessed light is there."""
 
     median: float
     """Reflectance of the object's median pixel."""
@@ -103,7 +103,7 @@ class Reflectance:
     """The same by its albedo in the units of the signals: what makes J light."""
     sides: float
     beyond: float
-    """Shares of what the unseen sides and what goes on out of sight throw by the guess of it."""
+    """Shares of the guessed light of the unseen sides and of what lies out of sight."""
 
     @property
     def strengths(self) -> Array:
@@ -172,9 +172,9 @@ class LitEvidence:
 def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
     """The reflectance by the samples in shadow, and by the evidence of the lit ones.
 
-    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is thrown, ``s J_k . b``. A lit sample by
-    itself says next to nothing, since b takes up most of what is thrown on it; together with its neighbours in other lights it does, which
-    is what `lit` holds. What is found are posterior means: where both say little the place of the least cost would jump.
+    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is reflected, ``s J_k . b``. A lit sample by
+    itself says next to nothing, since b takes up most of what is reflected onto it; together with its neighbours in other lights it does,
+    which is what `lit` holds. What is found are posterior means: where both say little the place of the least cost would jump.
     """
     albedo = np.linalg.norm(b, axis=1)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
@@ -184,7 +184,7 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence 
     light, pixel = light[some], pixel[some]
     signal, top = seen.signal[light, pixel], np.maximum(seen.signal[:, pixel].max(axis=0), 1e-12)
     noise2 = seen.sigma[light, pixel] ** 2 + (DARK * top) ** 2
-    possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing throws on more than it gets
+    possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing reflects more than it gets
     trials = np.array(list(product(possible, SHARES, SHARES)))
     strengths = trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]])
     fits = _fits(strengths, np.stack(by.on(b, light, pixel)), signal, noise2, top)

@@ -26,7 +26,7 @@ FEWEST_PIXELS = 50
 """Pixels of a half of the object from which its median is one."""
 NEEDED = 2.0
 """By what factor the misses of images that change places must fall at least, in the geometric mean and in every half of the object: what
-the model lacks of a light's own image (gloss, shadows, light thrown) makes another light fit it as well, never twice as well."""
+the model lacks of a light's own image (gloss, shadows, interreflection) makes another light fit it as well, never twice as well."""
 
 
 def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict[int, int]:

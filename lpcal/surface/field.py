@@ -1,7 +1,7 @@
 r"""Normals and albedo of all pixels together: each by its own samples, and by its neighbours where these leave it open.
 
-Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or in shadow (v = 0), with B_k the light, J_k what is thrown on
-it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviation::
+Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or in shadow (v = 0), with B_k the light, J_k what is reflected
+onto it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviation::
 
     sum_pk  rho((I_k - g_k - (v B_k + J_k) . b_p) / s_k)  +  PRICE [v = 0]   +   sum_pq  rho(|b_p - b_q| / (TURN sqrt(a_p a_q)))
 
@@ -36,7 +36,7 @@ six simulated scenes changes by some 5 %."""
 MODEL, SHARED, DARK = 0.02, 0.02, 0.01
 """What the model lacks, a standard deviation: as a share of a sample, and as shares of a pixel's brightest one in light and in shadow."""
 THROWN_DOUBT = 0.27
-"""Standard deviation of the light thrown by surfaces, as a share of itself."""
+"""Standard deviation of the light reflected by surfaces, as a share of itself."""
 PRICE, HIDDEN = 5.0, 4.0
 """Cost of a sample in shadow that no shape explains, and of a lit one where the depth says that something stands in the way."""
 WARM = 4.0

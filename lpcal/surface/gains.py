@@ -31,7 +31,7 @@ Simulated equal lights give 1.003 at most, whatever the gloss and the shadows; u
 than
 equal ones."""
 TRIMS = 4
-"""Rounds in which the worse half of the pixels is left out: gloss then misleads two to four times less, and no less in further rounds."""
+"""Rounds in which the worse half of the pixels is left out: gloss then biases two to four times less, and no less in further rounds."""
 ACCEPTED = (0.2, 5.0)
 
 

@@ -33,7 +33,7 @@ class Ground:
     """(h, w, L, 3) light vectors of what surfaces throw there."""
     unseen: Image | None
     share: Image
-    """Light that is thrown there by that which comes straight."""
+    """Light that is reflected there, as a share of the direct light."""
     hidden: Mask | None
     """(h, w, L) which lights the surface hides."""
     loose: Mask

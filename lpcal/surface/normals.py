@@ -124,7 +124,7 @@ def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate, gloss: Array |
 
 
 def thrown_share(lit: Lit, found: Estimate) -> Array:
-    """Light (P,) that is thrown on a pixel by its surroundings, by that which comes straight from the lights that agree."""
+    """Light (P,) that is reflected onto a pixel by its surroundings, as a share of the direct light of the lights that agree."""
     if lit.thrown is None:
         return np.zeros(len(found.b))
 

@@ -19,7 +19,7 @@ SLIVER_PX = 4
 SMALLEST_PIXELS = 60
 FAINT = 1e-6
 NEARLY = 0.2
-"""Share of its extent: a piece whose points stray more from a plane is not meant to be flat."""
+"""Share of its extent: a piece whose points deviate more from a plane is not meant to be flat."""
 RIM_PX = 3
 FEWEST = 100
 MOST = 2_000_000

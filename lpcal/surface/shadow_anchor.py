@@ -3,8 +3,8 @@ r"""The distance of a piece from the edge of its shadow on the plane behind it; 
 Symbols: plane ``q . y = 1`` (see surface.planes), point X of the piece, d the direction to the light there; its shadow falls on
 ``y = X - t d`` with ``t = (q.X - 1) / (q.d)``. The piece is scaled about the camera by s and the shadow that its pixels would throw is
 compared with the one that is seen, over the plane's pixels and the lights: ``cost(s) = sum(predicted and lit) + sum(dark, not
-predicted, beyond)``. Only the side of a shadow away from its object is thrown by parts that the camera sees; what is dark on the near side
-of a predicted shadow may be thrown by what the camera does not see, and says nothing.
+predicted, beyond)``. Only the side of a shadow away from its object is cast by parts that the camera sees; what is dark on the near side
+of a predicted shadow may be cast by what the camera does not see, and says nothing.
 
 The shadow is no better than the plane, and near light placed that, often by the tails of the lobes: its misfit counts as doubt. An error of
 the lights' intensities moves plane and piece alike, which no shadow shows; so the shadow corrects only what the model lacks at the piece

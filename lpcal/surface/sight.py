@@ -79,7 +79,7 @@ class Sight:
 
 @dataclass(frozen=True)
 class Lit:
-    """The light at each pixel: of the lights, and of what the object throws on itself."""
+    """The light at each pixel: of the lights, and of what the object reflects onto itself."""
 
     d: Array
     """(L, P, 3) unit vectors to the lights."""
@@ -88,7 +88,7 @@ class Lit:
     thrown: Array | None = None
     """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.bounce)."""
     unseen: Array | None = None
-    """(P,) share of what stands around a pixel that is of the object and not seen: what it throws is guessed."""
+    """(P,) share of what stands around a pixel that is of the object and not seen: what it reflects is guessed."""
 
     @property
     def B(self) -> Array:

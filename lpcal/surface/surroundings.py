@@ -1,8 +1,9 @@
-"""What stands round the object and throws light on it: the wall behind it and the support under it, as patches on the planes found there.
+"""What stands round the object and reflects light onto it: the wall behind, the support below, as patches on the planes found there.
 
 A plane's pixels show its radiance under every light, shadows and all, so nothing of the planes' own reflectance has to be known. What the
 object hides of a plane, and what of it lies outside the image, is taken for the plane's common matter, lit by the lights that the object
-leaves to it: a table throws most of its light from where the camera does not see it, under the object and before the picture's lower edge.
+leaves to it: a table reflects most of its light from where the camera does not see it, under the object and before the picture's lower
+edge.
 """
 
 from __future__ import annotations
@@ -151,7 +152,7 @@ def _unclipped(seen: Sight, m: Array, some: Mask, albedo: float) -> Array:
 def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array:
     """The signals (L, P), in the margin about the object those of the nearest pixel of a plane; `of_plane` (P,) gains them.
 
-    What stands nearest to the object throws most on it.
+    What stands nearest to the object reflects most onto it.
     """
     from scipy import ndimage
 

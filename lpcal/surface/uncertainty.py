@@ -6,7 +6,7 @@ the depth, R5 its rms over 5x5 pixels::
     sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
 with the clues: s max(1, sqrt(chi2 / dof)); R5; R; whether an edge or a break is near; whether three lights were used; whether the normal is
-filled in; 1; the light that is thrown on the pixel by its surroundings as a share of what comes straight from the lights; and how much of
+filled in; 1; the light that is reflected onto the pixel by its surroundings as a share of the direct light of the lights; and how much of
 what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by tools/fit_normal_sigma.py on
 simulated scenes. The calibration's part is common to the whole image.
 """

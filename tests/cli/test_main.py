@@ -146,7 +146,7 @@ def test_a_disk_that_refuses_is_no_bug(lpcal: Run, plant: Plant, number: int) ->
     plant(OSError(number, "No space left on device", "calib/camera.yaml"))
     code, out, err = lpcal("check")
     assert (code, out) == (3, "")
-    assert err == "lpcal: calib/camera.yaml: No space left on device\n  do: mend that, or name another place\n"
+    assert err == "lpcal: calib/camera.yaml: No space left on device\n  do: correct that, or name another place\n"
 
 
 def test_too_little_memory_is_no_bug(lpcal: Run, plant: Plant) -> None:

@@ -1,4 +1,4 @@
-"""A body from bare markers: its poses within their own covariance, exchanged and strayed markers mended, blind bodies refused."""
+"""A body from bare markers: its poses within their own covariance, exchanged and strayed markers corrected, blind bodies refused."""
 
 from __future__ import annotations
 

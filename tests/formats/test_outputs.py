@@ -1,4 +1,4 @@
-"""Outputs: whole or not there, never over anything that lpcal did not write, and mended after a kill."""
+"""Outputs: whole or not there, never over anything that lpcal did not write, and repaired after a kill."""
 
 from __future__ import annotations
 

@@ -155,7 +155,7 @@ MESSAGES = {
     ),
     "a tab": (
         "lpcal: 1\nboard:\n\tcorners: [9, 6]\n",
-        "panel.yaml:3: not YAML: found character '\\t' that cannot start any token\n  needed: key: value lines\n  do: mend that line",
+        "panel.yaml:3: not YAML: found character '\\t' that cannot start any token\n  needed: key: value lines\n  do: correct that line",
     ),
     "a control character": (
         'lpcal: 1\nname: "a\x00b"\n',

@@ -1,4 +1,4 @@
-"""Light that a simulated scene throws on itself: known form factors, an integrating sphere, nothing where nothing is seen."""
+"""Interreflected light of a simulated scene: known form factors, an integrating sphere, nothing where nothing is seen."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_means_over_nodes_keep_to_their_side() -> None:
 
 
 def render_direct(scene: DrawnScene) -> np.ndarray:
-    """The images without what the scene throws on itself."""
+    """The images without interreflected light."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("lpcal.simulate.picture.thrown", lambda scene, nodes: None)
         return render(LENS, scene).light

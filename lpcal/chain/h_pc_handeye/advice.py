@@ -1,4 +1,4 @@
-r"""Where H_PC is known worst, which views would mend it, and by how much.
+r"""Where H_PC is known worst, which views would improve it, and by how much.
 
 Symbols: a view k misses H_OB by the turn and the shift of ``H_OP,k H_PC H_CB,k inv(H_OB)`` at the board's origin. A left perturbation xi of
 H_PC acts on it as ``J_k = A Ad(H_OP,k)``, one of H_OB as -A, with A taking a perturbation to turn and shift at that point. With W from the
@@ -24,7 +24,7 @@ TURN_DEG = 20.0
 FEWEST_MORE, MORE_SHARE = 6, 0.2
 """So many more views are tried: a fifth of those there are, six at least."""
 WORTH = 0.9
-"""Turns that leave more of the sigma than this mend nothing."""
+"""Turns that leave more of the sigma than this improve nothing."""
 TARGET_M, TARGET_RAD = 1e-3, np.deg2rad(0.1)
 """A worst standard deviation beyond these is warned of."""
 NAMED = 0.9
@@ -33,7 +33,7 @@ LEAST_M, LEAST_RAD = 1e-5, 1e-6
 
 @dataclass(frozen=True)
 class MotionAdvice:
-    """The worst direction of H_PC, and the views that would mend it most."""
+    """The worst direction of H_PC, and the views that would improve it most."""
 
     sigma_m: float
     """One standard deviation of the camera's centre along `direction_P`, its worst."""
@@ -52,7 +52,7 @@ class MotionAdvice:
         worst = f"{fine(1e3 * self.sigma_m)} mm, and {fine(np.degrees(self.sigma_rad), 3)} deg"
         now = f"worst along {_named(self.direction_P)} of the panel, {worst}"
         if self.sigma_m_after > WORTH * self.sigma_m and self.sigma_rad_after > WORTH * self.sigma_rad:
-            return f"{now}; no turn about one axis mends that, four times as many views like these halve it"
+            return f"{now}; no turn about one axis improves that, four times as many views like these halve it"
         return (
             f"{now}; {self.more} more views with the panel turned by up to {TURN_DEG:.0f} deg either way about its {self.turn_about}, the "
             f"board kept in sight, make that {fine(1e3 * self.sigma_m_after)} mm and {fine(np.degrees(self.sigma_rad_after), 3)} deg"

@@ -61,7 +61,7 @@ UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm",
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """One thing that is wrong, and the key or command that mends it."""
+    """One thing that is wrong, and the key or command that corrects it."""
 
     found: str
     todo: str
@@ -75,7 +75,7 @@ class Diagnosis:
     def better_than(self, other: Diagnosis | None) -> bool:
         """Whether the cure is to be preferred: it fits better, or as well and with the camera nearer to the body.
 
-        Inverting the mocap's or the board's poses mends the same mistake; only one leaves the camera near the body.
+        Inverting the mocap's or the board's poses corrects the same mistake; only one leaves the camera near the body.
         """
         if other is None or self.cured < other.cured / ALIKE:
             return True
@@ -99,7 +99,7 @@ def fits(H_OP: Array, H_CB: Array, agreed: park.Consensus) -> bool:
 def diagnose(H_OP: Array, H_CB: Array, *, from_images: bool = True) -> Diagnosis | None:
     """The likeliest thing wrong with panel poses H_OP (N, 4, 4) and board poses H_CB (N, 4, 4).
 
-    None where they are one rigid motion, or where nothing that is known mends them. `from_images`: lpcal found the boards itself, so that
+    None where they are one rigid motion, or where no known correction applies. `from_images`: lpcal found the boards itself, so that
     they are not inverted.
     """
     before, agreed = misplacement(H_OP, H_CB)
@@ -131,7 +131,7 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
     Raises
     ------
     DisagreementError
-        With what is wrong and the key that mends it, where that is known.
+        With what is wrong and the key that corrects it, where that is known.
     """
     if fits(H_OP, H_CB, agreed):
         return
@@ -145,7 +145,7 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
             todo="check which body is tracked, the images' times, and that neither camera nor board was moved on its own",
         )
     raise DisagreementError(
-        f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once mended)",
+        f"{named.found} (the board is misplaced by {named.misplaced * distance:.0f} mm, by {named.cured * distance:.1f} mm once corrected)",
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
         todo=named.todo,
     )
@@ -224,7 +224,7 @@ def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> It
 
 
 def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, Array]]:
-    """Three numbers of a rotation read as one thing that are another; where poses hold no such numbers, none of it mends anything."""
+    """Three numbers of a rotation read as one thing that are another; where poses hold no such numbers, none of it corrects anything."""
     R = H_OP[:, :3, :3]
     zyx = se3.angles_about_zyx(R)
     for read, v in (("abc_deg", zyx), ("rpy_deg", zyx[:, ::-1]), ("rotation_vector", se3.rotation_vector(R))):
@@ -237,7 +237,7 @@ def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, A
 
 
 def _other_way(read: str, name: str) -> str:
-    """What to add where the same mends the other mistake, and where a rotation vector, in radians, turned out to hold angles."""
+    """What to add where the same corrects the other mistake, and where a rotation vector, in radians, turned out to hold angles."""
     if (read, name) == ("abc_deg", "rpy_deg"):
         return " (or abc_deg, if it says rpy)"
     return " (the numbers in degrees)" if read == "rotation_vector" else ""

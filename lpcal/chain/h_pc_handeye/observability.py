@@ -51,7 +51,7 @@ def refuse_what_cannot_show_it(H_OP: Array) -> tuple[Spread, list[str]]:
     Raises
     ------
     DegenerateError
-        Too few views, no rotation, or rotation about one axis only; the motion that mends it is named.
+        Too few views, no rotation, or rotation about one axis only; the motion that improves it is named.
     """
     if len(H_OP) < FEWEST_VIEWS:
         raise DegenerateError(

@@ -1,4 +1,4 @@
-"""Robot poses whose three angles are read in another order than they were written in: named, with the key that mends it."""
+"""Robot poses whose three angles are read in another order than they were written in: named, with the key that corrects it."""
 
 from __future__ import annotations
 
