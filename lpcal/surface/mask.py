@@ -1,6 +1,6 @@
 """Which pixels are the object: not the wall behind it, not the support under it, not the dark.
 
-Where lights are near, all that is lit is taken apart at a coarse scale into planes and matter of any shape (surface.layers), whose regions
+Where lights are near, all that is lit is segmented at a coarse scale into planes and matter of any shape (surface.layers), whose regions
 are judged by clues (surface.background). The outline is then carried to full resolution, from scale to scale, in a band about it. Without
 near light the strength of the signal decides.
 """
@@ -26,7 +26,7 @@ COARSE_PIXELS = 5200
 MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
 MOST_LIGHTS = 16
-"""Lights that the mask is found by, spread over all: more tell no more of it."""
+"""Lights that the mask is found by, spread over all: more do not improve it."""
 BORDER_SHARE = 0.06
 """Share of the image's shorter side that its rim takes on each side."""
 LIT_SIGMAS = 6.0
@@ -47,7 +47,7 @@ DOUBTED, DOUBT_POWER = 0.25, 1.8
 
 @dataclass(frozen=True)
 class Hints:
-    """What the user says of where the object is, in pixels."""
+    """Where the user says that the object is, in pixels."""
 
     box: tuple[int, int, int, int] | None = None
     """x, y, width and height of a box that holds it."""
@@ -113,7 +113,7 @@ class Found:
 
     @property
     def doubt(self) -> float | None:
-        """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where nothing tells them."""
+        """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where they are not known."""
         if self.expected_wrong is None:
             return None
         return float(1 / (1 + (DOUBTED / max(self.expected_wrong, 1e-3)) ** DOUBT_POWER))
@@ -185,7 +185,7 @@ def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, sh
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
-    """The map of layers (H, W) by the mask (H, W) and the coarse labels; beside the mask that of the nearest background."""
+    """The map of layers (H, W) by the mask (H, W) and the coarse labels; outside the mask that of the nearest background."""
     from scipy import ndimage
 
     value = {"support": background.SUPPORT, "wall": background.WALL, "dark": background.NOTHING, "other": background.WALL}
@@ -197,7 +197,7 @@ def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.
 
 
 def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> str:
-    """What the area in doubt may be and the box that holds the most of it, for people; nothing where there is none."""
+    """What the area in doubt may be and the box that holds the most of it, for messages; nothing where there is none."""
     if not doubt.place.any():
         return ""
     from scipy import ndimage

@@ -1,6 +1,6 @@
 """The rounds of a reconstruction: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth.
 
-From the third round on the depth tells more: which lights the surface hides from a pixel, what its parts throw on each other.
+From the third round on the depth is used for more: which lights the surface hides from a pixel, what its parts reflect onto each other.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ SETTLED = 2e-4
 SETTLED_PIECE = 2e-3
 """The same of pieces that have broken off: a third of the least standard deviation."""
 GLOSS_ROUND = 1
-"""From which on a gloss is looked for: at a false depth a lobe can fit by chance."""
+"""From which on gloss is looked for: at a wrong depth a lobe can fit by chance."""
 SHAPE_ROUND = 2
-"""From which on the depth is good enough to tell which lights it hides and what its parts throw on each other."""
+"""From which on the depth is good enough to find which lights it hides and what its parts reflect onto each other."""
 SHADOW_STEPS = 64
 SHADED = 0.6
-"""A sample of a light that the depth hides is left out where it is darker than this share of what the light unhindered would give."""
+"""A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""
 SLANTED = 0.1
-"""Least cosine in the prediction of an unhindered light's signal: a shadow may have turned the normals away from the light."""
+"""Least cosine in the prediction of an unoccluded light's signal: a shadow may have turned the normals away from the light."""
 SPAN = float(np.log(4))
 """Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
 FEWEST_PIXELS = 50
@@ -87,11 +87,11 @@ class Scene:
     distance_m: float | None = None
     """Median depth of the largest piece, where it is known."""
     around: Around | None = None
-    """What stands round the object and throws light on it."""
+    """What stands round the object and reflects light onto it."""
 
     @property
     def near(self) -> bool:
-        """Whether the light tells the distance."""
+        """Whether the light determines the distance."""
         return self.focus_C is None
 
     def closely(self) -> Scene:
@@ -103,7 +103,7 @@ class Scene:
         return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
 
     def B_at(self, thrown: Array | None, depth: Array, some: slice) -> Array:
-        """Light vectors (L, Q, 3) at depths (Q,) of some of the pixels, with what is thrown on all (L, P, 3)."""
+        """Light vectors (L, Q, 3) at depths (Q,) of some of the pixels, with what is reflected onto all (L, P, 3)."""
         light = sight.light_vectors(self.lights, self.seen.at(some).points_C(depth), self.focus_C)
         return Lit(*light, None if thrown is None else thrown[:, some]).B
 
@@ -165,7 +165,7 @@ def _settled(scene: Scene, state: State) -> bool:
 
 
 def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
-    """One round from u (P,) and the state before, whose thrown light stays where it is known.
+    """One round from u (P,) and the state before, whose reflected light stays where it is known.
 
     Raises
     ------
@@ -234,7 +234,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
 
 
 def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask, hidden: Mask) -> tuple[Lit, bounce.Reflectance]:
-    """The light with what surfaces throw at depths (P,), and the reflectance by which they do."""
+    """The light with what surfaces reflect at depths (P,), and their reflectance."""
     seen = scene.seen
     by = bounce.thrown(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
     dark = bounce.in_shadow(seen, lit, before.normals, by_object)
