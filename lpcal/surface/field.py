@@ -46,6 +46,8 @@ JUNK, ACROSS = 0.5, 6.0
 FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
 """Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
 slowly."""
+ANY_RAD = 0.5
+"""Standard deviation, radians, of a normal that no sample determines, about that of its neighbours: half of the hemisphere's own."""
 SOLVED, MOST_STEPS = 1e-3, 60
 """Residual at which the conjugate gradients stop, and how many steps they take at most."""
 TOWARDS = 0.02
@@ -61,6 +63,8 @@ class Field:
     estimate: Estimate
     """By each pixel's own samples among those that the field says are lit; NaN where they are fewer than three or in a plane."""
     gloss: gloss.Gloss | None
+    tilt_rad: Array | None = None
+    """(P,) standard deviation of the normal about an axis by each pixel's own samples, radians; ANY_RAD where they leave it open."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +101,7 @@ def solve(
     some = gloss.sample(*seen.signal.shape[::-1])
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
     albedo = np.linalg.norm(b, axis=1)
+    own_samples = np.zeros((seen.pixels, 3, 3))
     for k in range(rounds):
         so_far, middle, last = (b, shine), np.median(albedo), k > 1 or before is not None
         if glossy is not None and last:
@@ -115,7 +120,16 @@ def solve(
     def own(at: slice) -> Estimate:
         return _by_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
 
-    return Field(b, joined(bands.each(seen.pixels, len(seen.signal), own)), shine)
+    return Field(b, joined(bands.each(seen.pixels, len(seen.signal), own)), shine, _tilt_rad(b, own_samples))
+
+
+def _tilt_rad(b: Array, own: Array) -> Array:
+    """Standard deviation (P,) of normals about an axis, radians, by the samples' matrices (P, 3, 3) and a prior of ANY_RAD."""
+    n, albedo = lambert.unit(b)
+    loose = 1 / np.maximum(albedo * ANY_RAD, 1e-12) ** 2
+    covariance = lambert.inverse_3x3(own + loose[:, None, None] * np.eye(3))
+    across = np.trace(covariance, axis1=1, axis2=2) - np.einsum("pi,pij,pj->p", n, covariance, n)
+    return np.asarray(np.sqrt(np.maximum(across, 0.0) / 2) / np.maximum(albedo, 1e-12))
 
 
 def _begin(seen: Sight, grid: Grid, b: Array) -> Array:

@@ -72,22 +72,25 @@ class Own:
     optimum: Array
 
 
-def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
-    """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD.
+def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad: Array | None = None) -> tuple[Array, Array]:
+    """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD, and by `tilt_rad` (P,) of their own besides.
 
     With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is uncertain where
     the surface bends, and where one of the two is the rim of something in front.
     """
     mean = normals[grid.a] + normals[grid.b]
     mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+    error = np.full(len(grid.a), NORMAL_ERROR_RAD)
+    if tilt_rad is not None:
+        error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
     if not central:
         slope = np.minimum(mean[:, 2], -STEEPEST)
-        return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, NORMAL_ERROR_RAD / slope**2
+        return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
     towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -STEEPEST)
     towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -STEEPEST)
-    return np.log(towards_a / towards_b), np.hypot(off, NORMAL_ERROR_RAD * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b))
+    return np.log(towards_a / towards_b), np.hypot(off, error * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b))
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:

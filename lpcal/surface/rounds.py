@@ -190,7 +190,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None, CARRIED_ROUNDS if thrown_known else None
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
-    step, sigma = steps(grid, n, seen.rays_C, central=seen.central)
+    step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
     if scene.near:
         own = distance.own_distance(lit, partial(scene.B_at, lit.thrown), depth, seen, found)
         own = distance.doubted(own, lit, seen, found)
