@@ -22,6 +22,7 @@ from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
+from lpcal.records.calibration import Light
 from lpcal.surface import background, flats, layers, mask, regions, room_light, sight
 from lpcal.surface.coarse import LightTable, coarse_of, factor_of, joined
 from lpcal.surface.regions import Pictures, Regions, View
@@ -70,23 +71,46 @@ class Example:
         return np.stack(list(regions.beside(self.pictures, self.found, background.logit(self.first)).values()), axis=1)
 
 
+@dataclass(frozen=True)
+class Seen:
+    """A scene as the mask sees it, and its truth."""
+
+    maps: sight.Grey
+    rays_C: np.ndarray
+    lights: tuple[Light, ...]
+    distance_m: float
+    room: np.ndarray | None
+    true: np.ndarray
+    """(H, W) bool."""
+
+    @staticmethod
+    def of(scene: Path) -> Seen:
+        """From its folder; without an ambient image the room's light is estimated and taken away."""
+        calibration = read_calibration(scene / "calibration.yaml")
+        raw = read_capture(scene / "capture", [light.name for light in calibration.lights], name=scene.name, use=None)
+        radiance = to_radiance(raw, settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor)
+        lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
+        maps = sight.grey(radiance, lights)
+        rays_C, room = sight.ray_map(radiance.signal.shape[1:3], calibration.camera), sight.room(radiance)
+        if room is None:
+            maps = room_light.taken_away(maps, room_light.found(maps, rays_C, lights, distance_m))
+        return Seen(maps, rays_C, lights, distance_m, room, np.load(scene / "truth/surface.npz")["mask"])
+
+    def view(self) -> tuple[View, np.ndarray]:
+        """The coarse view, and which of its pixels (P,) are lit."""
+        image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, mask.COARSE_PIXELS))
+        table = LightTable.of(image, self.lights, self.distance_m)
+        lit = np.sum(image.signal > mask.LIT_SIGMAS * image.sigma, axis=0) >= 3
+        return View(image, table, flats.sweep(image, table, self.distance_m)), lit
+
+
 def example(scene: Path) -> list[Example]:
     """A scene taken apart as the mask does it."""
-    calibration = read_calibration(scene / "calibration.yaml")
-    raw = read_capture(scene / "capture", [light.name for light in calibration.lights], name=scene.name, use=None)
-    sensor = settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor
-    radiance = to_radiance(raw, sensor)
-    lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
-    maps = sight.grey(radiance, lights)
-    rays_C = sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    if sight.room(radiance) is None:
-        maps = room_light.taken_away(maps, room_light.found(maps, rays_C, lights, distance_m))
-    image = coarse_of(maps, rays_C, factor_of(maps, mask.COARSE_PIXELS))
-    lit = np.sum(image.signal > mask.LIT_SIGMAS * image.sigma, axis=0) >= 3
-    table = LightTable.of(image, lights, distance_m)
-    view = View(image, table, flats.sweep(image, table, distance_m))
-    true = joined(np.load(scene / "truth/surface.npz")["mask"].astype(float), image.factor) > 0.5
-    return of_view(scene.name, view, flats.find(image, table, view.swept, lit, distance_m), lit, distance_m, true)
+    seen = Seen.of(scene)
+    view, lit = seen.view()
+    true = joined(seen.true.astype(float), view.image.factor) > 0.5
+    planes = flats.find(view.image, view.table, view.swept, lit, seen.distance_m)
+    return of_view(scene.name, view, planes, lit, seen.distance_m, true)
 
 
 def of_view(name: str, view: View, planes: list[np.ndarray], lit: np.ndarray, distance_m: float, true: np.ndarray) -> list[Example]:

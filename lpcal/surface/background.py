@@ -14,8 +14,9 @@ from typing import Literal
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import regions
+from lpcal.surface.likeness import likeness
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
@@ -49,6 +50,13 @@ BESIDE = {
     "frame of the whole, seen through": -1.72,
 }
 """Weights of what the regions about it say, likewise."""
+CONTEXT = {"": 0.348, "odds": 0.909, "about": 0.641, "lights": 0.309, "room": 0.503, "room, widely": 0.168}
+"""Weights of a coarse pixel's clues in its log odds, by its region's and by what it is like. By tools/fit_outline.py."""
+ABOUT_PX = 1.5
+"""Standard deviation, in coarse pixels, of the neighbourhood whose odds a pixel is compared with."""
+LIKE_PX = (3.0, 5.0, 12.0)
+"""The same of the windows in which a pixel is compared with the object and with the rest: by the image without lights, by the lights', and
+widely by the image without lights."""
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say how much of the picture shows nothing."""
 SMALLEST_PIECE = 0.08
@@ -70,7 +78,7 @@ Kind = Literal["support", "wall", "dark", "other"]
 
 @dataclass(frozen=True)
 class Judged:
-    """Odds of the regions, and what follows."""
+    """Odds of regions or of coarse pixels, and what follows."""
 
     odds: Array
     """(rows, columns) that a pixel is the object, 0..1."""
@@ -92,19 +100,62 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
 
     Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
     """
-    from scipy import ndimage
-
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels)
     probable = odds_of(pictures, found)
     odds = np.zeros(labels.shape)
     odds[view.window] = probable[found.number]
+    return _judged(odds, view, labels)
+
+
+def _judged(odds: Array, view: View, labels: Labels) -> Judged:
+    from scipy import ndimage
+
+    odds = odds.copy()
     for at in view.points:
         shown, _ = ndimage.label(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points))
+
+
+def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, room: Image | None) -> Judged:
+    """Regions judged pixel by pixel anew, by what their neighbours are and which side they are like.
+
+    `bright` and `room` (rows, columns) are the logarithms of the lights' brightness and of the image without lights, where there is one:
+    what no light reaches, and what paint or a shadow has joined to a wrong region, shows itself there.
+    """
+    clues = context_of(judgement.odds, bright, room)
+    if clues is None:
+        return judgement
+    odds = _odds(clues, CONTEXT).reshape(labels.shape)
+    here = np.zeros(labels.shape, bool)
+    here[view.window] = True
+    return _judged(np.where(here, odds, 0.0), view, labels)
+
+
+def context_of(odds: Array, bright: Image, room: Image | None) -> dict[str, Array] | None:
+    """The clues (P,) of coarse pixels by odds (rows, columns); None where all is on one side."""
+    from scipy import ndimage
+
+    inside = odds > 0.5
+    if not inside.any() or inside.all():
+        return None
+    everywhere = np.ones(odds.shape, bool)
+    near, plain, wide = LIKE_PX
+
+    def like(picture: Image | None, by: float) -> Array:
+        return np.zeros(odds.size) if picture is None else likeness([picture], inside, ~inside, by, everywhere)[0]
+
+    return {
+        "": np.ones(odds.size),
+        "odds": logit(odds.ravel()),
+        "about": ndimage.gaussian_filter(odds, ABOUT_PX).ravel() - 0.5,
+        "lights": like(bright, plain),
+        "room": like(room, near),
+        "room, widely": like(room, wide),
+    }
 
 
 def odds_of(pictures: Pictures, found: Regions) -> Array:
@@ -120,7 +171,7 @@ def logit(odds: Array) -> Array:
 
 
 def _odds(clues: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
-    total = sum(weights[name] * value for name, value in ({"": 1.0} | dict(clues)).items())
+    total = sum(weights[name] * value for name, value in ({"": np.float64(1.0)} | dict(clues)).items())
     return np.asarray(1 / (1 + np.exp(-np.clip(total, -30, 30))))
 
 

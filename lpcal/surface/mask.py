@@ -41,8 +41,8 @@ LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02
 """Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
-DOUBTED, DOUBT_POWER = 0.25, 1.8
-"""Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_mask.py."""
+DOUBTED, DOUBT_POWER = 0.26, 1.8
+"""Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_outline.py."""
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def _by_strength(maps: Grey) -> Mask:
     level = np.log(np.maximum(lit, noise))
     mask = level > _otsu(level)
     mask &= lit > LIT_SIGMAS * noise
-    return _tidy(cut.along_the_seam(_tidy(mask), _picture(maps)))
+    return tidy(cut.along_the_seam(tidy(mask), _picture(maps)))
 
 
 def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None) -> Found | None:
@@ -155,6 +155,7 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
+    judged = background.in_context(judged, view, labels, *outline.levels_of(image, room))
     mask, behind = judged.mask, judged.behind
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
@@ -165,8 +166,9 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
-    apart = outline.Apart(mask, labels, found, image, table, float(u_free))
-    fine = _tidy(outline.drawn(apart, maps, rays_C, room))
+    log_odds = background.logit(judged.odds.ravel()).reshape(image.shape)
+    apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
+    fine = tidy(outline.drawn(apart, maps, rays_C, room))
     fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
@@ -229,7 +231,7 @@ def border_band(shape: tuple[int, ...]) -> Mask:
     return border
 
 
-def _tidy(mask: Mask) -> Mask:
+def tidy(mask: Mask) -> Mask:
     """Without crumbs and small holes."""
     from scipy import ndimage
 

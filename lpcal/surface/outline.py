@@ -1,12 +1,14 @@
-"""The outline of a mask that was found in coarse pixels, drawn anew at every finer scale, in a band about it.
+r"""The outline of a mask that was found in coarse pixels, drawn anew at every finer scale, in a band about it.
 
-What speaks for a pixel's being the object, at each scale: the layers near it on either side (surface.layers), and, where there is an image
-without lights, that image beside what it shows just inside and just outside: shadows, which the lights' images are full of at an outline,
-are not in it. Both are twice a difference of log likelihoods; surface.cut draws the outline by their sum.
+The log odds that a pixel of the band is the object are linear in a few clues: the layers near it on either side (surface.layers), the odds
+of the coarse pixel that it lies in (surface.background), on which side of the outline so far it lies, and which side it is like
+(surface.likeness), in the lights' brightness and in the image without lights: shadows, which the lights' images are full of at an outline,
+are not in that one. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by their sum.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,24 +16,23 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import cut, layers
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, joined
-from lpcal.surface.sight import Grey, strength
+from lpcal.surface.likeness import MOST, level, likeness
+from lpcal.surface.sight import Grey, Indices, strength
 
+WITH_ROOM = {"": 0.577, "layers": 0.282, "odds": 0.176, "side": 0.472, "lights": 0.208, "room": 0.375}
+"""Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
+WITHOUT_ROOM = {"": 0.375, "layers": 0.276, "odds": 0.0938, "side": 1.05, "lights": 0.295}
+"""The same where there is none."""
 BAND = 2
 """Pixels of a scale on either side of an outline that the next finer scale asks anew."""
 DIM = 4
 """Coarse pixels on either side of an outline within which what no light reaches is asked anew where there is an image without lights."""
-EVIDENCE = 10.0
-"""Difference of costs that is full evidence for or against a pixel in the outline."""
-BY_ROOM = 2.0
-"""Weight of the image without lights beside the lights': the layers' costs are less sure at an outline, for shadows lie there."""
+SURE = 3.3
+"""Log odds that are full evidence for or against a pixel in the outline."""
 STIFFNESS = 0.6
 """Evidence that a unit of outline must be worth where the picture shows no edge."""
-TEXTURE = 0.1
-"""Standard deviation of the logarithm of the room's light on one material, beside what its neighbourhood shows: paint, folds, shadows."""
-DIMMEST = 0.02
-"""Share of its median at which the image without lights is taken for dark."""
-KNOWN = 0.02
-"""Share of a neighbourhood that must lie on a side for its mean to stand for the side there; else that of the nearest place does."""
+DIMMEST, DARKEST = 0.02, 0.01
+"""Brightness that is taken for dark: of the image without lights a share of its median, of the lights' one of its 99th percentile."""
 
 
 @dataclass(frozen=True)
@@ -47,40 +48,99 @@ class Apart:
     table: LightTable
     u_free: float
     """Natural logarithm of the object's distance in metres."""
+    log_odds: Array
+    """(rows, columns) that a coarse pixel is the object."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """What is asked at one scale."""
+
+    inside: Mask
+    """(h, w) what is the object without being asked."""
+    band: Mask
+    """(h, w) the N pixels that are asked."""
+    clues: dict[str, Array]
+    """(N,) each."""
+    picture: Image
+    """(h, w) logarithm of the lights' brightness."""
+
+    def drawn(self, weights: Mapping[str, float]) -> Mask:
+        """The mask (h, w) by weights of the clues."""
+        log_odds = sum(weights[name] * value for name, value in self.clues.items())
+        said = np.where(self.inside, 2.0, -2.0).astype(np.float32)
+        said[self.band] = np.clip(log_odds / SURE, -1, 1)
+        return cut.total_variation(said, self.picture, STIFFNESS)
 
 
 def drawn(apart: Apart, maps: Grey, rays_C: Array, room: Image | None) -> Mask:
     """The mask (H, W) in full size; `room` (H, W) is the image without lights, None where there is none."""
-    coarse, mask, factor = apart.image.factor, apart.mask, apart.image.factor
-    rows, columns = mask.shape
+    weights = WITHOUT_ROOM if room is None else WITH_ROOM
+    mask = apart.mask
+    for before, factor in factors(apart.image.factor):
+        mask = asked(apart, maps, rays_C, room, mask, before, factor).drawn(weights)
+    return cut.halfway(mask, maps.signal, maps.sigma)
+
+
+def factors(coarse: int) -> Iterator[tuple[int, int]]:
+    """Pixels of a pixel of each scale and of the next finer one, from coarse pixels down to 1."""
+    while True:
+        finer = max(1, coarse // 2)
+        yield coarse, finer
+        if finer == 1:
+            return
+        coarse = finer
+
+
+def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mask, before: int, factor: int) -> Level:
+    """What is asked at a scale of `factor` pixels, by the mask of the scale of `before` pixels."""
+    from scipy import ndimage
+
+    here, coarse = coarse_of(maps, rays_C, factor), apart.image.factor
+    mask = enlarged(mask, before / factor, here.shape)
+    by = int(np.ceil(BAND * before / factor))
+    dim = np.zeros(here.shape, bool) if room is None else enlarged(_dim(apart), coarse / factor, here.shape)
+    inside = cut.shrunk(mask, by)
+    band = dim | (_grown(mask, by) & ~inside)
+    rows, columns = apart.mask.shape
+    row, column = np.nonzero(band)
+    parent = np.minimum(row * factor // coarse, rows - 1) * columns + np.minimum(column * factor // coarse, columns - 1)
+    bright, light = levels_of(here, room)
+    pictures = {"lights": bright} if light is None else {"lights": bright, "room": light}
+    edge = max(1, by // 2)
+    sides = cut.shrunk(mask, edge) & ~dim, ~(_grown(mask, edge) | dim)
+    far = ndimage.distance_transform_edt(mask) - ndimage.distance_transform_edt(~mask)
+    clues = {
+        "": np.ones(len(row)),
+        "layers": _by_layers(apart, here, band.ravel(), parent),
+        "odds": apart.log_odds.ravel()[parent],
+        "side": np.tanh(far[band] / by),
+        **dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True)),
+    }
+    return Level(inside, band, clues, bright)
+
+
+def levels_of(image: Coarse, room: Image | None) -> tuple[Image, Image | None]:
+    """Logarithms (rows, columns) of the lights' brightness, and of the image without lights (H, W), where there is one."""
+    bright = strength(image.maps)
+    return (
+        level(bright, DARKEST * float(np.percentile(bright, 99))),
+        None if room is None else level(np.asarray(joined(room, image.factor), np.float32), DIMMEST * float(np.median(room))),
+    )
+
+
+def _by_layers(apart: Apart, here: Coarse, band: Mask, parent: Indices) -> Array:
+    """The log likelihood ratio (N,) of pixels of a band (P,), in coarse pixels `parent` (N,), by the layers near them on either side."""
     every = range(len(apart.found.planes) + 3)
     of_object, of_rest = (
-        np.stack([_grown(_opened(apart.labels == k) & side, BAND) for k in every]).reshape(len(every), -1) for side in (mask, ~mask)
+        np.stack([_grown(_opened(apart.labels == k) & side, BAND) for k in every]).reshape(len(every), -1)
+        for side in (apart.mask, ~apart.mask)
     )
     of_object[0], of_rest[0] = True, False
-    dim = np.zeros(mask.shape, bool) if room is None else _dim(apart)
-    while True:
-        finer = max(1, factor // 2)
-        here = coarse_of(maps, rays_C, finer)
-        mask = enlarged(mask, factor / finer, here.shape)
-        by = int(np.ceil(BAND * factor / finer))
-        asked = enlarged(dim, coarse / finer, here.shape)
-        inside = cut.shrunk(mask, by)
-        band = (asked | (_grown(mask, by) & ~inside)).ravel()
-        row, column = np.indices(here.shape).reshape(2, -1)[:, band]
-        parent = np.minimum(row * finer // coarse, rows - 1) * columns + np.minimum(column * finer // coarse, columns - 1)
-        at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
-        cost = layers.costs(apart.found, at, apart.table, np.full(len(parent), apart.u_free))
-        own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
-        evidence = np.clip((rest - own) / EVIDENCE, -1, 1)
-        if room is not None:
-            evidence += BY_ROOM * np.clip(_by_room(joined(room, finer), mask, asked, by).ravel()[band] / EVIDENCE, -1, 1)
-        said = np.where(inside, 2.0, -2.0).astype(np.float32).ravel()
-        said[band] = np.clip(evidence, -1, 1)
-        mask = cut.total_variation(said.reshape(here.shape), _log(strength(here.maps)), STIFFNESS)
-        if finer == 1:
-            return cut.halfway(mask, maps.signal, maps.sigma)
-        factor = finer
+    at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
+    cost = layers.costs(apart.found, at, apart.table, np.full(len(parent), apart.u_free))
+    own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
+    return np.clip((rest - own) / 2, -MOST, MOST)
 
 
 def _dim(apart: Apart) -> Mask:
@@ -99,32 +159,6 @@ def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
     return np.asarray(large > 0.5)
 
 
-def _by_room(room: Image, mask: Mask, asked: Mask, by: int) -> Array:
-    """Twice the log likelihood ratio (H, W) of the room's light (H, W): as the mask shows it `by` pixels about, or as what lies outside."""
-    dark = DIMMEST * float(np.median(room))
-    level = np.log(np.maximum(room, max(dark, 1e-12)))
-    edge = max(1, by // 2)
-    sides = cut.shrunk(mask, edge) & ~asked, ~(_grown(mask, edge) | asked)
-    if not all(side.any() for side in sides):
-        return np.zeros(mask.shape)
-    cost = []
-    for side in sides:
-        mean, variance = _about(level, side, by)
-        variance = variance + TEXTURE**2
-        cost.append((level - mean) ** 2 / variance + np.log(variance))
-    return np.asarray(cost[1] - cost[0])
-
-
-def _about(picture: Array, side: Mask, by: int) -> tuple[Array, Array]:
-    """Mean and variance (H, W) of a picture on one side, `by` pixels about each place; far from the side those of its nearest place."""
-    from scipy import ndimage
-
-    share = ndimage.gaussian_filter(side.astype(float), by)
-    mean, square = (ndimage.gaussian_filter(np.where(side, one, 0.0), by) / np.maximum(share, 1e-9) for one in (picture, picture**2))
-    nearest = tuple(ndimage.distance_transform_edt(share <= KNOWN, return_distances=False, return_indices=True))
-    return mean[nearest], np.maximum(square - mean**2, 0.0)[nearest]
-
-
 def _grown(mask: Mask, by: int) -> Mask:
     from scipy import ndimage
 
@@ -135,7 +169,3 @@ def _opened(mask: Mask) -> Mask:
     from scipy import ndimage
 
     return np.asarray(ndimage.binary_opening(mask))
-
-
-def _log(bright: Image) -> Image:
-    return np.log(np.maximum(bright, 0.01 * np.percentile(bright, 99))).astype(np.float32)
