@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from fit_mask import WRONG, Seen, doubted, iou, line_of
 
+from fit_mask import WRONG, Seen, doubted, iou, line_of
 from lpcal.api.engines import engine_of
 from lpcal.surface import background, cut, flats, layers, mask, outline
 from lpcal.surface.coarse import joined

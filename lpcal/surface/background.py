@@ -50,7 +50,7 @@ BESIDE = {
     "frame of the whole, seen through": -1.72,
 }
 """Weights of what the regions about it say, likewise."""
-CONTEXT = {"": 0.348, "odds": 0.909, "about": 0.641, "lights": 0.309, "room": 0.503, "room, widely": 0.168}
+CONTEXT = {"": 0.311, "odds": 0.947, "about": 0.636, "lights": 0.17, "room": 0.448, "room, widely": 0.126}
 """Weights of a coarse pixel's clues in its log odds, by its region's and by what it is like. By tools/fit_outline.py."""
 ABOUT_PX = 1.5
 """Standard deviation, in coarse pixels, of the neighbourhood whose odds a pixel is compared with."""

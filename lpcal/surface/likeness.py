@@ -19,7 +19,7 @@ TEXTURE = 0.1
 """Standard deviation of the logarithm of brightness on one material, besides what its neighbourhood shows: paint, folds, shadows."""
 KNOWN = 0.02
 """Share of a window that must lie on a side for its mean to stand for the side there; else that of the nearest place does."""
-MOST = 5.0
+MOST = 10.0
 """Log likelihood ratio at most: a single pixel does not decide."""
 REACH = 4
 """Standard deviations of the window beyond which nothing counts."""
@@ -30,8 +30,6 @@ def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, 
 
     `by` is the standard deviation of the window in pixels. Zero where one of the sides is empty.
     """
-    from scipy import ndimage
-
     if not (asked.any() and inside.any() and outside.any()):
         return [np.zeros(int(asked.sum())) for _ in pictures]
     rows, columns = (np.flatnonzero(asked.any(axis=axis)) for axis in (1, 0))
@@ -40,21 +38,27 @@ def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, 
     if not (inside[box].any() and outside[box].any()):
         box = (slice(None), slice(None))
     here = asked[box]
+    parts = [picture[box].astype(np.float32) for picture in pictures]
+    out, within = (_costs(parts, side[box], by, here) for side in (outside, inside))
+    return [np.clip((a - b) / 2, -MOST, MOST) for a, b in zip(out, within, strict=True)]
 
-    def blurred(values: Array) -> Array:
+
+def _costs(pictures: Sequence[Image], side: Mask, by: float, here: Mask) -> list[Array]:
+    """Twice the negative log likelihood (N,) of the pixels `here` (H, W) among those of a side (H, W), by each picture (H, W)."""
+    from scipy import ndimage
+
+    def blurred(values: Image) -> Array:
         return np.asarray(ndimage.gaussian_filter(values, by, truncate=REACH))
 
-    total = [np.zeros(int(asked.sum())) for _ in pictures]
-    for side, sign in ((outside[box], 0.5), (inside[box], -0.5)):
-        share = blurred(side.astype(np.float32))
-        nearest = ndimage.distance_transform_edt(share <= KNOWN, return_distances=False, return_indices=True)[:, here]
-        weight = np.maximum(share[tuple(nearest)], 1e-9)
-        for picture, found in zip(pictures, total, strict=True):
-            part = picture[box].astype(np.float32)
-            mean, square = (blurred(np.where(side, one, np.float32(0)))[tuple(nearest)] / weight for one in (part, part**2))
-            variance = np.maximum(square - mean**2, 0.0) + TEXTURE**2
-            found += sign * ((part[here] - mean) ** 2 / variance + np.log(variance))
-    return [np.clip(found, -MOST, MOST) for found in total]
+    share = blurred(side.astype(np.float32))
+    nearest = tuple(ndimage.distance_transform_edt(share <= KNOWN, return_distances=False, return_indices=True)[:, here])
+    weight = np.maximum(share[nearest], 1e-9)
+    costs = []
+    for picture in pictures:
+        mean, square = (blurred(np.where(side, one, np.float32(0)))[nearest] / weight for one in (picture, picture**2))
+        variance = np.maximum(square - mean**2, 0.0) + TEXTURE**2
+        costs.append((picture[here] - mean) ** 2 / variance + np.log(variance))
+    return costs
 
 
 def level(picture: Image, dimmest: float) -> Image:

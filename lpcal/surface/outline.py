@@ -3,7 +3,7 @@ r"""The outline of a mask that was found in coarse pixels, drawn anew at every f
 The log odds that a pixel of the band is the object are linear in a few clues: the layers near it on either side (surface.layers), the odds
 of the coarse pixel that it lies in (surface.background), on which side of the outline so far it lies, and which side it is like
 (surface.likeness), in the lights' brightness and in the image without lights: shadows, which the lights' images are full of at an outline,
-are not in that one. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by their sum.
+are not in that one. Of what no light reaches the lights say nothing but by the odds. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by their sum.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from lpcal.surface.coarse import Coarse, LightTable, coarse_of, joined
 from lpcal.surface.likeness import MOST, level, likeness
 from lpcal.surface.sight import Grey, Indices, strength
 
-WITH_ROOM = {"": 0.577, "layers": 0.282, "odds": 0.176, "side": 0.472, "lights": 0.208, "room": 0.375}
+WITH_ROOM = {"": -0.0715, "layers": 0.163, "odds": 0.158, "lights": 0.134, "room": 0.279, "odds, dim": 0.526}
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
-WITHOUT_ROOM = {"": 0.375, "layers": 0.276, "odds": 0.0938, "side": 1.05, "lights": 0.295}
+WITHOUT_ROOM = {"": -0.0209, "layers": 0.14, "odds": 0.109, "lights": 0.176}
 """The same where there is none."""
 BAND = 2
 """Pixels of a scale on either side of an outline that the next finer scale asks anew."""
@@ -109,14 +109,12 @@ def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mas
     pictures = {"lights": bright} if light is None else {"lights": bright, "room": light}
     edge = max(1, by // 2)
     sides = cut.shrunk(mask, edge) & ~dim, ~(_grown(mask, edge) | dim)
-    far = ndimage.distance_transform_edt(mask) - ndimage.distance_transform_edt(~mask)
-    clues = {
-        "": np.ones(len(row)),
-        "layers": _by_layers(apart, here, band.ravel(), parent),
-        "odds": apart.log_odds.ravel()[parent],
-        "side": np.tanh(far[band] / by),
-        **dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True)),
-    }
+    like = dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True))
+    odds, lit = apart.log_odds.ravel()[parent], ~dim[band]
+    clues = {"": np.ones(len(row)), "layers": lit * _by_layers(apart, here, band.ravel(), parent), "odds": lit * odds}
+    clues["lights"] = lit * like["lights"]
+    if room is not None:
+        clues |= {"room": like["room"], "odds, dim": ~lit * odds}
     return Level(inside, band, clues, bright)
 
 
