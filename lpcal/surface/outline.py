@@ -1,9 +1,10 @@
 r"""The outline of a mask that was found in coarse pixels, drawn anew at every finer scale, in a band about it.
 
 The log odds that a pixel of the band is the object are linear in a few clues: the layers near it on either side (surface.layers), the odds
-of the coarse pixel that it lies in (surface.background), on which side of the outline so far it lies, and which side it is like
-(surface.likeness), in the lights' brightness and in the image without lights: shadows, which the lights' images are full of at an outline,
-are not in that one. Of what no light reaches the lights say nothing but by the odds. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by their sum.
+of the coarse pixel that it lies in (surface.background), and which side it is like (surface.likeness), in the lights' brightness and in
+the image without lights: shadows, which the lights' images are full of at an outline, are not in that one. Where no light reaches, the
+lights' images count by those odds alone. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by
+the sum.
 """
 
 from __future__ import annotations
@@ -94,8 +95,6 @@ def factors(coarse: int) -> Iterator[tuple[int, int]]:
 
 def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mask, before: int, factor: int) -> Level:
     """What is asked at a scale of `factor` pixels, by the mask of the scale of `before` pixels."""
-    from scipy import ndimage
-
     here, coarse = coarse_of(maps, rays_C, factor), apart.image.factor
     mask = enlarged(mask, before / factor, here.shape)
     by = int(np.ceil(BAND * before / factor))

@@ -37,8 +37,11 @@ def test_parts_textures_and_leaves_what_is_alike_open() -> None:
     same, _ = two_sides(rng, 0.0)
     everywhere = np.ones(left.shape, bool)
     apart, alike = (one.reshape(left.shape) for one in likeness([picture, same], left, ~left, 4.0, everywhere))
-    assert np.all(apart[left] > 3) and np.all(apart[~left] < -3) and np.abs(apart).max() <= MOST
-    assert np.abs(np.mean(alike)) < 0.05 and np.percentile(np.abs(alike), 95) < 0.5
+    assert np.all(apart[left] > 3)
+    assert np.all(apart[~left] < -3)
+    assert np.abs(apart).max() <= MOST
+    assert np.abs(np.mean(alike)) < 0.05
+    assert np.percentile(np.abs(alike), 95) < 0.5
 
 
 def test_a_wrong_outline_is_seen_through() -> None:
