@@ -149,3 +149,26 @@ def test_a_tenth_of_the_noise_moves_no_normal_far() -> None:
     other, _ = found(replace(seen, signal=seen.signal + shake), lit)
     moved = errors_deg(one.b, lambert.unit(other.b)[0])
     assert np.quantile(moved, 0.99) < 0.5
+
+
+def test_a_normal_is_as_sure_as_its_samples() -> None:
+    """`tilt_rad`: the scatter of normals over many draws of the noise where many lights reach; in the dark next to nothing is known."""
+    seen, lit, n, clean = ball(6)
+    many, none = np.sum(clean > 0.02, axis=0) == 6, np.zeros(seen.pixels, bool)
+    none[np.flatnonzero(many)[:40]] = True
+    signal = np.where(none, 0.0, clean)
+
+    def drawn(seed: int) -> field.Field:
+        noisy = signal + 2e-3 * np.random.default_rng(seed).standard_normal(clean.shape)
+        return found(replace(seen, signal=noisy), lit)[0]
+
+    fields = [drawn(seed) for seed in range(12)]
+    bright = many & ~none
+    unit = np.stack([lambert.unit(one.b)[0] for one in fields])
+    scatter = np.sqrt(np.sum(np.var(unit, axis=0, ddof=1), axis=1) / 2)[bright]
+    tilt = fields[0].tilt_rad
+    assert tilt is not None
+    assert np.all(tilt[bright] < 0.06)
+    assert 0.5 * np.median(scatter) < np.median(tilt[bright])
+    assert np.percentile(scatter / tilt[bright], 90) < 1.2
+    assert np.median(tilt[none]) > 3 * np.median(tilt[bright])
