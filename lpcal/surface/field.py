@@ -46,8 +46,9 @@ JUNK, ACROSS = 0.5, 6.0
 FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
 """Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
 slowly."""
-ANY_RAD = 0.5
-"""Standard deviation, radians, of a normal that no sample determines, about that of its neighbours: half of the hemisphere's own."""
+ANY_RAD = 0.12
+"""Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for a pixel by itself, and
+lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
 SOLVED, MOST_STEPS = 1e-3, 60
 """Residual at which the conjugate gradients stop, and how many steps they take at most."""
 TOWARDS = 0.02
@@ -64,7 +65,7 @@ class Field:
     """By each pixel's own samples among those that the field says are lit; NaN where they are fewer than three or in a plane."""
     gloss: gloss.Gloss | None
     tilt_rad: Array | None = None
-    """(P,) standard deviation of the normal about an axis by each pixel's own samples, radians; ANY_RAD where they leave it open."""
+    """(P,) standard deviation of the normal about an axis by each pixel's own samples, radians; at most ANY_RAD."""
 
 
 @dataclass(frozen=True)

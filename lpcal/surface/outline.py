@@ -24,6 +24,9 @@ WITH_ROOM = {"": -0.0715, "layers": 0.163, "odds": 0.158, "lights": 0.134, "room
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
 WITHOUT_ROOM = {"": -0.0209, "layers": 0.14, "odds": 0.109, "lights": 0.176}
 """The same where there is none."""
+LEAN = 0.8
+"""Log odds by which a pixel of the band is rather the object: rims are darker than what they bound, and more is missing than too much without
+it. From 0 to 0.8 the mean IoU of 160 drawn scenes rises from .956 to .958, that of rig_a's objects from .978 to .985."""
 BAND = 2
 """Pixels of a scale on either side of an outline that the next finer scale asks anew."""
 DIM = 4
@@ -68,7 +71,7 @@ class Level:
 
     def drawn(self, weights: Mapping[str, float]) -> Mask:
         """The mask (h, w) by weights of the clues."""
-        log_odds = sum(weights[name] * value for name, value in self.clues.items())
+        log_odds = LEAN + sum(weights[name] * value for name, value in self.clues.items())
         said = np.where(self.inside, 2.0, -2.0).astype(np.float32)
         said[self.band] = np.clip(log_odds / SURE, -1, 1)
         return cut.total_variation(said, self.picture, STIFFNESS)
