@@ -47,7 +47,7 @@ FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
 """Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
 slowly."""
 ANY_RAD = 0.12
-"""Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for a pixel by itself, and
+"""Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for one pixel, and
 lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
 SOLVED, MOST_STEPS = 1e-3, 60
 """Residual at which the conjugate gradients stop, and how many steps they take at most."""

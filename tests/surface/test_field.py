@@ -153,7 +153,7 @@ def test_a_tenth_of_the_noise_moves_no_normal_far() -> None:
 
 def test_a_normal_is_as_sure_as_its_samples() -> None:
     """`tilt_rad`: the scatter of normals over many draws of the noise where many lights reach; in the dark next to nothing is known."""
-    seen, lit, n, clean = ball(6)
+    seen, lit, _, clean = ball(6)
     many, none = np.sum(clean > 0.02, axis=0) == 6, np.zeros(seen.pixels, bool)
     none[np.flatnonzero(many)[:40]] = True
     signal = np.where(none, 0.0, clean)
