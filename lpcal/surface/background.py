@@ -1,9 +1,9 @@
 r"""Which labels are the object and which the wall behind it or the support under it: odds of every region, from clues.
 
-The log odds that a region is the object are linear in its clues (surface.regions), first in those of its own, then in what its neighbours'
-odds say as well; both lines are fitted by tools/fit_mask.py on drawn scenes. What they leave open is the mask's stated doubt. The user may
-say where the object is: a box takes the place of the image, and what a given point shows is the object.
-Source: Wolpert 1992, Neural Networks 5 (a second fit on the predictions of a first).
+The log odds that a region is the object are linear in its clues (surface.regions), first in those of its own, then also in those of its
+neighbours' odds; both are fitted by tools/fit_mask.py on simulated scenes. Their remaining uncertainty is the mask's stated doubt. The user
+may say where the object is: a box takes the place of the image, and what a given point shows is the object. Source: Wolpert 1992, Neural
+Networks 5 (a second fit on the predictions of a first).
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ BESIDE = {
     "frame of the whole plane": -1.77,
     "frame of the whole, seen through": -1.72,
 }
-"""Weights of what the regions about it say, likewise."""
+"""Weights of the clues of the regions about it, likewise."""
 CONTEXT = {"": 0.311, "odds": 0.947, "about": 0.636, "lights": 0.17, "room": 0.448, "room, widely": 0.126}
 """Weights of a coarse pixel's clues in its log odds, by its region's and by what it is like. By tools/fit_outline.py."""
 ABOUT_PX = 1.5
@@ -58,13 +58,13 @@ LIKE_PX = (3.0, 5.0, 12.0)
 """The same of the windows in which a pixel is compared with the object and with the rest: by the image without lights, by the lights', and
 widely by the image without lights."""
 RIM = 2
-"""Coarse pixels at the image's border, of which those without light say how much of the picture shows nothing."""
+"""Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
 SMALLEST_PIECE = 0.08
 """Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
 LIKELY = (0.01, 0.99)
-"""Odds beyond which a region says no more to its neighbours."""
+"""Odds beyond which a region counts no more for its neighbours."""
 CARRIED = 5
 """Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
 OPEN = 0.1
@@ -121,7 +121,7 @@ def _judged(odds: Array, view: View, labels: Labels) -> Judged:
 
 
 def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, room: Image | None) -> Judged:
-    """Regions judged pixel by pixel anew, by what their neighbours are and which side they are like.
+    """Regions judged again pixel by pixel, by what their neighbours are and which side they are like.
 
     `bright` and `room` (rows, columns) are the logarithms of the lights' brightness and of the image without lights, where there is one:
     what no light reaches, and what paint or a shadow has joined to a wrong region, shows itself there.
@@ -205,14 +205,14 @@ def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, d
 
 @dataclass(frozen=True)
 class Doubt:
-    """What of an object's outline is open."""
+    """What of an object's outline is uncertain."""
 
     share: float
     """Area that is expected to be on the wrong side, as a share of the object's."""
     open: float
     """Area of `place`, likewise."""
     place: Mask
-    """(rows, columns) where the odds leave open what it is."""
+    """(rows, columns) where the odds leave it uncertain."""
     rival: int
     """The label that most of it has, or whose place it takes."""
 

@@ -1,10 +1,10 @@
-r"""The outline of a mask that was found in coarse pixels, drawn anew at every finer scale, in a band about it.
+r"""The outline of a mask that was found in coarse pixels, found again at every finer scale, in a band about it.
 
 The log odds that a pixel of the band is the object are linear in a few clues: the layers near it on either side (surface.layers), the odds
-of the coarse pixel that it lies in (surface.background), and which side it is like (surface.likeness), in the lights' brightness and in
-the image without lights: shadows, which the lights' images are full of at an outline, are not in that one. Where no light reaches, the
-lights' images count by those odds alone. The weights are fitted by tools/fit_outline.py on drawn scenes; surface.cut draws the outline by
-the sum.
+of the coarse pixel that it lies in (surface.background), and which side it is like (surface.likeness), in the lights' brightness and in the
+image without lights: shadows, which the lights' images are full of at an outline, are not in that one. Where no light reaches, the lights'
+images count by those odds alone. The weights are fitted by tools/fit_outline.py on simulated scenes; surface.cut finds the outline by the
+sum.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ WITHOUT_ROOM = {"": -0.0209, "layers": 0.14, "odds": 0.109, "lights": 0.176}
 """The same where there is none."""
 LEAN = 0.8
 """Log odds added for the object: rims are darker than what they bound, and without it more is missing than too much. From 0 to 0.8 the mean
-IoU of 160 drawn scenes rises from .956 to .958, that of rig_a's objects from .978 to .985."""
+IoU of 160 simulated scenes rises from .956 to .958, that of rig_a's objects from .978 to .985."""
 BAND = 2
-"""Pixels of a scale on either side of an outline that the next finer scale asks anew."""
+"""Pixels of a scale on either side of an outline that the next finer scale judges again."""
 DIM = 4
-"""Coarse pixels on either side of an outline within which what no light reaches is asked anew where there is an image without lights."""
+"""Coarse pixels on either side of an outline within which what no light reaches is judged again where there is an image without lights."""
 SURE = 3.3
 """Log odds that are full evidence for or against a pixel in the outline."""
 STIFFNESS = 0.6
@@ -41,7 +41,7 @@ DIMMEST, DARKEST = 0.02, 0.01
 
 @dataclass(frozen=True)
 class Apart:
-    """A coarse picture that has been taken apart into layers, and which of it is the object."""
+    """A coarse picture that has been segmented into layers, and which of it is the object."""
 
     mask: Mask
     """(rows, columns)."""
@@ -58,12 +58,12 @@ class Apart:
 
 @dataclass(frozen=True)
 class Level:
-    """What is asked at one scale."""
+    """What is judged at one scale."""
 
     inside: Mask
-    """(h, w) what is the object without being asked."""
+    """(h, w) what is the object without being judged."""
     band: Mask
-    """(h, w) the N pixels that are asked."""
+    """(h, w) the N pixels that are judged."""
     clues: dict[str, Array]
     """(N,) each."""
     picture: Image
@@ -97,7 +97,7 @@ def factors(coarse: int) -> Iterator[tuple[int, int]]:
 
 
 def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mask, before: int, factor: int) -> Level:
-    """What is asked at a scale of `factor` pixels, by the mask of the scale of `before` pixels."""
+    """What is judged at a scale of `factor` pixels, by the mask of the scale of `before` pixels."""
     here, coarse = coarse_of(maps, rays_C, factor), apart.image.factor
     mask = enlarged(mask, before / factor, here.shape)
     by = int(np.ceil(BAND * before / factor))
@@ -144,7 +144,7 @@ def _by_layers(apart: Apart, here: Coarse, band: Mask, parent: Indices) -> Array
 
 
 def _dim(apart: Apart) -> Mask:
-    """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: what they are, shadows leave open."""
+    """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: shadows leave that open."""
     near = _grown(apart.mask, DIM) & ~cut.shrunk(apart.mask, DIM)
     return np.asarray(near & (apart.labels > len(apart.found.planes)))
 
