@@ -1,10 +1,11 @@
 """The same placed surfaces fused in other ways, and photogrammetry of the ambient images, for `fuse_shapes.py`.
 
 - the tracked poses alone: lpcal's surface of the depth maps where they were placed, nothing aligned;
-- small_gicp (``uv pip install small_gicp``): every view aligned with all others together, by its GICP from the tracked poses, some rounds;
+- small_gicp (``uv sync --group peers``): every view aligned with all others together, by its GICP from the tracked poses, some rounds;
   the same surface of them;
-- COLMAP (pycolmap) on the ambient images with the calibrated intrinsics: sparse points, put into the room by the tracked cameras; and its
-  triangulation at the tracked poses. Its dense stereo needs CUDA, which pycolmap's wheels lack.
+- COLMAP (pycolmap) on the ambient images with the calibrated intrinsics, features on the object alone (the screen behind it stands with the
+  camera): sparse points, put into the room by the tracked cameras; and its triangulation at the tracked poses. Its dense stereo needs CUDA,
+  which pycolmap's wheels lack.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import cv2
 import numpy as np
 
 from lpcal.fusion.align import POINTS, SHARED, Aligned, sampled
@@ -53,7 +55,7 @@ def peers(rig: Path, surfaces: Sequence[Surface]) -> Iterator[Peer]:
         yield Peer("small_gicp", None, "not installed")
     else:
         yield Peer("small_gicp from the tracked poses", surface_at(views, gicp(views, placed)))
-    yield from colmap(rig, views)
+    yield from colmap(rig, views, surfaces)
 
 
 def surface_at(views: Sequence[PlacedView], H_OC: Sequence[np.ndarray]) -> np.ndarray:
@@ -91,19 +93,22 @@ def gicp(views: Sequence[PlacedView], placed: Sequence[np.ndarray]) -> list[np.n
     return H_OC
 
 
-def colmap(rig: Path, views: Sequence[PlacedView]) -> Iterator[Peer]:
+def colmap(rig: Path, views: Sequence[PlacedView], surfaces: Sequence[Surface]) -> Iterator[Peer]:
     """COLMAP's points of the ambient images, with its own poses and with the tracked ones."""
     import pycolmap
 
     pycolmap.logging.minloglevel = 3
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        images = folder / "images"
+        images, masks = folder / "images", folder / "masks"
         images.mkdir()
-        for view in views:
-            shutil.copy(rig / "session" / view.name / "ambient.png", images / f"{view.name}.png")
+        masks.mkdir()
+        for surface in surfaces:
+            shutil.copy(rig / "session" / surface.name / "ambient.png", images / f"{surface.name}.png")
+            cv2.imwrite(str(masks / f"{surface.name}.png.png"), 255 * surface.mask.astype(np.uint8))
         camera = intrinsics(rig)
         reader = pycolmap.ImageReaderOptions()
+        reader.mask_path = masks
         reader.camera_model, reader.camera_params = camera.model.name, ",".join(f"{value:.9g}" for value in camera.params)
         extraction = pycolmap.FeatureExtractionOptions()
         extraction.num_threads = 1

@@ -38,7 +38,10 @@ PASSES = 2
 BIAS_RAD = float(np.radians(1.0))
 """What every normal of a view may be off by at least: light between surfaces shows in no standard deviation of one view."""
 SIGMA_VERTICES = 800
-"""Vertices at which the covariance of the views' places is carried over; between them it is the nearest one's."""
+"""Vertices, of those that several views see, at which the covariance of the views' places is carried over; between them it is the nearest
+one's. Where one view alone sees a vertex it is that vertex's own: a patch beside an edge is known far less well than what is next to it."""
+LONE = 2
+"""Views that see a vertex of which no other view tells: fewer than these."""
 HELD = 4_000_000
 """Vertices times views of which all is held at once: some 250 MB, whatever their number."""
 LOOSE = 0.006
@@ -254,22 +257,39 @@ HOLD_PX = 0.25
 
 def _sigma(aligned: Aligned, rest: Resting, v: Array, n: Array, footprint_m: float) -> Array:
     """Standard deviation of each vertex along its normal: the views' places, and what they still differ by."""
+    lone = rest.count < LONE
+    places = np.zeros(len(v))
+    for which, step in ((lone, 1), (~lone, max(int((~lone).sum()) // SIGMA_VERTICES, 1))):
+        held = np.flatnonzero(which)
+        if len(held):
+            at, variance = _places(aligned, v, n, held[::step], footprint_m)
+            places[held] = variance[_nearest(v[at], v[held])]
+    alone = np.where(lone, aligned.sigma_m**2, 0.0) + np.where(rest.count < 1, (GATE_PX * footprint_m) ** 2, 0.0)
+    left = (rest.disagreement_m**2 + (0.1 * footprint_m) ** 2) / np.maximum(rest.effective, 1)
+    return np.asarray(np.sqrt(places + left + alone))
+
+
+def _nearest(x: Array, of: Array) -> Index:
+    """Which of points x (N, 3) is nearest to each of others (M, 3)."""
     from scipy.spatial import cKDTree
 
-    step = max(len(v) // SIGMA_VERTICES, 1)
-    some = np.arange(0, len(v), step)
-    found = evidence(aligned.placed, v[some], n[some], GATE_PX * footprint_m)
-    share = _robust(found, SCALE_PX * footprint_m)
-    places = np.zeros(len(some))
-    for k, vertex in enumerate(some):
-        columns, values = _row(aligned, found, share, k, v[vertex], n[vertex])
-        used, local = np.unique(columns, return_inverse=True)
-        row = np.bincount(local, values, len(used))
-        places[k] = row @ aligned.covariance[np.ix_(used, used)] @ row
-    _, nearest = cKDTree(v[some]).query(v)
-    lone = np.where(rest.count < 2, aligned.sigma_m**2, 0.0) + np.where(rest.count < 1, (GATE_PX * footprint_m) ** 2, 0.0)
-    left = (rest.disagreement_m**2 + (0.1 * footprint_m) ** 2) / np.maximum(rest.effective, 1)
-    return np.asarray(np.sqrt(places[nearest] + left + lone))
+    return np.asarray(cKDTree(x).query(of)[1])
+
+
+def _places(aligned: Aligned, v: Array, n: Array, some: Index, footprint_m: float) -> tuple[Index, Array]:
+    """Variance, along the normal, of the views' places at some vertices; those that no view sees are left out where any is seen."""
+    variance, seen = np.zeros(len(some)), np.zeros(len(some), bool)
+    for part in blocks(len(aligned.placed), len(some)):
+        at = some[part]
+        found = evidence(aligned.placed, v[at], n[at], GATE_PX * footprint_m)
+        share = _robust(found, SCALE_PX * footprint_m)
+        seen[part] = found.weight.any(axis=0)
+        for k, vertex in enumerate(at):
+            columns, values = _row(aligned, found, share, k, v[vertex], n[vertex])
+            used, local = np.unique(columns, return_inverse=True)
+            row = np.bincount(local, values, len(used))
+            variance[part.start + k] = row @ aligned.covariance[np.ix_(used, used)] @ row
+    return (some[seen], variance[seen]) if seen.any() else (some, variance)
 
 
 def _row(aligned: Aligned, found: Evidence, share: Array, vertex: int, v: Array, n: Array) -> tuple[Index, Array]:

@@ -14,14 +14,14 @@ from lpcal.api import fusing
 from lpcal.api.engines import engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.model_files import read_model, write_model
-from lpcal.fusion import align, tiles, volume
+from lpcal.fusion import align, tiles, vertices, volume
 from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.model import shared_covariance
 from lpcal.fusion.vertices import held_together, rested
 from lpcal.fusion.views import fitted, view_of
 from lpcal.geometry import se3
 from lpcal.records.model import ObjectModel
-from lpcal.records.surface import Surface
+from lpcal.records.surface import Component, Surface
 
 pytest.importorskip("skimage")
 
@@ -107,6 +107,45 @@ def test_a_patch_that_one_view_alone_puts_there_and_hardly_knows_goes() -> None:
     assert left.tolist() == [[0, 1, 2], [1, 2, 3], [2, 3, 4]]
     with pytest.raises(DegenerateError, match="seen by one view alone"):
         held_together(faces, np.ones(8, bool))
+
+
+def test_a_piece_that_one_view_alone_sees_has_a_sigma_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However few vertices the covariance is carried to: a small piece beside the object, its distance known to 3 %, is left out."""
+    monkeypatch.setattr(vertices, "SIGMA_VERTICES", 10)
+    first, *others = scene().surfaces[:3]
+    model = lpcal.fuse([_with_a_scrap(first), *others], step_m=0.003)
+    assert model.missing is not None
+    assert model.missing.loose_m2 > 2e-4
+    assert np.abs(scene().off_m(model.vertices_A)).max() < 0.005
+
+
+def _with_a_scrap(surface: Surface) -> Surface:
+    """The surface with a second piece in a corner of the image, before the background."""
+    inside = np.zeros(surface.mask.shape, bool)
+    inside[4:26, 4:26] = True
+    assert not (inside & surface.mask).any()
+    single = np.float32
+    sight = surface.rays_C / np.linalg.norm(surface.rays_C, axis=-1, keepdims=True)
+    breaks = surface.breaks.copy()
+    breaks[0, :, :-1] &= ~(inside[:, :-1] & inside[:, 1:])
+    breaks[1, :-1] &= ~(inside[:-1] & inside[1:])
+
+    def put(values: np.ndarray, new: np.ndarray | float) -> np.ndarray:
+        there = inside[..., None] if values.ndim == 3 else inside
+        return np.where(there, new, values).astype(values.dtype)
+
+    return replace(
+        surface,
+        mask=surface.mask | inside,
+        depth=put(surface.depth, single(0.35)),
+        normals=put(surface.normals, -sight),
+        albedo=put(surface.albedo, single(0.6)),
+        normal_std_deg=put(surface.normal_std_deg, single(1.0)),
+        depth_std=put(surface.depth_std, single(4e-4)),
+        component=put(surface.component, 2),
+        components=(*surface.components, Component(2, int(inside.sum()), 0.35, 0.03)),
+        breaks=breaks,
+    )
 
 
 def test_what_all_views_say_is_the_same_by_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
