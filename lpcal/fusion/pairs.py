@@ -99,7 +99,7 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
     cosine = np.einsum("ij,ij->i", n_p[facing], n_q)
     close = seen.ok & (np.abs(r) < gate_m)
     before = seen.ok & ~close & (x_C[:, 2] < z - gate_m)
-    beside = seen.in_image & _background(second.view, seen.pixel)
+    beside = seen.in_image & background(second.view, seen.pixel)
     keep = np.flatnonzero(close & (cosine > TURN))
     return Meeting(
         facing[keep],
@@ -116,7 +116,7 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
     )
 
 
-def _background(view: PlacedView, pixel: Array) -> Mask:
+def background(view: PlacedView, pixel: Array) -> Mask:
     """Pixels (N, 2) that are well outside the object."""
     column, row = (np.clip(np.rint(pixel[:, k]).astype(int), 0, n - 1) for k, n in enumerate(view.depth.shape[::-1]))
     return view.far_outside[row, column]

@@ -19,7 +19,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned
-from lpcal.fusion.pairs import Placed
+from lpcal.fusion.pairs import Placed, background
 from lpcal.fusion.views import look, may_see
 from lpcal.fusion.volume import Triangles, normals_of, weight_of
 from lpcal.geometry import se3
@@ -47,6 +47,9 @@ HELD = 4_000_000
 LOOSE = 0.006
 """Sigma, as a share of the distance, from which a vertex that one view alone sees is left out: a piece that the light puts there, known to
 a hundredth of its distance and tied to nothing, stood 10 mm beside the surface; where a view holds on to others, sigma is a thousandth."""
+
+OUTVOTED = 2
+"""Views that see through a vertex which one view alone shows, from which on it is left out: one of them may be wrong itself."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +99,10 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
     v, n, n_photometric, normal_sigma, rest = v[seen], n[seen], n_photometric[seen], normal_sigma[seen], rest.of(seen)
     sigma = _sigma(aligned, rest, v, n, footprint_m)
     distance_m = float(np.median([one.view.distance_m for one in state]))
-    tied, held = held_together(faces, (rest.count == 1) & (sigma > LOOSE * distance_m))
+    lone = np.flatnonzero(rest.count == 1)
+    loose = np.zeros(len(v), bool)
+    loose[lone] = (sigma[lone] > LOOSE * distance_m) | (through(state, v[lone], LOOSE * distance_m) >= OUTVOTED)
+    tied, held = held_together(faces, loose)
     loose_m2 = _area(v, faces) - _area(v[tied], held)
     v, n, rest = v[tied], n[tied], rest.of(tied)
     albedo = _albedo(state, v, n, footprint_m)
@@ -205,6 +211,23 @@ def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> 
         weight[k, at] = weight_of(one, row[k, at], column[k, at], cosine[at])
         residual[k, at], normals[k, at] = r[same], n_view[same]
     return Evidence(weight, residual, normals, row, column)
+
+
+def through(state: Sequence[Placed], v_A: Array, margin_m: float) -> Index:
+    """How many views see through each vertex (V,): it stands before what they show, by more than a margin, or before the background."""
+    count = np.zeros(len(v_A), np.intp)
+    for some in blocks(1, len(v_A)):
+        for one in state:
+            if not may_see(one.view, one.H_AC, v_A[some]):
+                continue
+            x_C = se3.apply(se3.inv(one.H_AC), v_A[some])
+            seen = look(one.view, x_C)
+            ok = np.flatnonzero(seen.ok)
+            z = seen.depth[ok] * np.exp(one.bending.at(one.field, seen.pixel[ok], seen.component[ok]))
+            before = seen.in_image & background(one.view, seen.pixel)
+            before[ok] |= x_C[ok, 2] < z - margin_m
+            count[some] += before
+    return count
 
 
 def _robust(found: Evidence, scale_m: float) -> Array:

@@ -110,7 +110,9 @@ def a_wrong_capture_is_named(session: Session, whole_mm: float, folder: Path, ki
     if kind == "other object":
         path = tour.plan(session.drawn.built, "stone", STOPS, 1)
         shot = session.drawn.studio.stop(path.shape, path.H_CS[stop], np.random.default_rng(5))
-        write_capture(capture, shot, [line for line in (capture / "capture.yaml").read_text().splitlines() if line.startswith("time")])
+        time = [line for line in (capture / "capture.yaml").read_text().splitlines() if line.startswith("time")]
+        shutil.rmtree(capture)
+        write_capture(capture, shot, time)
     lines = [line for line in (capture / "capture.yaml").read_text().splitlines() if not line.startswith("mocap")]
     (capture / "capture.yaml").write_text("\n".join([*lines, f"mocap: {recording}"]) + "\n")
     surface = folder / "surface"

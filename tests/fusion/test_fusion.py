@@ -119,6 +119,16 @@ def test_a_piece_that_one_view_alone_sees_has_a_sigma_of_its_own(monkeypatch: py
     assert np.abs(scene().off_m(model.vertices_A)).max() < 0.005
 
 
+def test_what_stands_before_the_object_is_seen_through() -> None:
+    """Places on the surface are seen through by nobody; 15 mm before it, by the views that see the object or the background behind them."""
+    views = [view_of(surface, surface.placement) for surface in scene().surfaces]
+    placed = align.align(views, shared_covariance(views)).placed
+    x_A, n_A, _ = placed[0].points()
+    inner = np.einsum("ij,ij->i", n_A, placed[0].H_AC[:3, 3] - x_A) > 0.6 * np.linalg.norm(placed[0].H_AC[:3, 3] - x_A, axis=1)
+    assert np.mean(vertices.through(placed, x_A[inner], 0.002) > 0) < 0.02
+    assert np.mean(vertices.through(placed, x_A[inner] + 0.015 * n_A[inner], 0.002) >= vertices.OUTVOTED) > 0.95
+
+
 def _with_a_scrap(surface: Surface) -> Surface:
     """The surface with a second piece in a corner of the image, before the background."""
     inside = np.zeros(surface.mask.shape, bool)
