@@ -109,9 +109,17 @@ def _up(cameras: list[Array]) -> Array:
 
 
 def _from(cameras: list[Array], centre: Array) -> Array:
-    """From where the model is seen at first: the first camera's side."""
-    by = cameras[0][:3, 3] - centre if cameras else np.array([1.0, 0, 0])
-    return np.asarray(by / max(float(np.linalg.norm(by)), 1e-9))
+    """From where the model is seen at first: the first camera's side, halfway to the nearest other, so that neither stands before it."""
+    if not cameras:
+        return np.array([1.0, 0, 0])
+    sides = np.array([H_AC[:3, 3] - centre for H_AC in cameras])
+    sides /= np.maximum(np.linalg.norm(sides, axis=1, keepdims=True), 1e-9)
+    cosine = sides[1:] @ sides[0]
+    beside = np.flatnonzero((cosine > -0.9) & (cosine < 0.99))
+    if len(beside):
+        middle = sides[0] + sides[1 + beside[np.argmax(cosine[beside])]]
+        return np.asarray(middle / np.linalg.norm(middle))
+    return np.asarray(sides[0])
 
 
 def _line(view: ViewInModel) -> str:
