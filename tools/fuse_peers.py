@@ -3,14 +3,13 @@
 - the tracked poses alone: lpcal's surface of the depth maps where they were placed, nothing aligned;
 - small_gicp (``uv sync --group peers``): every view aligned with all others together, by its GICP from the tracked poses, some rounds;
   the same surface of them;
-- COLMAP (pycolmap) on the ambient images with the calibrated intrinsics, features on the object alone (the screen behind it stands with the
-  camera): sparse points, put into the room by the tracked cameras; and its triangulation at the tracked poses. Its dense stereo needs CUDA,
-  which pycolmap's wheels lack.
+- COLMAP (pycolmap) on the ambient images, brightened to full scale, with the calibrated intrinsics and masks of the object (the screen
+  behind it stands with the camera): sparse points, put into the room by the tracked cameras; and its triangulation at the tracked poses.
+  Its dense stereo needs CUDA, which pycolmap's wheels lack.
 """
 
 from __future__ import annotations
 
-import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -104,7 +103,9 @@ def colmap(rig: Path, views: Sequence[PlacedView], surfaces: Sequence[Surface]) 
         images.mkdir()
         masks.mkdir()
         for surface in surfaces:
-            shutil.copy(rig / "session" / surface.name / "ambient.png", images / f"{surface.name}.png")
+            dark = cv2.imread(str(rig / "session" / surface.name / "ambient.png"), cv2.IMREAD_GRAYSCALE).astype(float)
+            bright = 255 * (dark - dark.min()) / max(float(np.percentile(dark[surface.mask], 99.5)) - dark.min(), 1)
+            cv2.imwrite(str(images / f"{surface.name}.png"), np.clip(bright, 0, 255).astype(np.uint8))
             cv2.imwrite(str(masks / f"{surface.name}.png.png"), 255 * surface.mask.astype(np.uint8))
         camera = intrinsics(rig)
         reader = pycolmap.ImageReaderOptions()
