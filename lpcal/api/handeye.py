@@ -55,7 +55,7 @@ def solve_handeye(
     carries : str, optional
         What rides on the tracked body, "camera" or "board"; by default what the data say.
     inverted : bool
-        Whether the poses came as H_PO and were inverted for this call: it helps to tell a fixed camera from a tracked one.
+        Whether the poses came as H_PO and were inverted for this call: it helps to distinguish a fixed camera from a tracked one.
     camera_share : float
         Share of the views, 0 to 1, from which `camera` was solved too: their corners are not counted twice.
     progress : callable, optional

@@ -36,7 +36,7 @@ BOARDS_WANTED, TILTED_WANTED = 12, 6
 """Boards for the intrinsics, and how many of them tilted: with fewer lpcal warns."""
 PLACES = (("top left", "top", "top right"), ("left", "middle", "right"), ("bottom left", "bottom", "bottom right"))
 SAMPLED = 250_000
-"""Pixels of an image from which its exposure is told, evenly spread: the share of 0.2 % that counts as saturated is then 500 of them."""
+"""Pixels of an image from which its exposure is judged, evenly spread: the share of 0.2 % that counts as saturated is then 500 of them."""
 type Tone = Literal["good", "fair", "poor"]
 type Exposure = tuple[tuple[str, ...], Tone]
 """What is to be said of an image's exposure, and how bad it is."""

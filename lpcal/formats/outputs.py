@@ -34,7 +34,7 @@ SCRATCH = ".lpcal-draft-"
 ASIDE = "aside"
 """The folder in a draft's folder that holds what is replaced, until the new one stands."""
 END_BYTES = 4096
-"""How many bytes at either end of a file are read to tell what wrote it: every mark stands in its first or last lines."""
+"""How many bytes at either end of a file are read to find what wrote it: every mark stands in its first or last lines."""
 AT_CWD = -100 if sys.platform == "linux" else -2
 """The value of AT_FDCWD, which makes renameat take a path as rename does."""
 EXCHANGE = 2

@@ -92,7 +92,7 @@ def with_commas(text: str, path: Path) -> str:
     Raises
     ------
     InputError
-        Commas stand both between the cells and in the numbers, so that nobody can tell which is which.
+        Commas stand both between the cells and in the numbers, so that it is open which is which.
     """
     delimiter = delimiter_of(text)
     if delimiter == "," and '"' not in text:

@@ -256,7 +256,7 @@ def _share(state: Sequence[Placed]) -> Array:
 def _seen_by(state: Sequence[Placed], meetings: dict[tuple[int, int], Meeting]) -> list[Array]:
     """How many views see each point of a view, its own among them.
 
-    Of K views of one place the K (K - 1) / 2 differences tell K - 1 things: each counts for 2 / K.
+    Of K views of one place the K (K - 1) / 2 differences hold K - 1 independent ones: each counts for 2 / K.
     """
     found = [np.ones(len(one.row)) for one in state]
     for (i, _), met in meetings.items():

@@ -252,11 +252,11 @@ class LightsEvidence:
     """Rms misfit of the matte spheres, relative."""
     next_sphere: NextSphere | None = None
     """Where one more chrome sphere would help most."""
-    foretold_shading_rms: float | None = None
+    predicted_shading_rms: float | None = None
     """Rms error, relative, of the shading of a matte sphere that was held out and predicted by the others."""
-    foretold_shading_rms_albedo_free: float | None = None
+    predicted_shading_rms_albedo_free: float | None = None
     """The same with that sphere's albedo free."""
-    foretold_highlight_px: float | None = None
+    predicted_highlight_px: float | None = None
     """Rms error of the highlights of a chrome sphere that was held out and predicted by the others."""
     exposure_sweep: ExposureSweep | None = None
     """Black level, gamma and noise of the sensor by a sweep of exposures."""

@@ -232,10 +232,10 @@ def spheres_section(report: RigReport) -> SpheresPart | None:
 
 def _predicted(found: LightsEvidence) -> list[tuple[str, str]]:
     """Rows of what held-out spheres say, and of the next one."""
-    shading, free = found.foretold_shading_rms, found.foretold_shading_rms_albedo_free
+    shading, free = found.predicted_shading_rms, found.predicted_shading_rms_albedo_free
     rows = [
         ("highlights in the solve", number(found.highlight_rms_px, 2, "px") + " rms"),
-        ("a chrome sphere held out: its highlights, predicted by the others", number(found.foretold_highlight_px, 2, "px") + " rms"),
+        ("a chrome sphere held out: its highlights, predicted by the others", number(found.predicted_highlight_px, 2, "px") + " rms"),
         ("shading in the solve", number(None if found.shading_rms is None else 100 * found.shading_rms, 2, "%") + " rms"),
         (
             "a matte sphere held out: its shading, predicted by the others",

@@ -63,7 +63,7 @@ def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mas
 def anchored(
     shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array, label: Labels, model_std: dict[int, float]
 ) -> dict[int, Anchor]:
-    """Anchors by piece, where its shadow tells one, of points x_C (P, 3) with their piece's label (P,).
+    """Anchors by piece, where its shadow gives one, of points x_C (P, 3) with their piece's label (P,).
 
     `model_std` is how sure near light is of each piece but for the calibration.
     """

@@ -117,9 +117,9 @@ def test_without_a_mistake_nothing_is_named_and_a_sphere_held_out_is_predicted(t
     assert code == 0
     assert "warning" not in err
     evidence = read_lights(tmp_path / "calib" / "lights.yaml").evidence
-    assert 0 < evidence.foretold_highlight_px < 3 * GATE_PX  # an image half as wide as the one that the gate is for
-    assert 0 < evidence.foretold_shading_rms < 0.02
-    assert 0 < evidence.foretold_shading_rms_albedo_free < 0.005
+    assert 0 < evidence.predicted_highlight_px < 3 * GATE_PX  # an image half as wide as the one that the gate is for
+    assert 0 < evidence.predicted_shading_rms < 0.02
+    assert 0 < evidence.predicted_shading_rms_albedo_free < 0.005
 
 
 @pytest.mark.slow

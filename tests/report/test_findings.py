@@ -127,9 +127,9 @@ def test_spheres_held_out_are_predicted() -> None:
     report = report_of(documents())
     found = LightsEvidence(
         highlight_rms_px=0.02,
-        foretold_highlight_px=0.031,
+        predicted_highlight_px=0.031,
         shading_rms=0.004,
-        foretold_shading_rms=0.012,
+        predicted_shading_rms=0.012,
         next_sphere=NextSphere(where="at the left", centre_m=np.zeros(3), direction_std_deg=0.05, with_it_deg=0.04),
     )
     part = spheres_section(replace(report, lights=replace(report.lights, evidence=found)))
@@ -158,7 +158,7 @@ def test_parts_that_a_rig_does_not_have_are_not_missed() -> None:
     assert {"camera", "handeye"} <= page.ids
     assert not {"lights", "spheres", "surfaces"} & page.ids
     assert "#lights" not in page.references
-    assert "without wings whose setting is stated, lights, spheres and objects" in said
+    assert "Not part of this rig, and not judged: wings whose setting is stated, lights, spheres and objects." in said
     assert "Not there: calibration" not in said
     assert [line.stage for line in verdicts(hand)] == ["camera", "handeye"]
     dome = replace(

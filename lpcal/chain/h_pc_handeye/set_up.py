@@ -2,7 +2,7 @@
 
 Symbols: of a camera in the room and a board on the body, ``H_OP H_PB = H_OC H_CB``; with the poses inverted that is the equation of a
 camera on the body, ``H_PO H_OC H_CB = H_PB``. So one solve serves both: it is given H_PO for H_OP, and finds H_OC for H_PC and H_PB for
-H_OB. A stream of a camera on the body that was written inverted fits in the same way; what tells the two apart is that a body carries
+H_OB. A stream of a camera on the body that was written inverted fits in the same way; the difference is that a body carries
 what it carries within its reach.
 """
 

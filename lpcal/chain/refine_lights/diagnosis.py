@@ -63,9 +63,9 @@ def diagnose(solution: LightsSolution, used: Measured, camera: Camera, wings: Wi
     warnings += _gates(highlight_px, gate_px, shading_free)
     evidence = replace(
         solution.evidence,
-        foretold_shading_rms=shading,
-        foretold_shading_rms_albedo_free=shading_free,
-        foretold_highlight_px=highlight_px,
+        predicted_shading_rms=shading,
+        predicted_shading_rms_albedo_free=shading_free,
+        predicted_highlight_px=highlight_px,
     )
     return replace(solution, warnings=(*solution.warnings, *warnings), evidence=evidence)
 
