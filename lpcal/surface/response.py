@@ -6,11 +6,11 @@ curve g that makes light of numbers, its misfit::
     I(g) = g(s) - g(a)          e(g) = min_b |I(g) - B b| / |I(g)| * sqrt(n / (n - 3)) / g
 
 as a share of the stored numbers, over the n samples that are neither its darkest nor its brightest ones. The samples are chosen by their
-rank, which no curve changes. The median of e over pixels, at the g that makes it least, against that at the g that is taken, separates a tone
-curve from all that also spoils the fit (gloss, shadows, interreflection): none of these is undone by a power. A curve and the lights'
-powers can be taken for each other: where these were not measured, each curve's misfit is that with equal powers, or that with those
-which one half of the object gives the other (surface.light_space), whichever is less. Source: the linear subspace of Lambertian images
-(Shashua 1997); Shi et al. 2010 (self-calibration of the response).
+rank, which no curve changes. The median of e over pixels, at the g that makes it least, against that at the g that is taken, separates a
+tone curve from all that also spoils the fit (gloss, shadows, interreflection): none of these is undone by a power. A curve and the lights'
+powers can be taken for each other: where these were not measured, each curve's misfit is that with equal powers, or that with those which
+one half of the object gives the other (surface.light_space), whichever is less. Source: the linear subspace of Lambertian images (Shashua
+1997); Shi et al. 2010 (self-calibration of the response).
 """
 
 from __future__ import annotations
