@@ -111,10 +111,9 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
         of_plane[better], least[better] = k, square[better]
         albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
         signal[:, better] = _unclipped(seen, m, better, albedo[k])
-    for k, plane in enumerate(found):
-        mine = of_plane == k
-        of_plane[mine & ~_within_reach(seen.rays_C @ plane.q, seen.rays_C[mine] @ plane.q)] = -1
+    _leave_out_of_reach(of_plane, found, seen.rays_C)
     signal = _beside(image, signal, of_plane, free)
+    _leave_out_of_reach(of_plane, found, seen.rays_C)  # beside an object that stands before a table's horizon, rays miss the table
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
     block = _blocks(seen.mask.shape, size)
     shown = [_of_plane(seen.rays_C, signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
@@ -175,6 +174,13 @@ def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
     plane = np.where(here < 0, here[tuple(nearest)], -1)
     plane[np.pad(~image.hidden, pad)] = -1
     return np.asarray(plane.ravel())
+
+
+def _leave_out_of_reach(of_plane: Indices, found: Sequence[planes.Plane], rays_C: Array) -> None:
+    """Set the plane (P,) of those pixels to -1 whose rays (P, 3) miss it, or meet it far from what is seen of it."""
+    for k, plane in enumerate(found):
+        mine = of_plane == k
+        of_plane[mine & ~_within_reach(rays_C @ plane.q, rays_C[mine] @ plane.q)] = -1
 
 
 def _within_reach(slope: Array, seen: Array) -> Mask:
