@@ -296,7 +296,8 @@ def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_
         if scene.distance_m is not None and one == 1:
             std = STATED_DISTANCE
         elif scene.near:
-            model = state.anchors[int(one)].std if int(one) in state.anchors else _model_std(state, inside)
+            fewer = uncertainty.fewer_regions(int(inside.sum()), found[0].pixels) if found else 1.0
+            model = state.anchors[int(one)].std if int(one) in state.anchors else fewer * _model_std(state, inside)
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
             std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
             std = float(np.hypot(std, uncertainty.BROKEN_OFF * np.log(middle / found[0].mean_depth_m))) if found else std

@@ -140,6 +140,14 @@ def model_std(*, glossy: bool, shaded_share: float) -> float:
     return OPEN + (HIDDEN - OPEN) * hidden
 
 
+def fewer_regions(pixels: int, largest: int) -> float:
+    """By how much what the model lacks in the distance of a piece of some pixels exceeds that of the largest one's.
+
+    Its errors are common to whole regions of a surface (light between parts, a shadow, gloss): a small piece has fewer to average over.
+    """
+    return float(np.sqrt(max(largest / max(pixels, 1), 1.0)))
+
+
 def scale_std(lights: Sequence[Light], curvature_total: float, distance_m: float, model: float) -> float:
     """Relative standard deviation of the distance of a whole piece: by the calibration, by noise, and by the `model`.
 
