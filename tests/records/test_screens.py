@@ -13,6 +13,7 @@ import lpcal
 from lpcal.geometry import se3
 from lpcal.records import screens
 from lpcal.records.calibration import LightsSolution
+from lpcal.records.model import ModelFigures
 from lpcal.records.observations import SphereView
 from lpcal.records.shown import Shown
 
@@ -45,7 +46,10 @@ def records() -> dict[str, Shown]:
     H_CB = np.concatenate([truth.H_CB, *(truth.H_CB @ se3.exp(np.r_[turn, move]) for move, turn in steps)])
     n, p = H_CB[:, :3, 2], H_CB[:, :3, 3]
     beam = lpcal.calibrate_distance_sensor(0.004 + np.sum(n * p, axis=1) / n[:, 2], H_CB, session.board, noise_m=0.0005)
+    corners, ones, face = np.eye(3), np.ones(3), np.array([[0, 1, 2]])
+    figures = ModelFigures(0, 0, 1, 0.5, 1, 0, 1, 0, 3, 0, 0)
     return {
+        "ObjectModel": lpcal.ObjectModel("tile", "the room", corners, corners, face, corners, ones, ones, ones, face[0], (), figures),
         "Placement": lpcal.Placement(np.eye(4), 1e-6 * np.eye(6)),
         "DistanceSensor": beam.sensor,
         "SensorSolution": beam,
@@ -77,6 +81,7 @@ assert lpcal.simulate_rig
 assert lpcal.check_handeye
 assert lpcal.study
 assert lpcal.calibrate_distance_sensor
+assert lpcal.fuse
 assert lpcal.mesh  # loaded, so that their records are registered
 KINDS = [kind.__name__ for kind in screens.screen_of.registry if kind is not object]
 
