@@ -2,8 +2,8 @@
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
 estimated, as the mask does it. Prints the weights for lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts,
-how good the coarse masks are with the weights as they stand and with the fitted ones; and what the stated doubt is worth (DOUBTED and
-DOUBT_POWER of lpcal.surface.mask). The regions themselves depend a little on the weights: run it until these stand still.
+how good the coarse masks are with the weights as they stand and with the fitted ones. The regions themselves depend a little on the
+weights: run it until these stand still; then tools/fit_outline.py.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from itertools import chain
 from pathlib import Path
 
 import numpy as np
-from scipy import optimize
 
 from lpcal.api.curve import settle_sensor
 from lpcal.api.engines import engine_of
@@ -183,9 +182,9 @@ def iou(mine: np.ndarray, true: np.ndarray) -> float:
     return float((mine & true).sum() / max((mine | true).sum(), 1))
 
 
-def validated(examples: list[Example], rng: np.random.Generator) -> tuple[list[float], list[float], list[float]]:
-    """IoU of each scene by weights fitted to others, the area that is expected to be wrong, and the loss."""
-    part, found, wrong, loss = parts(examples, FOLDS, rng), [0.0] * len(examples), [0.0] * len(examples), [0.0] * len(examples)
+def validated(examples: list[Example], rng: np.random.Generator) -> tuple[list[float], list[float]]:
+    """IoU of each scene by weights fitted to others, and the loss."""
+    part, found, loss = parts(examples, FOLDS, rng), [0.0] * len(examples), [0.0] * len(examples)
     for k in range(FOLDS):
         first, second = stacked([one for one, g in zip(examples, part, strict=True) if g != k], rng)
         for i in np.flatnonzero(part == k):
@@ -194,10 +193,9 @@ def validated(examples: list[Example], rng: np.random.Generator) -> tuple[list[f
             p = odds(one.beside(), second)
             q = background.object_in(p[one.found.number] > 0.5, ())
             found[i] = iou(q, one.true)
-            wrong[i] = float(np.where(q, 1 - p[one.found.number], p[one.found.number]).sum() / max(q.sum(), 1))
             sure = np.clip(p, 1e-3, 1 - 1e-3)
             loss[i] = -float(np.sum(one.weight * (one.share * np.log(sure) + (1 - one.share) * np.log(1 - sure))))
-    return found, wrong, loss
+    return found, loss
 
 
 def line_of(name: str, values: list[float]) -> str:
@@ -207,23 +205,11 @@ def line_of(name: str, values: list[float]) -> str:
     return f"{name}: mean {x.mean():.3f}, median {np.median(x):.3f}, worst tenth {np.percentile(x, 10):.3f}, {shares}"
 
 
-def doubted(expected: np.ndarray, bad: np.ndarray) -> tuple[float, float]:
-    """DOUBTED and DOUBT_POWER of the odds ``1 / (1 + (DOUBTED / expected)^DOUBT_POWER)`` that a mask is `bad`; a power near 2 is likely."""
-    log_share = np.log(np.maximum(expected, 1e-3))
-
-    def cost(x: np.ndarray) -> float:
-        at = np.exp(x[1]) * (log_share - x[0])
-        return float(np.sum(np.logaddexp(0, np.where(bad, -at, at))) + 0.5 * ((x[1] - np.log(2)) / 0.5) ** 2)
-
-    x = optimize.minimize(cost, [np.log(0.2), np.log(2)], method="Nelder-Mead").x
-    return float(np.exp(x[0])), float(np.exp(x[1]))
-
-
 def report(examples: list[Example]) -> None:
     """Print weights and figures."""
     rng = np.random.default_rng(0)
     runs = [validated(examples, rng) for _ in range(3)]
-    found, wrong, loss = (np.mean([run[k] for run in runs], axis=0) for k in range(3))
+    found, loss = (np.mean([run[k] for run in runs], axis=0) for k in range(2))
     whole = np.array([one.whole for one in examples])
     for kind, some in (("whole", whole), ("crops", ~whole)):
         print(f"{kind}: {some.sum()}")
@@ -233,12 +219,6 @@ def report(examples: list[Example]) -> None:
             )
         )
         print(line_of("  IoU with fitted weights, scenes left out", list(found[some])), f"; loss {loss[some].mean():.4f}")
-    bad = found < WRONG
-    at, power = doubted(wrong[whole], bad[whole])
-    print(f"DOUBTED, DOUBT_POWER = {at:.2f}, {power:.1f}")
-    for share in (0.06, 0.08, 0.1, 0.12, 0.15, 0.2):
-        stated = [float(np.mean(wrong[whole & some] > share)) for some in (bad, ~bad)]
-        print(f"  expected wrong over {share}: of the wrong {stated[0]:.2f}, of the right {stated[1]:.2f}")
     first, second = stacked(examples, rng)
     one = examples[0]
     for name, b, clues in (

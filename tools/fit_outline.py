@@ -14,8 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy import optimize
 
-from fit_mask import WRONG, Seen, doubted, iou, line_of
+from fit_mask import WRONG, Seen, iou, line_of
 from lpcal.api.engines import engine_of
 from lpcal.surface import background, cut, flats, layers, mask, outline
 from lpcal.surface.coarse import joined
@@ -112,6 +113,18 @@ def fitted(some: Sequence[Clues]) -> np.ndarray:
         slope = A.T @ (weight * (p - true)) + RIDGE * b
         b = b - np.linalg.solve((A * (weight * p * (1 - p))[:, None]).T @ A + RIDGE * np.eye(len(b)), slope)
     return b
+
+
+def doubted(expected: np.ndarray, bad: np.ndarray) -> tuple[float, float]:
+    """DOUBTED and DOUBT_POWER of the odds ``1 / (1 + (DOUBTED / expected)^DOUBT_POWER)`` that a mask is `bad`; a power near 2 is likely."""
+    log_share = np.log(np.maximum(expected, 1e-3))
+
+    def cost(x: np.ndarray) -> float:
+        at = np.exp(x[1]) * (log_share - x[0])
+        return float(np.sum(np.logaddexp(0, np.where(bad, -at, at))) + 0.5 * ((x[1] - np.log(2)) / 0.5) ** 2)
+
+    x = optimize.minimize(cost, [np.log(0.2), np.log(2)], method="Nelder-Mead").x
+    return float(np.exp(x[0])), float(np.exp(x[1]))
 
 
 def printed(name: str, some: Sequence[Clues]) -> None:

@@ -27,8 +27,6 @@ MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
 MOST_LIGHTS = 16
 """Lights that the mask is found by, spread over all: more do not improve it."""
-BORDER_SHARE = 0.06
-"""Share of the image's shorter side that its rim takes on each side."""
 LIT_SIGMAS = 6.0
 """Standard deviations of its noise over which a sample is lit."""
 FIT_SIGMAS = 3.0
@@ -221,14 +219,6 @@ def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.
     some = planes.thinned(seen.at(np.flatnonzero(own)))
     square, _ = planes.misfit(some, planes.predicted(q, some.rays_C, lights))
     return planes.Plane(q, float(np.sqrt(np.median(square))))
-
-
-def border_band(shape: tuple[int, ...]) -> Mask:
-    """The image's rim (H, W), where the background is looked for."""
-    width = max(2, round(BORDER_SHARE * min(shape)))
-    border = np.ones(shape, bool)
-    border[width:-width, width:-width] = False
-    return border
 
 
 def tidy(mask: Mask) -> Mask:
