@@ -15,7 +15,7 @@ def read(path: Path, body: str | None) -> lpcal.PoseStream:
     H_OP = np.tile(np.eye(4), (len(rows), 1, 1))
     H_OP[:, :3, :3] = Rotation.from_rotvec([row["turn"] for row in rows], degrees=True).as_matrix()
     H_OP[:, :3, 3] = np.array([row["mm"] for row in rows]) / 1000
-    return lpcal.PoseStream(body or "ours", np.array([row["t"] for row in rows]), H_OP, np.full(len(rows), np.nan))
+    return lpcal.PoseStream(body or "ours", np.array([row["t"] for row in rows]), H_OP, error_m=np.full(len(rows), np.nan))
 
 
 lpcal.register_mocap("our lab's", lambda head: head.startswith(b'{"t"'), read)

@@ -86,3 +86,13 @@ def test_pictures_that_do_not_divide_into_coarse_pixels() -> None:
     found = openings(large, r, LIGHTS, disc, [WALL])
     assert found.shape == disc.shape
     assert (found & hole).sum() > 0.8 * hole.sum()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_mask_too_thin_for_coarse_pixels_has_no_openings_and_no_warning() -> None:
+    maps, _ = pictures(0.5, 0.08)
+    large = Grey(*(np.kron(one, np.ones((1, 4, 4), one.dtype)) for one in (maps.signal, maps.sigma, maps.usable)))
+    thin = np.zeros(large.signal.shape[1:], bool)
+    thin[:, 10] = True
+    rays_C = np.kron(rays(), np.ones((4, 4, 1)))
+    assert not openings(large, rays_C, LIGHTS, thin, [WALL]).any()
