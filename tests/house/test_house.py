@@ -22,6 +22,9 @@ MOST_SINGLE = 20.0
 """Per cent of the lines that may stand in modules that exactly one other module imports."""
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
 UNUSED_BY_RECONSTRUCT = {"matplotlib", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "networkx"}
+FOLDERS = {".ci", ".github", "calib_data", "docs", "examples", "lpcal", "packaging", "rigs", "tests", "tools"}
+LARGEST = 1_500_000
+"""Bytes of a tracked file at most: the demo's motion-capture recording is the largest that is needed."""
 HEAVY = ["scipy", "cv2", "mrcal", "casadi", "pycolmap"]
 
 # a folder of someone's own machine: a home, a user's folder on Windows, the folder that this repository lies in
@@ -135,6 +138,14 @@ def test_imports_point_one_way() -> None:
     found = subprocess.run([sys.executable, "-c", program], cwd=REPOSITORY, capture_output=True, text=True, check=False)
     assert found.returncode == 0, found.stdout
     assert re.search(r"Contracts: [1-9]\d* kept, 0 broken", found.stdout), found.stdout
+
+
+def test_nothing_that_a_run_wrote_is_tracked() -> None:
+    files = tracked()
+    strange = {name_of(path).split("/")[0] for path in files if "/" in name_of(path)} - FOLDERS
+    assert not strange, f"folders that are none of the project's: {strange}"
+    large = [f"{name_of(path)}: {path.stat().st_size} bytes" for path in files if path.stat().st_size > LARGEST]
+    assert not large, large
 
 
 def test_no_path_of_someones_own_machine() -> None:
