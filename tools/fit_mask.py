@@ -9,6 +9,7 @@ weights: run it until these stand still; then tools/fit_outline.py.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -231,16 +232,16 @@ def report(examples: list[Example]) -> None:
         print("}")
 
 
-def main() -> None:
-    """Read the scenes, fit, print."""
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def of_scenes[T](description: str | None, example: Callable[[Path], T]) -> list[T]:
+    """The examples of the scenes that the command line names, on the engine that it asks for."""
+    words = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("scenes", nargs="+", type=Path)
     words.add_argument("--jobs", type=int, default=1)
     words.add_argument("--on", default="processes")
     given = words.parse_args()
     with engine_of(given.on, given.jobs, Path()).start() as pool:
-        report(list(chain.from_iterable(pool.map(example, given.scenes))))
+        return list(pool.map(example, given.scenes))
 
 
 if __name__ == "__main__":
-    main()
+    report(list(chain.from_iterable(of_scenes(__doc__, example))))

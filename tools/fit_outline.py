@@ -8,7 +8,6 @@ it until these stand still. Scenes whose regions are judged so wrong that there 
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +15,7 @@ from pathlib import Path
 import numpy as np
 from scipy import optimize
 
-from fit_mask import WRONG, Seen, iou, line_of
-from lpcal.api.engines import engine_of
+from fit_mask import WRONG, Seen, iou, line_of, of_scenes
 from lpcal.surface import background, cut, flats, layers, mask, outline
 from lpcal.surface.coarse import joined
 
@@ -157,16 +155,5 @@ def report(examples: Sequence[Example]) -> None:
         print(f"  expected wrong over {share}: of the wrong {stated[0]:.2f}, of the right {stated[1]:.2f}")
 
 
-def main() -> None:
-    """Read the scenes, fit, print."""
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("scenes", nargs="+", type=Path)
-    words.add_argument("--jobs", type=int, default=1)
-    words.add_argument("--on", default="processes")
-    given = words.parse_args()
-    with engine_of(given.on, given.jobs, Path()).start() as pool:
-        report(list(pool.map(example, given.scenes)))
-
-
 if __name__ == "__main__":
-    main()
+    report(of_scenes(__doc__, example))

@@ -197,7 +197,7 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence 
 
 
 def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Array) -> Array:
-    """Log likelihoods (T,) of signals (N,) in shadow, where strengths (T, 3) of the parts (3, N) are thrown there."""
+    """Log likelihoods (T,) of signals (N,) in shadow, which the parts (3, N) of interreflected light at strengths (T, 3) predict."""
     if run := kernel("thrown_fits"):
         found = np.empty(len(strengths))
         given = (np.ascontiguousarray(one, float) for one in (strengths, parts, signal, noise2, top))

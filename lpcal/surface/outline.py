@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -54,6 +55,23 @@ class Apart:
     """Natural logarithm of the object's distance in metres."""
     log_odds: Array
     """(rows, columns) that a coarse pixel is the object."""
+
+    @cached_property
+    def near(self) -> tuple[Mask, Mask]:
+        """(layers, rows * columns) which layers are near coarse pixels on the object's side of the outline, and on the other."""
+        every = range(len(self.found.planes) + 3)
+        of_object, of_rest = (
+            np.stack([_grown(_opened(self.labels == k) & side, BAND) for k in every]).reshape(len(every), -1)
+            for side in (self.mask, ~self.mask)
+        )
+        of_object[0], of_rest[0] = True, False
+        return of_object, of_rest
+
+    @cached_property
+    def dim(self) -> Mask:
+        """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: shadows leave that open."""
+        near = _grown(self.mask, DIM) & ~cut.shrunk(self.mask, DIM)
+        return np.asarray(near & (self.labels > len(self.found.planes)))
 
 
 @dataclass(frozen=True)
@@ -101,7 +119,7 @@ def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mas
     here, coarse = coarse_of(maps, rays_C, factor), apart.image.factor
     mask = enlarged(mask, before / factor, here.shape)
     by = int(np.ceil(BAND * before / factor))
-    dim = np.zeros(here.shape, bool) if room is None else enlarged(_dim(apart), coarse / factor, here.shape)
+    dim = np.zeros(here.shape, bool) if room is None else enlarged(apart.dim, coarse / factor, here.shape)
     inside = cut.shrunk(mask, by)
     band = dim | (_grown(mask, by) & ~inside)
     rows, columns = apart.mask.shape
@@ -114,7 +132,7 @@ def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mas
     like = dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True))
     odds, lit = apart.log_odds.ravel()[parent], ~dim[band]
     clues = {"": np.ones(len(row)), "layers": lit * _by_layers(apart, here, band.ravel(), parent), "odds": lit * odds}
-    clues["lights"] = lit * like["lights"]
+    clues |= {"lights": lit * like["lights"]}
     if room is not None:
         clues |= {"room": like["room"], "odds, dim": ~lit * odds}
     return Level(inside, band, clues, bright)
@@ -131,22 +149,10 @@ def levels_of(image: Coarse, room: Image | None) -> tuple[Image, Image | None]:
 
 def _by_layers(apart: Apart, here: Coarse, band: Mask, parent: Indices) -> Array:
     """The log likelihood ratio (N,) of pixels of a band (P,), in coarse pixels `parent` (N,), by the layers near them on either side."""
-    every = range(len(apart.found.planes) + 3)
-    of_object, of_rest = (
-        np.stack([_grown(_opened(apart.labels == k) & side, BAND) for k in every]).reshape(len(every), -1)
-        for side in (apart.mask, ~apart.mask)
-    )
-    of_object[0], of_rest[0] = True, False
     at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
     cost = layers.costs(apart.found, at, apart.table, np.full(len(parent), apart.u_free))
-    own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in (of_object, of_rest))
+    own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in apart.near)
     return np.clip((rest - own) / 2, -MOST, MOST)
-
-
-def _dim(apart: Apart) -> Mask:
-    """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: shadows leave that open."""
-    near = _grown(apart.mask, DIM) & ~cut.shrunk(apart.mask, DIM)
-    return np.asarray(near & (apart.labels > len(apart.found.planes)))
 
 
 def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
