@@ -14,7 +14,7 @@ import numpy as np
 
 from lpcal import methods
 from lpcal.errors import DegenerateError, InputError
-from lpcal.geometry import lambert
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import SurfaceFigures
@@ -118,13 +118,12 @@ def slopes_of(normals_C: Image, rays_C: Array, *, central: bool) -> Array:
 
 def _assembled(name: str, normals_C: Image, depth: Array, mask: Mask, rays_C: Array) -> Surface:
     """The record; pieces are the connected parts of the mask, without breaks."""
-    from scipy import ndimage
 
     def within(values: Array) -> Image:
         return np.where(mask, values, np.nan).astype(np.float32)
 
     most = np.iinfo(np.uint8).max
-    component = np.minimum(ndimage.label(mask)[0], most).astype(np.uint8)
+    component = np.minimum(raster.labelled(mask)[0], most).astype(np.uint8)
     labels = [int(one) for one in np.unique(component[mask])]
     breaks = np.ones((2, *mask.shape), bool)
     breaks[0, :, :-1], breaks[1, :-1] = ~(mask[:, :-1] & mask[:, 1:]), ~(mask[:-1] & mask[1:])

@@ -13,6 +13,7 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import noise_model, over_white, part_to_radiance
 from lpcal.errors import UsageError
 from lpcal.formats.full_size import coarse_mask
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.full_images import FullImages
@@ -171,7 +172,7 @@ def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, s
         far = int(OUTLINE_PX * full.factor)
         first = share > 0.5
         said = np.where(first, 2.0, -2.0).astype(np.float32)
-        said[~cut.shrunk(first, far) & ~cut.shrunk(~first, far)] = 0.0
+        said[~raster.shrunk(first, far, beyond=True) & ~raster.shrunk(~first, far, beyond=True)] = 0.0
         bright = sight.strength(sight.grey(radiance_of(*tile.outer), solved.scene.lights))
         picture = np.log(np.maximum(bright, max(0.01 * float(np.percentile(bright, 99)), 1e-9))).astype(np.float32)
         return cut.total_variation(np.where(said == 0, np.where(first, 1e-3, -1e-3), said).astype(np.float32), picture, STIFFNESS)[

@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import regions
 from lpcal.surface.likeness import likeness
@@ -109,11 +110,9 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
 
 
 def _judged(odds: Array, view: View, labels: Labels) -> Judged:
-    from scipy import ndimage
-
     odds = odds.copy()
     for at in view.points:
-        shown, _ = ndimage.label(labels == labels[at])
+        shown, _ = raster.labelled(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
@@ -137,8 +136,6 @@ def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, roo
 
 def context_of(odds: Array, bright: Image, room: Image | None) -> dict[str, Array] | None:
     """The clues (P,) of coarse pixels by odds (rows, columns); None where all is on one side."""
-    from scipy import ndimage
-
     inside = odds > 0.5
     if not inside.any() or inside.all():
         return None
@@ -151,7 +148,7 @@ def context_of(odds: Array, bright: Image, room: Image | None) -> dict[str, Arra
     return {
         "": np.ones(odds.size),
         "odds": logit(odds.ravel()),
-        "about": ndimage.gaussian_filter(odds, ABOUT_PX).ravel() - 0.5,
+        "about": raster.blurred(odds, ABOUT_PX).ravel() - 0.5,
         "lights": like(bright, plain),
         "room": like(room, near),
         "room, widely": like(room, wide),
@@ -177,9 +174,7 @@ def _odds(clues: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
 
 def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     """A mask (rows, columns) without crumbs and small holes; where points are given it is the pieces that they lie on."""
-    from scipy import ndimage
-
-    piece, count = ndimage.label(mask)
+    piece, count = raster.labelled(mask)
     if not count:
         return np.zeros(mask.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
@@ -187,7 +182,7 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     kept = np.isin(np.arange(count + 1), [piece[at] for at in points]) if points else size >= SMALLEST_PIECE * size.max()
     kept[0] = False
     found = kept[piece]
-    hole, _ = ndimage.label(~found)
+    hole, _ = raster.labelled(~found)
     area = np.bincount(hole.ravel())
     small = np.flatnonzero(area < HOLE * max(int(found.sum()), 1))
     return np.asarray(found | np.isin(hole, small[small > 0]))

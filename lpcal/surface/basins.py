@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import lambert
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
@@ -72,15 +72,14 @@ class Basins:
     def start(self, mask: Mask) -> Array:
         """Log depth (Q,) of the likeliest end at the pixels of a full-size mask (H, W)."""
         import cv2
-        from scipy import ndimage
 
         whole = np.zeros(self.mask.shape)
         whole[self.mask] = self.ends[0].u
-        nearest = ndimage.distance_transform_edt(~self.mask, return_distances=False, return_indices=True)
+        filled = whole.ravel()[raster.nearest(self.mask)]
         shift = 0.5 / self.factor - 0.5
         grid = np.array([[1 / self.factor, 0, shift], [0, 1 / self.factor, shift]])
         flags = cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP
-        large = cv2.warpAffine(whole[tuple(nearest)], grid, mask.shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
+        large = cv2.warpAffine(filled, grid, mask.shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(large[mask])
 
     def others(self) -> list[tuple[float, float]]:

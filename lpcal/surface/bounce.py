@@ -22,7 +22,7 @@ from itertools import product
 
 import numpy as np
 
-from lpcal.geometry import lambert
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
@@ -113,8 +113,6 @@ class Reflectance:
 
 def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
     """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
-    from scipy import ndimage
-
     size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
     rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches are those of the object, not of the picture about it
     _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
@@ -135,13 +133,13 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     if around is not None:
         at_patches = at_patches + _received(own, around.seen, relief)
         beyond = around.beyond(relief, lights)
-    inside = ndimage.gaussian_filter(seen.mask.astype(np.float32), size / 2, mode="constant")[seen.mask]
+    inside = raster.blurred(seen.mask.astype(np.float32), size / 2, "constant")[seen.mask]
     blank = np.zeros(seen.mask.shape, np.float32)
 
     def spread(values: Array) -> Array:
         """Values (P,) of the patches' values (Q,)."""
         blank[seen.mask] = values[of_pixel]
-        return np.asarray(ndimage.gaussian_filter(blank, size / 2, mode="constant")[seen.mask] / np.maximum(inside, 1e-6))
+        return np.asarray(raster.blurred(blank, size / 2, "constant")[seen.mask] / np.maximum(inside, 1e-6))
 
     def at_pixels(values: Array) -> Array:
         return np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in values])
@@ -214,12 +212,10 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
 
 def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
     """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
-    from scipy import ndimage
-
     dark = hidden | (np.einsum("kpi,pi->kp", lit.d, n) < -AWAY)
     found = np.zeros_like(dark)
     for k, one in enumerate(dark):
-        found[k] = ndimage.binary_erosion(np.asarray(seen.map(one, False), bool), iterations=RIM)[seen.mask]
+        found[k] = raster.shrunk(np.asarray(seen.map(one, False), bool), RIM)[seen.mask]
     return found
 
 

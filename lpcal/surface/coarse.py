@@ -28,6 +28,8 @@ LATTICE = (19, 25)
 """Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
 """Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+HELD = 12
+"""Nodes beyond each end at which a spline keeps the end's value: what is said further out changes it by 1e-7 of a step."""
 EVERYWHERE = (slice(None), slice(None))
 """The box of all rows and columns."""
 
@@ -112,12 +114,10 @@ class LightTable:
     @staticmethod
     def of(image: Coarse, lights: Sequence[Light], distance_m: float, box: tuple[slice, slice] = EVERYWHERE) -> LightTable:
         """The table about a working distance, on the pixels of a box of rows and columns."""
-        from scipy import ndimage
-
         rows, columns = image.shape
         down, across = np.linspace(0, rows - 1, LATTICE[0]), np.linspace(0, columns - 1, LATTICE[1])
-        at = np.meshgrid(down, across, indexing="ij")
-        rays = np.stack([ndimage.map_coordinates(one, at, order=1) for one in np.moveaxis(image.image(image.rays_C), -1, 0)], axis=-1)
+        by_row, by_column = (_linear(side, at) for side, at in zip(image.shape, (down, across), strict=True))
+        rays = np.einsum("ar,bc,rci->abi", by_row, by_column, image.image(image.rays_C), optimize=True)
         u = np.log(distance_m) + np.linspace(np.log(SPAN[0]), np.log(SPAN[1]), NODES)
         x_C = np.exp(u)[:, None, None, None] * rays
         d, E = light_vectors(lights, x_C.reshape(-1, 3))
@@ -188,10 +188,30 @@ class LightTable:
 
 def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
     """Matrix (places, nodes) from values at nodes evenly apart to a spline at places evenly apart, both from end to end."""
-    from scipy import ndimage
+    at = np.linspace(0, nodes - 1, places)
+    if order == 1:
+        return _linear(nodes, at)
+    count = nodes + 2 * HELD
+    every = np.arange(count)
+    through = 4 / 6 * np.eye(count)
+    for beside in (every - 1, every + 1):
+        through[every, np.clip(beside, 0, count - 1)] += 1 / 6
+    coefficients = np.linalg.solve(through, np.eye(nodes)[np.clip(every - HELD, 0, nodes - 1)])
+    before = np.minimum(at.astype(int), nodes - 2)
+    f = at - before
+    found = np.zeros((places, nodes))
+    for k, weight in enumerate(((1 - f) ** 3, 3 * f**3 - 6 * f**2 + 4, -3 * f**3 + 3 * f**2 + 3 * f + 1, f**3)):
+        found += weight[:, None] / 6 * coefficients[before + HELD - 1 + k]
+    return found
 
-    at = np.linspace(0, nodes - 1, places)[None]
-    return np.stack([ndimage.map_coordinates(one, at, order=order, mode="nearest") for one in np.eye(nodes)], axis=1)
+
+def _linear(nodes: int, at: Array) -> Array:
+    """Matrix (N, nodes) from values at nodes evenly apart to values between them, at places (N,) in steps from the first."""
+    before = np.clip(at.astype(int), 0, max(nodes - 2, 0))
+    found = np.zeros((len(at), nodes))
+    found[np.arange(len(at)), before] = 1 - (at - before)
+    found[np.arange(len(at)), np.minimum(before + 1, nodes - 1)] += at - before
+    return found
 
 
 def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 
@@ -39,15 +40,9 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
     (top, bottom), (left, right) = ((max(at.min() - MARGIN, 0), at.max() + MARGIN + 1) for at in np.nonzero(unsettled))
     box = (slice(top, bottom), slice(left, right))
     rows, columns = evidence[box].shape
-    found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1], _about(unsettled[box])) > 0.5
+    free = raster.highest(unsettled[box], MARGIN, beyond=False)
+    found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1], free) > 0.5
     return np.asarray(found)
-
-
-def _about(unsettled: Mask) -> Mask:
-    """What is open (H, W), with MARGIN about it."""
-    from scipy import ndimage
-
-    return np.asarray(ndimage.maximum_filter(unsettled, 2 * MARGIN + 1, mode="constant"))
 
 
 def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Image, free: Mask) -> Image:
@@ -95,13 +90,6 @@ def along_the_seam(mask: Mask, picture: Image, free: Mask | None = None) -> Mask
     colours = np.ascontiguousarray(np.clip(255 * picture, 0, 255).astype(np.uint8))
     cv2.grabCut(colours, labels, None, np.zeros((1, 65)), np.zeros((1, 65)), GRABCUT_ROUNDS, cv2.GC_INIT_WITH_MASK)
     return np.asarray((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD))
-
-
-def shrunk(mask: Mask, by: int) -> Mask:
-    """A mask without its rim; the image's own border is none."""
-    from scipy import ndimage
-
-    return np.asarray(ndimage.binary_erosion(mask, iterations=by, border_value=1))
 
 
 def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lpcal.geometry import lambert
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.surface import bands, normals
@@ -103,14 +103,12 @@ def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
 
     Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about that of most of the piece.
     """
-    from scipy import ndimage
-
     size = max(1.0, np.sqrt(mask.sum()) / PATCHES_ACROSS)
 
     def blurred(values: Array) -> Array:
         image = np.zeros(mask.shape)
         image[mask] = values
-        return np.asarray(ndimage.gaussian_filter(image, size, mode="constant")[mask])
+        return np.asarray(raster.blurred(image, size, "constant")[mask])
 
     H = own.curvature
     move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), WEAK)

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import lambert
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.surface import bands, gloss, pieces
@@ -135,14 +135,12 @@ def _tilt_rad(b: Array, own: Array) -> Array:
 
 def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
     """A start (P, 3): estimates of single pixels without shadows, the rest filled from around."""
-    from scipy import ndimage
-
     known = np.isfinite(b[:, 0])
     albedo = np.where(known, np.linalg.norm(np.nan_to_num(b), axis=1), 0.0)
     reach = np.sqrt(seen.pixels) / ACROSS
     picture = np.zeros(seen.mask.shape)
     picture[seen.mask] = albedo
-    square, plain = (np.asarray(ndimage.gaussian_filter(one, reach, mode="constant"))[seen.mask] for one in (picture**2, picture))
+    square, plain = (raster.blurred(one, reach, "constant")[seen.mask] for one in (picture**2, picture))
     return pieces.fill(grid, b, known & (albedo > JUNK * square / np.maximum(plain, 1e-12)))
 
 

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.geometry import cauchy_fit, lambert
+from lpcal.geometry import cauchy_fit, lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.cauchy_fit import Equations
 from lpcal.kernels.library import kernel
@@ -137,8 +137,6 @@ def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None
 
 def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
     """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
-    from scipy import ndimage
-
     left, votes = lit.copy(), _Votes.of(image, swept, distance_m)
     found: list[Array] = []
 
@@ -147,7 +145,7 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
         return np.asarray(left & (cost < swept.least + EXPLAINED) & (shown.sum(axis=0) >= 3))
 
     def size(own: Mask) -> int:
-        return int(ndimage.binary_opening(image.image(own)).sum())
+        return int(raster.opened(image.image(own)).sum())
 
     while len(found) < MOST and left.sum() > SMALLEST * left.size:
         trials = [fitted(image, table, q, left, rounds=2) for q in votes.peaks(left)]
@@ -167,8 +165,6 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
 
     Asked of the parts of a plane that an edge of its albedo encloses; a part becomes a plane where that pays by CLEARLY.
     """
-    from scipy import ndimage
-
     rim = np.ones(image.shape, bool)
     rim[1:-1, 1:-1] = False
     new = []
@@ -176,7 +172,7 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
         cost, albedo, shown = explained(image, table, q)
         own = image.image(lit & (cost < ACCEPTED * len(shown)) & (albedo > 0))
         tone = np.where(own, np.log(np.maximum(image.image(albedo), 1e-12)), 0.0)
-        part, _ = ndimage.label(own & (ndimage.morphological_gradient(ndimage.median_filter(tone, size=3), size=(3, 3)) < PAINT))
+        part, _ = raster.labelled(own & (_step(tone) < PAINT))
         size = np.bincount(part.ravel())
         for one in np.setdiff1d(np.flatnonzero(size >= SMALLEST * part.size), [0, *np.unique(part[rim])]):
             inside = (part == one).ravel()
@@ -185,6 +181,15 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
             if gain > max(CLEARLY, inside.sum() * CLEARLY_EACH):
                 new.append(trial)
     return new
+
+
+def _step(tone: Array) -> Array:
+    """The largest step (H, W) of a picture (H, W), single pixels left out, within 3x3 pixels."""
+    rows, columns = tone.shape
+    about = np.pad(tone, 1, mode="edge")
+    nine = np.stack([about[i : i + rows, j : j + columns] for i in range(3) for j in range(3)])
+    middle = np.partition(nine, 4, axis=0)[4]
+    return raster.highest(middle, 1, -np.inf) + raster.highest(-middle, 1, -np.inf)
 
 
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
@@ -278,11 +283,9 @@ class _Votes:
 
     def peaks(self, left: Mask) -> list[Array]:
         """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
-        from scipy import ndimage
-
         cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
         votes = np.bincount(self.cell[:, left].ravel(), self.weight[:, left].ravel(), int(np.prod(cells)))
-        total = ndimage.gaussian_filter(votes.reshape(cells), BLUR)
+        total = raster.blurred(votes.reshape(cells), BLUR)
         found = []
         for _ in range(PEAKS):
             top = np.unravel_index(int(np.argmax(total)), cells)

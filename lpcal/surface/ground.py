@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.surface import rounds
 from lpcal.surface.integrate import STEEPEST
@@ -44,10 +45,8 @@ class Ground:
     @staticmethod
     def of(scene: Scene, state: State, rays_C: Array, normals_C: Image, factor: int) -> Ground:
         """From a solved scene in coarse pixels, the normals (h, w, 3) as they came out."""
-        from scipy import ndimage
-
         mask = scene.seen.mask
-        nearest: Indices = ndimage.distance_transform_edt(~mask, return_distances=False, return_indices=True).astype(np.int64)
+        nearest = np.stack(np.divmod(raster.nearest(mask), mask.shape[1]))
 
         def filled(values: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
             whole = np.zeros((*mask.shape, *values.shape[1:]), values.dtype)
@@ -62,7 +61,7 @@ class Ground:
         broken = state.weight <= BREAK_WEIGHT
         at = np.zeros(scene.seen.pixels, bool)
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
-        loose = ndimage.binary_dilation(np.asarray(scene.seen.map(at, 0), bool), iterations=LOOSE_PX)
+        loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool), LOOSE_PX)
         share = np.asarray(filled(thrown_share(lit, state.found).astype(np.float32)), np.float32)
         u, n = np.asarray(filled(state.u)), np.asarray(filled(normals_C[mask].astype(float)))
         return Ground(factor, rays_C[tuple(nearest)], u, n, thrown, unseen, share, hidden, np.asarray(loose), nearest)

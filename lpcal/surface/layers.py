@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.surface import background, flats, samples
@@ -66,10 +67,8 @@ class Appearance:
     @staticmethod
     def of(values: Array, low: float, high: float) -> Appearance:
         """The appearance of log values (N,), smoothed over a bin."""
-        from scipy import ndimage
-
         count, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
-        smooth = ndimage.gaussian_filter1d(count.astype(float), 1.0)
+        smooth = raster.blurred(count.astype(float), 1.0)
         return Appearance(low, high, (1 - RARE) * BINS * smooth / max(smooth.sum(), 1e-12) + RARE)
 
     def at(self, values: Array) -> Array:

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 
 TEXTURE = 0.1
@@ -21,8 +22,6 @@ KNOWN = 0.02
 """Share of a window that must lie on a side for its mean to stand for the side there; else that of the nearest place does."""
 MOST = 10.0
 """Log likelihood ratio at most: a single pixel does not decide."""
-REACH = 4
-"""Standard deviations of the window beyond which nothing counts."""
 
 
 def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, asked: Mask) -> list[Array]:
@@ -33,7 +32,7 @@ def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, 
     if not (asked.any() and inside.any() and outside.any()):
         return [np.zeros(int(asked.sum())) for _ in pictures]
     rows, columns = (np.flatnonzero(asked.any(axis=axis)) for axis in (1, 0))
-    margin = int(np.ceil(2 * REACH * by))
+    margin = int(np.ceil(2 * raster.REACH * by))
     box = tuple(slice(max(int(some[0]) - margin, 0), int(some[-1]) + margin + 1) for some in (rows, columns))
     if not (inside[box].any() and outside[box].any()):
         box = (slice(None), slice(None))
@@ -45,17 +44,12 @@ def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, 
 
 def _costs(pictures: Sequence[Image], side: Mask, by: float, here: Mask) -> list[Array]:
     """Twice the negative log likelihood (N,) of the pixels `here` (H, W) among those of a side (H, W), by each picture (H, W)."""
-    from scipy import ndimage
-
-    def blurred(values: Image) -> Array:
-        return np.asarray(ndimage.gaussian_filter(values, by, truncate=REACH))
-
-    share = blurred(side.astype(np.float32))
-    nearest = tuple(ndimage.distance_transform_edt(share <= KNOWN, return_distances=False, return_indices=True)[:, here])
-    weight = np.maximum(share[nearest], 1e-9)
+    share = raster.blurred(side.astype(np.float32), by)
+    nearest = raster.nearest(share > KNOWN)[here]
+    weight = np.maximum(share.ravel()[nearest], 1e-9)
     costs = []
     for picture in pictures:
-        mean, square = (blurred(np.where(side, one, np.float32(0)))[nearest] / weight for one in (picture, picture**2))
+        mean, square = (raster.blurred(np.where(side, one, np.float32(0)), by).ravel()[nearest] / weight for one in (picture, picture**2))
         variance = np.maximum(square - mean**2, 0.0) + TEXTURE**2
         costs.append((picture[here] - mean) ** 2 / variance + np.log(variance))
     return costs

@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import background, cut, flats, layers, outline, planes
@@ -71,16 +72,14 @@ class Hints:
 
     def of(self, mask: Mask) -> Mask:
         """The part of a mask (H, W) in the box, and of that the connected components that the points lie on or close to."""
-        from scipy import ndimage
-
         allowed = self.allowed(mask.shape)
         mask = mask if allowed is None else mask & allowed
         if not self.points:
             return mask
-        piece, _ = ndimage.label(mask)
-        far, nearest = ndimage.distance_transform_edt(~mask, return_indices=True)
+        piece, _ = raster.labelled(mask)
+        far, nearest = raster.away(mask), raster.nearest(mask)
         close = [(y, x) for x, y in self.points if far[y, x] <= BESIDE_POINT * min(mask.shape)]
-        return np.asarray(mask & np.isin(piece, [piece[tuple(nearest[:, y, x])] for y, x in close]))
+        return np.asarray(mask & np.isin(piece, [piece.ravel()[nearest[y, x]] for y, x in close]))
 
 
 NO_HINTS = Hints()
@@ -186,11 +185,9 @@ def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, sh
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
     """The map of layers (H, W) by the mask (H, W) and the coarse labels; outside the mask that of the nearest background."""
-    from scipy import ndimage
-
     value = {"support": background.SUPPORT, "wall": background.WALL, "dark": background.NOTHING, "other": background.WALL}
-    nearest = ndimage.distance_transform_edt(~behind, return_distances=False, return_indices=True) if behind.any() else None
-    coarse = np.array([value[kind] for kind in kinds])[labels if nearest is None else labels[tuple(nearest)]]
+    nearest = raster.nearest(behind) if behind.any() else None
+    coarse = np.array([value[kind] for kind in kinds])[labels if nearest is None else labels.ravel()[nearest]]
     row, column = (np.minimum(np.arange(side) // factor, most - 1) for side, most in zip(mask.shape, labels.shape, strict=True))
     found = coarse[np.ix_(row, column)] if nearest is not None else np.zeros(mask.shape, int)
     return np.asarray(np.where(mask, background.OBJECT, found), np.uint8)
@@ -200,9 +197,7 @@ def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> s
     """What the area in doubt may be and the box that holds the most of it, for messages; nothing where there is none."""
     if not doubt.place.any():
         return ""
-    from scipy import ndimage
-
-    piece, _ = ndimage.label(doubt.place)
+    piece, _ = raster.labelled(doubt.place)
     size = np.bincount(piece.ravel())
     size[0] = 0
     row, column = (factor * np.array([one.min(), one.max() + 1]) for one in np.nonzero(piece == np.argmax(size)))
@@ -223,15 +218,13 @@ def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.
 
 def tidy(mask: Mask) -> Mask:
     """Without crumbs and small holes."""
-    from scipy import ndimage
-
-    label, count = ndimage.label(ndimage.binary_opening(mask))
+    label, count = raster.labelled(raster.opened(mask))
     if not count:
         return np.asarray(mask & False)
     size = np.bincount(label.ravel())
     size[0] = 0
     kept = np.isin(label, np.flatnonzero(size >= SMALLEST_SHARE * size.max()))
-    holes, _ = ndimage.label(~kept)
+    holes, _ = raster.labelled(~kept)
     area = np.bincount(holes.ravel())
     small = np.flatnonzero(area < HOLE_SHARE * kept.sum())
     return np.asarray(kept | np.isin(holes, small[small > 0]))

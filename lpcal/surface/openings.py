@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import planes
@@ -38,8 +39,6 @@ simulated scenes all openings have .46 and more, all pieces of objects .35 and l
 
 def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, found: Sequence[planes.Plane]) -> Mask:
     """Openings (H, W) in a mask (H, W), which show one of the planes `found` of the background."""
-    from scipy import ndimage
-
     factor = factor_of(maps, PIXELS)
     image = coarse_of(maps, rays_C, factor)
     rows, columns = image.shape
@@ -49,7 +48,7 @@ def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, fou
         return np.zeros(mask.shape, bool)
     like = [_like(image.maps, image.image(image.rays_C), lights, inside, plane) for plane in found]
     for candidates in (*like, _dim(strength(image.maps), inside)):
-        label, count = ndimage.label(candidates)
+        label, count = raster.labelled(candidates)
         for one in range(1, count + 1):
             region = label == one
             if region.sum() >= SMALLEST * inside.sum() and _step(image.image(image.signal.T), region, inside) > STEP:
@@ -59,10 +58,8 @@ def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, fou
 
 def _like(maps: Grey, rays_C: Array, lights: Sequence[Light], inside: Mask, plane: planes.Plane) -> Mask:
     """Pixels (H, W) of the mask that may show a plane, without crumbs."""
-    from scipy import ndimage
-
     found = np.zeros(inside.shape, bool)
-    beside = look_at(maps, rays_C, ~ndimage.binary_dilation(inside, iterations=APART), central=True)
+    beside = look_at(maps, rays_C, ~raster.grown(inside, APART), central=True)
     m = planes.predicted(plane.q, beside.rays_C, lights)
     square, count = planes.misfit(beside, m)
     own = (count >= 2) & (square < planes.TRUSTED**2)
@@ -74,17 +71,15 @@ def _like(maps: Grey, rays_C: Array, lights: Sequence[Light], inside: Mask, plan
     square, count = planes.misfit(seen, m)
     ratio = np.log(np.maximum(_albedo(seen.signal, m), 1e-12) / max(common, 1e-12))
     found[inside] = (count >= 2) & (square < planes.TRUSTED**2) & (np.abs(ratio) < ALIKE)
-    return np.asarray(ndimage.binary_opening(ndimage.binary_closing(found) & inside, iterations=2))
+    return raster.opened(raster.closed(found) & inside, 2)
 
 
 def _dim(level: Image, inside: Mask) -> Mask:
     """Pixels (H, W) of the mask that are as dim as what no lamp reaches around it; none where all is lit."""
-    from scipy import ndimage
-
     dim = level < DIM * np.median(level[inside])
     if np.mean(dim[~inside]) < DIM_AROUND:
         return np.zeros(inside.shape, bool)
-    return np.asarray(ndimage.binary_opening(ndimage.binary_closing(dim & inside) & inside, iterations=2))
+    return raster.opened(raster.closed(dim & inside) & inside, 2)
 
 
 def _albedo(signal: Array, m: Array) -> Array:
@@ -94,13 +89,10 @@ def _albedo(signal: Array, m: Array) -> Array:
 
 def _step(signal: Array, region: Mask, inside: Mask) -> float:
     """The step of the signals (H, W, L) across a region's rim that most of the rim exceeds; 0 where the region fills the mask."""
-    from scipy import ndimage
-
-    deep, far = ndimage.distance_transform_edt(region), ndimage.distance_transform_edt(~region)
+    deep, far = raster.away(~region), raster.away(region)
     within, around = (deep >= INSIDE[0]) & (deep < INSIDE[1]), (far >= OUTSIDE[0]) & (far < OUTSIDE[1]) & inside
     if not within.any() or not around.any():
         return 0.0
-    row, column = ndimage.distance_transform_edt(~within, return_distances=False, return_indices=True)
-    here, there = signal[around], signal[row[around], column[around]]
+    here, there = signal[around], signal.reshape(-1, signal.shape[2])[raster.nearest(within)[around]]
     steps = np.abs(here - there).mean(axis=1) / np.maximum((here + there).mean(axis=1) / 2, 1e-12)
     return float(np.quantile(steps, RIM))

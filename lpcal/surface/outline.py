@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import cut, layers
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, joined
@@ -61,7 +62,7 @@ class Apart:
         """(layers, rows * columns) which layers are near coarse pixels on the object's side of the outline, and on the other."""
         every = range(len(self.found.planes) + 3)
         of_object, of_rest = (
-            np.stack([_grown(_opened(self.labels == k) & side, BAND) for k in every]).reshape(len(every), -1)
+            np.stack([raster.grown(raster.opened(self.labels == k) & side, BAND) for k in every]).reshape(len(every), -1)
             for side in (self.mask, ~self.mask)
         )
         of_object[0], of_rest[0] = True, False
@@ -70,7 +71,7 @@ class Apart:
     @cached_property
     def dim(self) -> Mask:
         """Coarse pixels (rows, columns) near the outline that no light reaches or that lie in no plane: shadows leave that open."""
-        near = _grown(self.mask, DIM) & ~cut.shrunk(self.mask, DIM)
+        near = raster.grown(self.mask, DIM) & ~raster.shrunk(self.mask, DIM, beyond=True)
         return np.asarray(near & (self.labels > len(self.found.planes)))
 
 
@@ -120,15 +121,15 @@ def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mas
     mask = enlarged(mask, before / factor, here.shape)
     by = int(np.ceil(BAND * before / factor))
     dim = np.zeros(here.shape, bool) if room is None else enlarged(apart.dim, coarse / factor, here.shape)
-    inside = cut.shrunk(mask, by)
-    band = dim | (_grown(mask, by) & ~inside)
+    inside = raster.shrunk(mask, by, beyond=True)
+    band = dim | (raster.grown(mask, by) & ~inside)
     rows, columns = apart.mask.shape
     row, column = np.nonzero(band)
     parent = np.minimum(row * factor // coarse, rows - 1) * columns + np.minimum(column * factor // coarse, columns - 1)
     bright, light = levels_of(here, room)
     pictures = {"lights": bright} if light is None else {"lights": bright, "room": light}
     edge = max(1, by // 2)
-    sides = cut.shrunk(mask, edge) & ~dim, ~(_grown(mask, edge) | dim)
+    sides = raster.shrunk(mask, edge, beyond=True) & ~dim, ~(raster.grown(mask, edge) | dim)
     like = dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True))
     odds, lit = apart.log_odds.ravel()[parent], ~dim[band]
     clues = {"": np.ones(len(row)), "layers": lit * _by_layers(apart, here, band.ravel(), parent), "odds": lit * odds}
@@ -163,15 +164,3 @@ def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     large = cv2.warpAffine(mask.astype(np.float32), grid, shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
     return np.asarray(large > 0.5)
-
-
-def _grown(mask: Mask, by: int) -> Mask:
-    from scipy import ndimage
-
-    return np.asarray(ndimage.binary_dilation(mask, iterations=by))
-
-
-def _opened(mask: Mask) -> Mask:
-    from scipy import ndimage
-
-    return np.asarray(ndimage.binary_opening(mask))

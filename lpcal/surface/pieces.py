@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
@@ -73,8 +74,6 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
 
     A jump between two pieces may have been taken in two: a strip of a few pixels is left in between, that belongs half to either.
     """
-    from scipy import ndimage
-
     label = _connected(grid, weight, mask)
     kept = []
     for one in np.flatnonzero(np.bincount(label) > SLIVER_PX**2):
@@ -82,7 +81,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
         place[mask] = label == one
         rows, columns = np.nonzero(place)
         close = place[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
-        if ndimage.binary_erosion(close, iterations=SLIVER_PX // 2).any():
+        if raster.shrunk(close, SLIVER_PX // 2).any():
             kept.append(one)
     if not kept:
         return weight
@@ -95,14 +94,12 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
 
 def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
     """Whether an edge (edges,) touches a pixel at a break or next to one."""
-    from scipy import ndimage
-
     broken = weight <= BREAK_WEIGHT
     at = np.zeros(int(mask.sum()), bool)
     at[grid.a[broken]] = at[grid.b[broken]] = True
     place = np.zeros(mask.shape, bool)
     place[mask] = at
-    near = ndimage.binary_dilation(place)[mask]
+    near = raster.grown(place)[mask]
     return np.asarray(near[grid.a] | near[grid.b])
 
 
@@ -122,16 +119,13 @@ def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
 
 def _joined(label: Indices, kept: Indices, mask: Mask) -> Labels:
     """Labels (P,) from 1, the largest of `kept` first; pixels of the others take that of the nearest kept pixel."""
-    from scipy import ndimage
-
     size = np.bincount(label)
     order = sorted(kept, key=lambda one: -size[one])[:255] or [int(np.argmax(size))]
     rank = np.zeros(len(size), np.uint8)
     rank[order] = np.arange(1, len(order) + 1)
     labels = np.zeros(mask.shape, np.uint8)
     labels[mask] = rank[label]
-    nearest = ndimage.distance_transform_edt(labels == 0, return_distances=False, return_indices=True)
-    return np.asarray(labels[tuple(nearest)][mask])
+    return np.asarray(labels.ravel()[raster.nearest(labels > 0)[mask]])
 
 
 def flatness(surface: Surface) -> Flatness | None:
@@ -140,9 +134,7 @@ def flatness(surface: Surface) -> Flatness | None:
     Plane by total least squares on the points of the piece, its outermost pixels left out; deviations w along its normal. Bowl: what the
     best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
     """
-    from scipy import ndimage
-
-    inside = ndimage.binary_erosion(surface.component == 1, iterations=RIM_PX)
+    inside = raster.shrunk(surface.component == 1, RIM_PX)
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
         return None
     places = np.flatnonzero(inside)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.surface.coarse import Coarse, LightTable
 from lpcal.surface.flats import Sweep
@@ -69,12 +70,10 @@ class Regions:
     @staticmethod
     def of(labels: Labels) -> Regions:
         """The regions of labels (rows, columns)."""
-        from scipy import ndimage
-
         number = np.zeros(labels.shape, int)
         label: list[int] = []
         for one in np.unique(labels):
-            piece, count = ndimage.label(labels == one)
+            piece, count = raster.labelled(labels == one)
             number[piece > 0] = piece[piece > 0] - 1 + len(label)
             label += [int(one)] * count
         flat = np.arange(labels.size).reshape(labels.shape)
@@ -109,10 +108,13 @@ class Regions:
 
     def boxes(self) -> tuple[Array, Array, Array]:
         """The first row (N,) of each region, and the height and width (N,) of the box about it."""
-        from scipy import ndimage
-
-        box = [one for one in ndimage.find_objects(self.number + 1) if one is not None]
-        first, height, width = np.array([(y.start, y.stop - y.start, x.stop - x.start) for y, x in box], float).T
+        ends = []
+        for at in np.indices(self.number.shape):
+            low, high = np.full(len(self.label), at.max()), np.zeros(len(self.label), int)
+            np.minimum.at(low, self.number.ravel(), at.ravel())
+            np.maximum.at(high, self.number.ravel(), at.ravel())
+            ends.append((low.astype(float), high - low + 1.0))
+        (first, height), (_, width) = ends
         return first, height, width
 
 
@@ -185,13 +187,9 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
 
 def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Array]:
     """The clues (N,) of a region by the log odds (N,) of those about it."""
-    from scipy import ndimage
-
     count = len(pictures.planes)
     plane, free = (regions.label > 0) & (regions.label <= count), regions.label == 0
-    near, far = (
-        regions.mean(ndimage.gaussian_filter(logit[regions.number], share * regions.number.shape[1], mode="nearest")) for share in ABOUT
-    )
+    near, far = (regions.mean(raster.blurred(logit[regions.number], share * regions.number.shape[1], "nearest")) for share in ABOUT)
     frame = regions.frame()
     of_label = np.bincount(regions.label, weights=frame, minlength=count + 3)[regions.label]
     alike = np.exp(-((_step(pictures.bright, regions) / ALIKE_BRIGHT) ** 2))

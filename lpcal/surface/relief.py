@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.surface.sight import Indices, Sight, powers
@@ -33,8 +34,6 @@ class Relief:
     @staticmethod
     def of(seen: Sight, depth: Array, *, to_rim: bool = False) -> Relief:
         """From depths (P,) at the pixels of a camera; `to_rim` says whether pixels on the rim count, which on round bodies turn away."""
-        from scipy import ndimage
-
         outside = -np.inf if to_rim else np.inf
         front = np.full(seen.mask.shape, outside)
         front[seen.mask] = depth
@@ -43,7 +42,7 @@ class Relief:
         first = places.min(axis=0)
         pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), (places[some] - first).astype(float), rcond=None)[0]
         pixel_of_ray[0] += first
-        front = ndimage.maximum_filter(front, 3, mode="constant", cval=outside)
+        front = raster.highest(front, 1, outside)
         return Relief(np.where(seen.mask, front, np.inf) if to_rim else front, pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:

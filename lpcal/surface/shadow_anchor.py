@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Camera, Light
 from lpcal.records.figures import Anchor
@@ -111,8 +112,6 @@ def _lowest(costs: Array, needed_rise: float) -> float | None:
 
 def _predicted(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Array) -> Predicted:
     """Shadows of points x_C (P, 3) on the screen."""
-    from scipy import ndimage
-
     dark, near_side = np.zeros(shown.shade.shape, bool), np.zeros(shown.shade.shape, bool)
     if not len(x_C):
         return Predicted(dark, near_side)
@@ -125,7 +124,7 @@ def _predicted(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Arra
         inside = (pixel >= 0).all(axis=1) & (pixel[:, 0] < dark.shape[2]) & (pixel[:, 1] < dark.shape[1]) & (y_C[:, 2] > 0)
         column, row = pixel[inside].astype(int).T
         dark[k, row, column] = True
-        dark[k] = ndimage.binary_closing(dark[k])
+        dark[k] = raster.closed(dark[k])
         away = np.median(shadow_px[::NINTH] - own_px, axis=0)
         near_side[k] = _behind(dark[k], away / max(np.linalg.norm(away), 1e-9), int(np.linalg.norm(away) / shown.factor) + 1)
     return Predicted(dark, near_side)

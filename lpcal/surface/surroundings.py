@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import mask, planes
@@ -98,9 +99,7 @@ def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
 
 def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]) -> Around | None:
     """Patches of the planes `found`; None where nothing is seen of them."""
-    from scipy import ndimage
-
-    seen, free = image.seen, ~ndimage.binary_dilation(image.hidden, iterations=MARGIN).ravel()
+    seen, free = image.seen, ~raster.grown(image.hidden, MARGIN).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
     albedo: list[float] = []
     signal = seen.signal.copy()
@@ -153,11 +152,7 @@ def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array
 
     What stands nearest to the object reflects most onto it.
     """
-    from scipy import ndimage
-
-    shape = image.seen.mask.shape
-    nearest = ndimage.distance_transform_edt((of_plane < 0).reshape(shape), return_distances=False, return_indices=True)
-    pixel = (nearest[0] * shape[1] + nearest[1]).ravel()
+    pixel = raster.nearest((of_plane >= 0).reshape(image.seen.mask.shape)).ravel()
     margin = ~free & ~image.hidden.ravel() & np.any(of_plane >= 0)
     of_plane[margin] = of_plane[pixel[margin]]
     signal = signal.copy()
@@ -167,11 +162,8 @@ def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array
 
 def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
     """The plane that goes on at each pixel of the image with a margin of `pad`, the nearest of those seen; -1 where the image shows it."""
-    from scipy import ndimage
-
     here = np.pad(of_plane.reshape(image.seen.mask.shape), pad, constant_values=-1)
-    nearest = ndimage.distance_transform_edt(here < 0, return_distances=False, return_indices=True)
-    plane = np.where(here < 0, here[tuple(nearest)], -1)
+    plane = np.where(here < 0, here.ravel()[raster.nearest(here >= 0)], -1)
     plane[np.pad(~image.hidden, pad)] = -1
     return np.asarray(plane.ravel())
 

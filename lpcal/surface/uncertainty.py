@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface.integrate import Grid
@@ -99,15 +100,13 @@ def clues_of(
     unseen: Array,
 ) -> Clues:
     """The clues of each pixel, those that come from its samples given."""
-    from scipy import ndimage
-
     bend = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(normals - of_depth, axis=1) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
-    bend_round = np.sqrt(np.maximum(ndimage.uniform_filter(square, 5)[mask], 0) / np.maximum(ndimage.uniform_filter(inside, 5)[mask], 1e-3))
+    bend_round = np.sqrt(np.maximum(raster.boxed(square, 5)[mask], 0) / np.maximum(raster.boxed(inside, 5)[mask], 1e-3))
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
-    edge = ndimage.distance_transform_edt(~rim)[mask] <= EDGE_PX
+    edge = raster.away(rim)[mask] <= EDGE_PX
     return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from lpcal.geometry import camera, lambert, led_cluster, park, se3
+from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
@@ -126,6 +126,31 @@ def connected(rng: np.random.Generator) -> Array:
     mask = rng.random((60, 70)) < 0.8
     grid = Grid.of(mask)
     return pieces._connected(grid, rng.random(len(grid.a)) - 0.35, mask).astype(float)
+
+
+def masks(rng: np.random.Generator) -> list[Mask]:
+    lines = ndimage.binary_dilation(rng.random((50, 60)) < 0.01, np.ones((1, 9)))
+    return [rng.random((50, 60)) < share for share in (0.0, 0.003, 0.5, 0.7, 1.0)] + [lines, lines.T, lines[:, :1], lines[:1]]
+
+
+def labelled(rng: np.random.Generator) -> Array:
+    return np.concatenate([np.append(label.ravel(), count) for label, count in map(raster.labelled, masks(rng))]).astype(float)
+
+
+def nearest(rng: np.random.Generator) -> Array:
+    some = masks(rng)
+    return np.concatenate([each.ravel() for one in some for each in (raster.nearest(one).astype(float), np.minimum(raster.away(one), 99))])
+
+
+def blurred(rng: np.random.Generator) -> Array:
+    pictures = [rng.random(shape) for shape in ((40, 300), (3, 2), (1, 1), (7,), (9, 8, 5))]
+    found = [raster.blurred(one, by, border) for one in pictures for by in (0.0, 0.4, 3.0) for border in raster.BORDERS]
+    uneven = raster.blurred(pictures[-1], (0.5, 2.0, 1.0))
+    return np.concatenate([each.ravel() for each in (*found, uneven, *(raster.boxed(one, 5) for one in pictures))])
+
+
+def blurred_singles(rng: np.random.Generator) -> Array:
+    return np.concatenate([raster.blurred(rng.random((60, 270), np.float32), by, "nearest").ravel() for by in (0.5, 20.0)])
 
 
 def thrown_fits(rng: np.random.Generator) -> Array:
@@ -262,6 +287,10 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     between: (1e-12, {"lattice"}),
     thrown_fits: (1e-12, {"thrown_fits"}),
     connected: (0.0, {"connected"}),
+    labelled: (0.0, {"labelled"}),
+    nearest: (0.0, {"nearest"}),
+    blurred: (1e-14, {"joined"}),
+    blurred_singles: (0.0, {"joined_singles"}),
     own_distance: (1e-7, {"own_distance", "weighted"}),
     free: (1e-8, {"free"}),
     planar: (1e-9, {"planar"}),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from lit_scene import calibration
+from lpcal.geometry import raster
 from lpcal.surface import background, cut, flats, layers, mask, planes, regions, samples
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.flats import Sweep
@@ -296,7 +297,7 @@ def test_the_floor_carries_the_object_and_the_wall_does_not() -> None:
     found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
     card, floor = parts[-1][2], parts[1][2]
     assert found.layer is not None
-    clear = ~cut.shrunk(~card, 3) == card  # away from the card's outline
+    clear = ~raster.shrunk(~card, 3, beyond=True) == card  # away from the card's outline
     for value, true in ((background.WALL, ~card & ~floor), (background.SUPPORT, floor & ~card)):
         assert np.mean(found.layer[true & clear] == value) > 0.95
     assert np.array_equal(found.kept("object"), found.mask)
