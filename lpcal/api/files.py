@@ -32,7 +32,6 @@ from lpcal.records.provenance import Provenance
 from lpcal.records.rig import RigFile
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
-from lpcal.surface.mesh import build
 
 type PathLike = str | os.PathLike[str]
 type Vectors = Literal["directions", "positions"]
@@ -376,4 +375,4 @@ def write_surface(
         return
     page = None if calibration is None else render(surface, calibration)
     summary, placed = surface_files.summary_of(surface), mesh_frame == "placed" and surface.placement is not None
-    surface_files.write_surface(Path(folder), surface, build(surface), summary, page, placed_mesh=placed)
+    surface_files.write_surface(Path(folder), surface, summary, page, placed_mesh=placed)

@@ -19,7 +19,7 @@ from lpcal.formats.documents import plain
 from lpcal.formats.export_cameras import camera_of
 from lpcal.formats.export_lights import rgb
 from lpcal.formats.export_lobe import round_lobe
-from lpcal.formats.mesh_files import packed_glb
+from lpcal.formats.mesh_files import glb_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
@@ -67,7 +67,7 @@ def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
     }
     if spots:
         document |= {"extensionsUsed": [LIGHTS], "extensions": {LIGHTS: {"lights": spots}}}
-    (folder / "rig.glb").write_bytes(packed_glb(plain(document)))
+    (folder / "rig.glb").write_bytes(glb_of(plain(document)))
     said = ["the principal point and the distortion stand in the camera's extras: glTF's cameras have neither"]
     said += [f"lobes become cones with a soft edge: up to {100 * worst:.2g} % of the axis's light off"] * (worst > 1e-6)
     return said

@@ -42,14 +42,14 @@ def unit_of(surface: Surface) -> str:
 def write_ply(content: ExchangeContent, folder: Path) -> list[str]:
     """mesh.ply: vertices, measured normals, colours, faces."""
     surface = surface_of(content)
-    write_meshes(folder, build(surface), unit_of(surface), {"ply"})
+    write_meshes(folder, surface, {"ply"})
     return []
 
 
 def write_glb(content: ExchangeContent, folder: Path) -> list[str]:
     """mesh.glb: the same in glTF's axes."""
     surface = surface_of(content)
-    write_meshes(folder, build(surface), unit_of(surface), {"glb"})
+    write_meshes(folder, surface, {"glb"})
     return []
 
 

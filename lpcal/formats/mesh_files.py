@@ -1,13 +1,14 @@
 """Meshes as files: PLY (binary, little-endian), as mesh viewers take it, and GLB, the binary form of glTF 2.0.
 
-Written here and not by trimesh: importing that takes longer than writing a mesh does. It reads both in the tests, point for point.
+Written here and not by trimesh: importing that takes longer than writing a mesh does. It reads both in the tests, point for point. Both are
+written band by band, since the mesh of a large picture takes more memory than all its maps.
 """
 
 from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,60 +26,74 @@ ARRAY_BUFFER, ELEMENT_BUFFER = 34962, 34963
 """What a stretch of a glTF's numbers is for, by the format: values of vertices, or corners of faces."""
 UINT32, FLOAT32 = 5125, 5126
 """Kinds of numbers in a glTF, by the format."""
-PLY_TYPES = {"f4": "float", "u1": "uchar", "i4": "int"}
+VERTEX = np.dtype([("x y z", "<f4", 3), ("nx ny nz", "<f4", 3), ("red green blue alpha", "u1", 4)])
+"""What a PLY of lpcal's holds of a vertex: place, normal, colour; each word is a property of the file."""
+PLY_TYPES = {"<f4": "float", "|u1": "uchar"}
 """Words of PLY for numpy's types."""
+TRIANGLE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
+"""A triangle in a PLY: how many corners it has, and their numbers."""
+
+type Bands = Iterable[Numbers]
+"""Rows of a table, band after band, so that the whole of it need not be there at once."""
 
 
-def ply_bytes(vertices: Mapping[str, Numbers], faces: Numbers, comments: Sequence[str] = ()) -> bytes:
-    """A PLY of V vertices and their triangles.
+def ply(
+    sizes: tuple[int, int], vertices: Iterable[tuple[Numbers, Numbers, Numbers]], faces: Bands, comments: Sequence[str] = ()
+) -> Iterator[bytes]:
+    """A PLY, part by part.
 
     Parameters
     ----------
-    vertices : mapping of str to ndarray (V,)
-        Property by property in the file's order: floats of 4 bytes or whole numbers of 1.
-    faces : ndarray (F, 3)
-        Numbers of the triangles' corners.
+    sizes : (int, int)
+        How many vertices and triangles there are.
+    vertices : iterable of (ndarray (V, 3), ndarray (V, 3), ndarray (V, 4))
+        Bands of places, normals and colours with their opacity, 8 bits.
+    faces : iterable of ndarray (F, 3)
+        Bands of numbers of the triangles' corners.
     comments : sequence of str
         Lines for people, ASCII.
     """
-    types = [(name, f"<{values.dtype.str[1:]}") for name, values in vertices.items()]
-    table = np.empty(len(next(iter(vertices.values()))), types)
-    for name, values in vertices.items():
-        table[name] = values
-    triangles = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", 3)])
-    triangles["count"], triangles["corners"] = 3, faces
-    head = ["ply", "format binary_little_endian 1.0", *(f"comment {one}" for one in comments), f"element vertex {len(table)}"]
-    head += [f"property {PLY_TYPES[kind[1:]]} {name}" for name, kind in types]
-    head += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", ""]
-    return "\n".join(head).encode("ascii") + table.tobytes() + triangles.tobytes()
+    head = ["ply", "format binary_little_endian 1.0", *(f"comment {one}" for one in comments), f"element vertex {sizes[0]}"]
+    for words in VERTEX.names or ():
+        head += [f"property {PLY_TYPES[VERTEX[words].base.str]} {word}" for word in words.split()]
+    head += [f"element face {sizes[1]}", "property list uchar int vertex_indices", "end_header", ""]
+    yield "\n".join(head).encode("ascii")
+    for band in vertices:
+        table = np.empty(len(band[0]), VERTEX)
+        for words, values in zip(VERTEX.names or (), band, strict=True):
+            table[words] = values
+        yield table.tobytes()
+    for corners in faces:
+        triangles = np.empty(len(corners), TRIANGLE)
+        triangles["count"], triangles["corners"] = 3, corners
+        yield triangles.tobytes()
 
 
-def named(names: str, values: Numbers) -> dict[str, Numbers]:
-    """Columns (V,) of values (V, N) by their names, a word each."""
-    return dict(zip(names.split(), values.T, strict=True))
-
-
-def glb_bytes(attributes: Mapping[str, Numbers], faces: Numbers, extras: Mapping[str, Any]) -> bytes:
-    """A GLB of one matte mesh.
+def glb(
+    sizes: tuple[int, int], attributes: Mapping[str, Callable[[], Bands]], faces: Callable[[], Bands], extras: Mapping[str, Any]
+) -> Iterator[bytes]:
+    """A GLB of one matte mesh, part by part.
 
     Parameters
     ----------
-    attributes : mapping of str to ndarray (V, 3)
-        POSITION, NORMAL, COLOR_0 as glTF names them, each written as floats of 4 bytes.
-    faces : ndarray (F, 3)
-        Numbers of the triangles' corners.
+    sizes : (int, int)
+        How many vertices and triangles there are.
+    attributes : mapping of str to callable
+        POSITION, NORMAL, COLOR_0 as glTF names them, each written as floats of 4 bytes: what gives bands of them (V, 3), and the same
+        when it is called again.
+    faces : callable
+        What gives bands of numbers of the triangles' corners (F, 3), likewise.
     extras : mapping
         What the asset says of itself besides.
     """
-    parts = [np.asarray(faces, "<u4").reshape(-1, 1), *(np.asarray(values, "<f4") for values in attributes.values())]
     views, accessors, begin = [], [], 0
-    for number, part in enumerate(parts):
-        target = ARRAY_BUFFER if number else ELEMENT_BUFFER
-        views.append({"buffer": 0, "byteOffset": begin, "byteLength": part.nbytes, "target": target})
-        shape = {"componentType": FLOAT32 if number else UINT32, "type": "VEC3" if number else "SCALAR", "count": len(part)}
-        ends = {"min": part.min(axis=0).tolist(), "max": part.max(axis=0).tolist()} if len(part) else {}
-        accessors.append({"bufferView": number, **shape, **ends})
-        begin += part.nbytes
+    parts = [(sizes[1] * 3, "SCALAR", "<u4", 1, faces), *((sizes[0], "VEC3", "<f4", 3, of) for of in attributes.values())]
+    for number, (count, kind, stored, columns, of) in enumerate(parts):
+        view = {"buffer": 0, "byteOffset": begin, "byteLength": 4 * columns * count}
+        views.append(view | {"target": ARRAY_BUFFER if number else ELEMENT_BUFFER})
+        accessor = {"bufferView": number, "componentType": FLOAT32 if number else UINT32, "type": kind, "count": count}
+        accessors.append(accessor | (_ends(of(), columns, stored) if count else {}))
+        begin += 4 * columns * count
     matte = {"name": "matte", "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}
     drawn = {"attributes": {name: 1 + k for k, name in enumerate(attributes)}, "indices": 0, "mode": 4, "material": 0}
     document = {
@@ -92,15 +107,33 @@ def glb_bytes(attributes: Mapping[str, Numbers], faces: Numbers, extras: Mapping
         "bufferViews": views,
         "buffers": [{"byteLength": begin}],
     }
-    return packed_glb(document, b"".join(part.tobytes() for part in parts))
+    yield _head(document, begin)
+    for _, _, stored, _, of in parts:
+        for band in of():
+            yield np.asarray(band, stored).tobytes()
 
 
-def packed_glb(document: Mapping[str, Any], binary: bytes = b"") -> bytes:
-    """A GLB of a glTF's document and of its numbers, each part filled up to whole fours."""
+def _ends(bands: Bands, columns: int, stored: str) -> dict[str, list[float]]:
+    """Least and largest numbers of each column, as a glTF states them."""
+    least, largest = [], []
+    for band in bands:
+        if len(band):
+            table = np.asarray(band, stored).reshape(-1, columns)
+            least.append(table.min(axis=0))
+            largest.append(table.max(axis=0))
+    return {"min": np.min(least, axis=0).tolist(), "max": np.max(largest, axis=0).tolist()}
+
+
+def _head(document: Mapping[str, Any], binary: int) -> bytes:
+    """What of a GLB comes before its numbers, which take so many bytes: a multiple of four."""
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
     if binary:
-        binary += b"\0" * (-len(binary) % 4)
-        chunks += struct.pack("<II", len(binary), BINARY_CHUNK) + binary
-    return struct.pack("<III", GLB_MAGIC, GLB_VERSION, 12 + len(chunks)) + chunks
+        chunks += struct.pack("<II", binary, BINARY_CHUNK)
+    return struct.pack("<III", GLB_MAGIC, GLB_VERSION, 12 + len(chunks) + binary) + chunks
+
+
+def glb_of(document: Mapping[str, Any]) -> bytes:
+    """A GLB of a glTF's document alone, its numbers within it."""
+    return _head(document, 0)

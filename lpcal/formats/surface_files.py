@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +26,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
-from lpcal.formats.mesh_files import glb_bytes, named, ply_bytes
+from lpcal.formats.mesh_files import Numbers, glb, ply
 from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.placement_document import placement_document, placement_from_document
 from lpcal.formats.reading import reading
@@ -36,12 +36,14 @@ from lpcal.geometry.arrays import Image
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface, SurfaceSummary
-from lpcal.surface.mesh import DISPLAY_GAMMA, Mesh
+from lpcal.surface.mesh import DISPLAY_GAMMA, MeshBands
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
 BAND_ROWS = 512
 """Rows of a picture that are made at once."""
 GLTF_FROM_C = np.array([1.0, -1.0, -1.0], np.float32)
+LINEAR = ((np.arange(256) / 255) ** DISPLAY_GAMMA).astype(np.float32)
+"""Light, as a share of white, of each display number."""
 SUMMARY = "summary.json"
 PAGE = "relight.html"
 MAPS_FILE = "surface.npz"
@@ -66,14 +68,13 @@ SURFACE = summarised("the folder of a surface", "surface", SUMMARY, FILES)
 def write_surface(
     folder: Path,
     surface: Surface,
-    mesh: Mesh | None,
     summary: Mapping[str, Any],
     page: str | None = None,
     outputs: Collection[str] = frozenset(OUTPUTS),
     *,
     placed_mesh: bool = False,
 ) -> None:
-    """Write the files of a surface that `outputs` names, and summary.json; `page` is the relighting page, `mesh` what the meshes hold.
+    """Write the files of a surface that `outputs` names, and summary.json; `page` is the relighting page.
 
     With `placed_mesh` the meshes of a surface that is placed are in the room, or in the body that the object rides on.
 
@@ -89,8 +90,7 @@ def write_surface(
             layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
             _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "rays": surface.rays_C, "breaks": surface.breaks})
         _write_images(draft, surface, outputs)
-        if mesh is not None:
-            write_meshes(draft, mesh, str(summary.get("units", "metres")), outputs, surface.placement if placed_mesh else None)
+        write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)
         if page is not None and "page" in outputs:
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
@@ -238,28 +238,42 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def write_meshes(draft: Path, mesh: Mesh, unit: str, outputs: Collection[str], placement: Placement | None = None) -> None:
+def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placement: Placement | None = None) -> None:
     """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks.
 
     With a placement both are in its frame.
     """
+    if not {"ply", "glb"} & set(outputs):
+        return
+    made, unit = MeshBands.of(surface), "metres" if surface.metric else "pixels"
     frame, origin = "glTF's axes of C: x right, y up, z to the camera", "the camera"
-    ply_frame = "C: x right, y down, z forward"
-    vertices, normals, turn = mesh.vertices_C, mesh.normals_C, GLTF_FROM_C
+    ply_frame, turn = "C: x right, y down, z forward", GLTF_FROM_C
     if placement is not None:
         frame, origin = f"{placement.frame}, its axes as the tracking has them", placement.frame
         ply_frame = f"{placement.name[2]}: {_plain_words(placement.frame)}"
-        vertices = se3.apply(placement.H_AC, mesh.vertices_C.astype(float)).astype(np.float32)
-        normals = se3.rotate(placement.H_AC, mesh.normals_C.astype(float)).astype(np.float32)
         turn = np.ones(3, np.float32)
+
+    def points() -> Iterator[Numbers]:
+        for band in made.points_C():
+            yield band if placement is None else se3.apply(placement.H_AC, band.astype(float)).astype(np.float32)
+
+    def normals() -> Iterator[Numbers]:
+        for band in made.normals_C():
+            yield band if placement is None else se3.rotate(placement.H_AC, band.astype(float)).astype(np.float32)
+
+    sizes = made.vertices, sum(made.triangles)
     if "ply" in outputs:
-        opaque = np.concatenate([mesh.colours, np.full((len(mesh.colours), 1), 255, np.uint8)], axis=1)
-        columns = named("x y z", vertices) | named("nx ny nz", normals) | named("red green blue alpha", opaque)
-        (draft / OUTPUTS["ply"]).write_bytes(ply_bytes(columns, mesh.faces, [f"frame {ply_frame}, {unit}"]))
+        opaque = (np.pad(band, [(0, 0), (0, 1)], constant_values=255) for band in made.colours())
+        with (draft / OUTPUTS["ply"]).open("wb") as stream:
+            stream.writelines(ply(sizes, zip(points(), normals(), opaque, strict=True), made.faces(), [f"frame {ply_frame}, {unit}"]))
     if "glb" in outputs:
-        linear = (mesh.colours / 255) ** DISPLAY_GAMMA
-        attributes = {"POSITION": vertices * turn, "NORMAL": normals * turn, "COLOR_0": linear}
-        (draft / OUTPUTS["glb"]).write_bytes(glb_bytes(attributes, mesh.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
+        attributes = {
+            "POSITION": lambda: (band * turn for band in points()),
+            "NORMAL": lambda: (band * turn for band in normals()),
+            "COLOR_0": lambda: (LINEAR[band] for band in made.colours()),
+        }
+        with (draft / OUTPUTS["glb"]).open("wb") as stream:
+            stream.writelines(glb(sizes, attributes, made.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
 
 
 def _plain_words(text: str) -> str:

@@ -20,7 +20,7 @@ from typing import Any
 from lpcal import __version__
 from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
 from lpcal.api.surface_notes import distance_said
-from lpcal.api.surfaces import DISTANCE_M, Green, integrate, mesh, reconstruct
+from lpcal.api.surfaces import DISTANCE_M, Green, integrate, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_files import read_camera_file
@@ -167,9 +167,8 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     document |= {} if distant is None else {"flatness_distant": flatness(distant)}
     document["made_from"] = digest
     progress(f"{task.name}: writing", 0, 1)
-    solid = mesh(surface) if {"ply", "glb"} & set(wishes.outputs) else None
     page = render(surface, calibration, distant) if "page" in wishes.outputs else None
-    write_surface(task.target, surface, solid, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
+    write_surface(task.target, surface, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
     progress(f"{task.name}: writing", 1, 1)
     return document
 
@@ -381,7 +380,7 @@ def integrate_file(
         "times_s": {"solving": seconds},
         "inputs": inputs,
     }
-    write_surface(target, surface, mesh(surface), document)
+    write_surface(target, surface, document)
     count = len(surface.components)
     line = f"{surface.name}: {surface.mask.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
     return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in remarks)], {"surfaces": [document]})

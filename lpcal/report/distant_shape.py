@@ -89,7 +89,7 @@ def bend_of(surface: Surface, calibration: Calibration, distant: Surface | None 
         normals, ratio = distant.normals[at][mask].astype(float), distant.depth[at][mask] / surface.depth[at][mask]
     else:
         normals = _distant_normals(
-            surface.normals[at][mask].astype(float), (surface.depth[..., None] * surface.rays_C)[at][mask], calibration
+            surface.normals[at][mask].astype(float), surface.depth[at][mask][:, None] * surface.rays_C[at][mask], calibration
         )
         rays = surface.rays_C[at][mask]
         grid = Grid.of(mask)

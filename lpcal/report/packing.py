@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -33,7 +33,7 @@ JUMP_PX = 7.0
 FINE_BITS = 12
 """Bits of a normal's coordinate in the full-size bands: .04 deg, a tenth of the least sigma, for two thirds of the bytes of 16."""
 BAND_PIXELS = 1_000_000
-"""Pixels of a full-size band: what is held at once while it is packed."""
+"""Pixels of a band: what is held at once while a surface is averaged and packed."""
 
 type Planes = list[npt.NDArray[np.uint8] | npt.NDArray[np.uint16]]
 
@@ -73,6 +73,18 @@ class Scales:
 
 def reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduced:
     """The maps cropped, and averaged over blocks of step by step pixels."""
+    rows, columns = window
+    height = max(1, BAND_PIXELS // max(columns.stop - columns.start, 1) // step) * step
+    parts = [
+        _reduced(surface, (slice(top, min(top + height, rows.stop)), columns), step) for top in range(rows.start, max(rows.stop, 1), height)
+    ]
+    if len(parts) == 1:
+        return parts[0]
+    return Reduced(**{one.name: np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Reduced)})
+
+
+def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduced:
+    """`reduced` for a band of rows."""
     mask = surface.mask[window]
     total = block_sum(mask.astype(np.float32), step)
 
@@ -84,7 +96,8 @@ def reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduced
 
     normals = mean(surface.normals)
     length = np.linalg.norm(normals, axis=2, keepdims=True)
-    cut = block_sum(breaks_of(surface, window).astype(np.float32), step) > 0
+    below = (slice(window[0].start, window[0].stop + 1), window[1])  # the surface may break between this band and the next
+    cut = block_sum(breaks_of(surface, below)[: len(mask)].astype(np.float32), step) > 0
     return Reduced(
         mask=total > 0.5 * step * step if step > 1 else mask,
         normals=normals / np.maximum(length, 1e-9),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 
@@ -11,6 +13,9 @@ STILL_LIGHT = np.array([-0.45, -0.55, -0.7]) / np.linalg.norm([0.45, 0.55, 0.7])
 
 RAMP = np.array([[0x17, 0x32, 0x4D], [0x2E, 0x7D, 0x86], [0x9B, 0xC2, 0x6C], [0xF0, 0xBF, 0x4A], [0xCF, 0x4F, 0x2E]]) / 255
 """Colours (5, 3) of doubt, from none to much, distinguishable to the colour-blind too, as lightness rises before it falls to red."""
+
+BAND_BLOCKS = 16
+"""Rows of a small picture that are made at once: of a large surface, several hundred of its own."""
 
 type Bytes = npt.NDArray[np.uint8]
 
@@ -28,12 +33,21 @@ def bounds(mask: Mask, margin: int = 2) -> tuple[slice, slice]:
 
 def shrink(value: Image, mask: Mask, largest: int) -> Bytes:
     """Values (H, W, 3) in 0..1, cropped to the mask and averaged down to `largest` pixels, with the mask as alpha: (h, w, 4)."""
-    window = bounds(mask)
-    value, weight = value[window], mask[window].astype(np.float32)
-    step = max(1, -(-max(value.shape[:2]) // largest))
-    total = block_sum(weight, step)
-    mean = block_sum(np.where(weight[..., None] > 0, np.nan_to_num(value), 0), step) / np.maximum(total, 1)[..., None]
-    return np.asarray(np.round(255 * np.dstack([np.clip(mean, 0, 1), total / step**2])), dtype=np.uint8)
+    return shrunk(lambda rows, columns: value[rows, columns], mask, largest)
+
+
+def shrunk(shown: Callable[[slice, slice], Image], mask: Mask, largest: int) -> Bytes:
+    """As `shrink`, of values (h, w, 3) that are made a band of rows at a time."""
+    rows, columns = bounds(mask)
+    step = max(1, -(-max(rows.stop - rows.start, columns.stop - columns.start) // largest))
+    parts = []
+    for top in range(rows.start, rows.stop, BAND_BLOCKS * step):
+        some = slice(top, min(top + BAND_BLOCKS * step, rows.stop))
+        weight = mask[some, columns].astype(np.float32)
+        total = block_sum(weight, step)
+        mean = block_sum(np.where(weight[..., None] > 0, np.nan_to_num(shown(some, columns)), 0), step) / np.maximum(total, 1)[..., None]
+        parts.append(np.asarray(np.round(255 * np.dstack([np.clip(mean, 0, 1), total / step**2])), dtype=np.uint8))
+    return np.concatenate(parts)
 
 
 def block_sum(value: npt.NDArray[np.float32], step: int) -> npt.NDArray[np.float32]:

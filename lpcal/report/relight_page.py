@@ -19,7 +19,7 @@ from lpcal.report import packing
 from lpcal.report.distant_shape import bend_of
 from lpcal.report.page import script_json
 from lpcal.report.page_data import FullSize, LightData, RelightData
-from lpcal.report.pictures import bounds, shaded, shrink
+from lpcal.report.pictures import bounds, shaded, shrunk
 from lpcal.report.templates import environment, packed_three
 
 POSTER_PX = 420
@@ -51,7 +51,7 @@ def render(surface: Surface, calibration: Calibration | None, distant: Surface |
             data=script_json(data),
             bands=[text for _, text in bands],
             three=packed_three(),
-            poster=data_uri(png(shrink(shaded(surface.normals), surface.mask, POSTER_PX))),
+            poster=data_uri(png(shrunk(lambda *part: shaded(surface.normals[part]), surface.mask, POSTER_PX))),
             pieces=surface.components,
             metric=surface.metric,
         )
