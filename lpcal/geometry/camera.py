@@ -41,8 +41,11 @@ def distort(plane: Array, distortion: Array) -> Array:
 
 def undistort(plane_d: Array, distortion: Array) -> Array:
     """Undistorted plane coordinates (..., 2) of distorted ones (..., 2), by Newton's method from the distorted point."""
-    plane = np.array(plane_d, dtype=float)
+    plane = np.array(plane_d, dtype=float, order="C")
     if not np.any(distortion):
+        return plane
+    if run := kernel("undistort"):
+        run(plane.size // 2, np.ascontiguousarray(plane_d, float), _lens(distortion), NEWTON_STEPS, NEWTON_PRECISION, plane)
         return plane
     for _ in range(NEWTON_STEPS):
         found, J = _distort_with_jacobian(plane, distortion)
@@ -53,6 +56,11 @@ def undistort(plane_d: Array, distortion: Array) -> Array:
         if np.max(np.abs(step), initial=0.0) < NEWTON_PRECISION:
             break
     return plane
+
+
+def _lens(distortion: Array) -> Array:
+    """The eight coefficients, 0 where there are fewer."""
+    return np.concatenate([np.ravel(distortion), np.zeros(8 - np.size(distortion))])
 
 
 def projection_jacobian(x_C: Array, K: Array, distortion: Array) -> Array:
@@ -67,7 +75,7 @@ def projection_jacobian(x_C: Array, K: Array, distortion: Array) -> Array:
 
 
 def _distort_with_jacobian(plane: Array, distortion: Array) -> tuple[Array, Array]:
-    lens = np.concatenate([np.ravel(distortion), np.zeros(8 - np.size(distortion))])
+    lens = _lens(distortion)
     if run := kernel("distort"):
         found, J = np.empty(plane.shape), np.empty((*plane.shape, 2))
         run(plane.size // 2, np.ascontiguousarray(plane, float), lens, found, J)

@@ -77,3 +77,26 @@ def cluster_field(x_L: Array, position_L: Array, axis_L: Array, power: Array, m:
             total += to_led * (strength * np.exp(m * np.log(lit)) / (r2 * r))[..., None]
     irradiance = np.linalg.norm(total, axis=-1)
     return total / np.maximum(irradiance, 1e-300)[..., None], irradiance
+
+
+def cluster_slope(x_L: Array, centre_L: Array, position_L: Array, axis_L: Array, power: Array, m: float) -> Array:
+    """How the LEDs' irradiance vector (..., 3) at points x_L (..., 3) changes with the logarithm of their distance from a centre (3,).
+
+    The vector of a LED at a, seen from the point, is ``a c^m / r^3`` with ``c = -(a . axis) / r``; moving by h from the centre changes a by
+    -h, so ``log r`` by ``-(a . h) / r^2`` and ``log c`` by ``(h . axis) / -(a . axis) + (a . h) / r^2``.
+    """
+    if run := kernel("cluster_slope"):
+        given = (np.ascontiguousarray(one, float) for one in (x_L, centre_L, position_L, axis_L, power))
+        slope = np.empty(np.shape(x_L))
+        run(slope.size // 3, len(position_L), *given, m, slope)
+        return slope
+    ahead, slope = x_L - centre_L, np.zeros(np.shape(x_L))
+    for place, axis, strength in zip(position_L, axis_L, power, strict=True):
+        to_led = place - x_L
+        r2 = np.sum(to_led * to_led, axis=-1)
+        r, nearer = np.sqrt(r2), np.sum(to_led * ahead, axis=-1) / r2
+        level = -(to_led @ axis)
+        lit = strength * np.exp(m * np.log(np.maximum(level / r, 1e-6))) / (r2 * r)
+        change = lit * (3 * nearer + np.where(level / r > 1e-6, m * ((ahead @ axis) / level + nearer), 0.0))
+        slope += to_led * change[..., None] - ahead * lit[..., None]
+    return slope

@@ -18,3 +18,21 @@ static void distorted(const double point[2], const double lens[8], double found[
 KERNEL void lpcal_distort(int64_t count, const double *plane, const double *lens, double *found, double *J) {
     for (int64_t p = 0; p < count; p++) distorted(plane + 2 * p, lens, found + 2 * p, J + 4 * p);
 }
+
+/* Places of the plane (count, 2) whose distorted places are given, by Newton's steps from those; all go on until the largest step is small. */
+KERNEL void lpcal_undistort(int64_t count, const double *given, const double *lens, int64_t most, double precision, double *plane) {
+    for (int64_t step = 0; step < most; step++) {
+        double largest = 0.0;
+        for (int64_t p = 0; p < count; p++) {
+            double found[2], J[4];
+            distorted(plane + 2 * p, lens, found, J);
+            double x = given[2 * p] - found[0], y = given[2 * p + 1] - found[1], determinant = J[0] * J[3] - J[1] * J[2];
+            double right = (J[3] * x - J[1] * y) / determinant, down = (J[0] * y - J[2] * x) / determinant;
+            plane[2 * p] += right;
+            plane[2 * p + 1] += down;
+            largest = fabs(right) > largest ? fabs(right) : largest;
+            largest = fabs(down) > largest ? fabs(down) : largest;
+        }
+        if (largest < precision) return;
+    }
+}

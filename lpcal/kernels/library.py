@@ -25,6 +25,7 @@ SWITCH = "LPCAL_KERNELS"
 SIGNATURES = {
     "behind": "i f i i f f f",
     "cluster": "i i f f f f d f f",
+    "cluster_slope": "i i f f f f f d f",
     "connected": "i i n n b n",
     "coupled": "i i m f f f f f f d i d",
     "cubic": "i i i i s s d d f n f s",
@@ -51,6 +52,7 @@ SIGNATURES = {
     "two_labels": "i i s s s i n i d s s",
     "thrown_fits": "i i f f f f f d d f",
     "turns": "i i i f f n n f",
+    "undistort": "i f f i d f",
     "unexplained": "i i f f f f f d i f f f",
     "weighted": "i i f f f d f f",
     "white": "i i i s s d d f f n f s",

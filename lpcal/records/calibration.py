@@ -22,6 +22,9 @@ from lpcal.records.placement import RoomTracking
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
 
+FURTHER = 1e-3
+"""Share of the distance on either side over which a light's change with distance is taken where it has no formula."""
+
 __all__ = [
     "NAMES",
     "Calibration",
@@ -255,6 +258,16 @@ class Light(Shown):
             ray_L = se3.rotate(se3.inv(self.H_CL), -d)
             emission = emission * lobe_map.evaluate(angle, np.arctan2(ray_L[..., 1], ray_L[..., 0]), self.lobe.node_rad, self.lobe.factor)
         return d, (emission / r**2)[..., None] * self.intensity
+
+    def slope(self, x_C: Array) -> Array:
+        """How its irradiance vector (..., 3) a unit of intensity, of colours the mean, changes with log distance from C at x_C (..., 3)."""
+        if self.source_C is not None and self.lobe.leds is not None and self.H_CL is not None:
+            leds, H_LC = self.lobe.leds, se3.inv(self.H_CL)
+            cluster = (leds.position_L, leds.axis_L, leds.power, leds.exponent)
+            return se3.rotate(self.H_CL, led_cluster.cluster_slope(se3.apply(H_LC, x_C), H_LC[:3, 3], *cluster))
+        (d, E), (d_near, E_near) = self.field(x_C * (1 + FURTHER)), self.field(x_C * (1 - FURTHER))
+        change = d * E.mean(axis=-1, keepdims=True) - d_near * E_near.mean(axis=-1, keepdims=True)
+        return np.asarray(change / (2 * FURTHER * self.intensity.mean()))
 
 
 @dataclass(frozen=True)

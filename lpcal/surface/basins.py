@@ -33,6 +33,8 @@ PIXELS = 1500
 STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
 ROUNDS = 5
+DELTA = 1e-3
+"""Step of log depth over which the light's change with depth is taken."""
 GRADUATED = 2
 """Rounds whose depths look for their jumps again."""
 OUTLIER2 = normals.OUTLIER**2
@@ -132,13 +134,14 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
     """Plain rounds from u (P,)."""
     pixels = np.arange(seen.pixels)
 
-    def B_at(depth: Array, some: slice) -> Array:
-        return table.at(np.log(depth), pixels[some])[0]
+    def slope_of(some: slice) -> Array:
+        far, near = (table.at(u[some] + step, pixels[some])[0] for step in (DELTA, -DELTA))
+        return (far - near) / (2 * DELTA)
 
     cost = np.inf
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
-        B = B_at(np.exp(u), slice(None))
+        B = table.at(u, pixels)[0]
         found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), normals.variances(seen))
         known = np.isfinite(found.b[:, 0])
         if not known.any():
@@ -150,7 +153,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
         cost = float(samples.mean() + strained.mean())
         if k == ROUNDS:
             break
-        own = distance.own_distance(B, B_at, np.exp(u), seen, found)
+        own = distance.own_distance(B, slope_of, np.exp(u), seen, found)
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask)), u, weight)

@@ -23,7 +23,6 @@ from lpcal.surface.integrate import Own
 from lpcal.surface.normals import Estimate, thrown_share, variances
 from lpcal.surface.sight import Lit, Sight, vectors
 
-DELTA = 1e-3
 FURTHEST = 0.5
 """Most that a pixel's own distance moves log z in a round."""
 SCORE = 3.0
@@ -45,15 +44,14 @@ WEAK = 1e-6
 """Curvature of pixels that do not determine a distance, so that every piece has one."""
 
 
-def own_distance(light: Lit | Array, B_at: Callable[[Array, slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
+def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
     """Curvature and optimum of u (P,) about depths (P,) with their light, or its vectors (L, P, 3).
 
-    B_at gives light vectors (L, Q, 3) at depths (Q,) of a slice of the pixels.
+    `slope_of` gives the derivatives (L, Q, 3) of the light vectors of a slice of the pixels by u.
     """
 
     def of(at: slice) -> Own:
-        slope = (B_at(depth[at] * (1 + DELTA), at) - B_at(depth[at] * (1 - DELTA), at)) / (2 * DELTA)
-        return _own(vectors(light, at), slope, depth[at], seen.at(at), found.at(at))
+        return _own(vectors(light, at), slope_of(at), depth[at], seen.at(at), found.at(at))
 
     parts = bands.each(seen.pixels, len(seen.signal), of)
     return Own(np.concatenate([part.curvature for part in parts]), np.concatenate([part.optimum for part in parts]))

@@ -102,10 +102,9 @@ class Scene:
         """The light at depths (P,)."""
         return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
 
-    def B_at(self, thrown: Array | None, depth: Array, some: slice) -> Array:
-        """Light vectors (L, Q, 3) at depths (Q,) of some of the pixels, with what is reflected onto all (L, P, 3)."""
-        light = sight.light_vectors(self.lights, self.seen.at(some).points_C(depth), self.focus_C)
-        return Lit(*light, None if thrown is None else thrown[:, some]).B
+    def slope_at(self, depth: Array, some: slice) -> Array:
+        """Derivatives (L, Q, 3) of the lights' vectors by log depth at some of the pixels, by depths (P,) of all."""
+        return sight.light_slopes(self.lights, self.seen.rays_C[some] * depth[some, None])
 
 
 def run(scene: Scene, begin: Array, progress: Progress) -> State:
@@ -192,7 +191,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
     if scene.near:
-        own = distance.own_distance(lit, partial(scene.B_at, lit.thrown), depth, seen, found)
+        own = distance.own_distance(lit, partial(scene.slope_at, depth), depth, seen, found)
         own = distance.doubted(own, lit, seen, found)
         own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:

@@ -242,6 +242,11 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
     return d, E
 
 
+def light_slopes(lights: Sequence[Light], x_C: Array) -> Array:
+    """How the light vectors (L, P, 3) of points x_C (P, 3) change with the logarithm of their depth along their rays."""
+    return np.stack([light.slope(x_C) for light in lights])
+
+
 def powers(xy: Array) -> Array:
     """1, x, y, x^2, xy, y^2 (P, 6) of rays' x and y (P, 2): what is smooth over the image follows them."""
     x, y = xy.T

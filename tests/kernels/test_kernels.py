@@ -249,6 +249,17 @@ def cluster(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
 
 
+def cluster_slope(rng: np.random.Generator) -> Array:
+    axes = led_cluster.led_axes(19)
+    x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.05 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])
+    return led_cluster.cluster_slope(x_L, np.array([0.1, 0.0, -0.05]), 0.01 * axes, axes, rng.uniform(0.9, 1.1, 19), 40.0).ravel()
+
+
+def undistort(rng: np.random.Generator) -> Array:
+    lens = np.array([-0.3, 0.12, 1e-3, -2e-3, 0.01])
+    return camera.undistort(rng.uniform(-0.4, 0.4, (20, 30, 2)), lens).ravel()
+
+
 def rotations(rng: np.random.Generator, *shape: Any) -> Array:
     return se3.exp(np.concatenate([rng.normal(size=(*shape, 3)), np.zeros((*shape, 3))], axis=-1))
 
@@ -300,6 +311,8 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     turns: (1e-10, {"turns"}),
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),
+    undistort: (0.0, {"distort", "undistort"}),
+    cluster_slope: (1e-12, {"cluster_slope"}),
     solved: (1e-8, {"multigrid"}),
 }
 """Each kernel's work, the share of the largest value by which the twin may differ (of badly conditioned sums rounding makes more), and the
