@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 
 SAMPLES = 1 << 15
 """Samples, lights times pixels, of a band: a vector a sample is then 0.8 MB, which a core's own cache holds."""
@@ -41,6 +42,16 @@ def bands(pixels: int, lights: int) -> list[slice]:
 def each[T](pixels: int, lights: int, work: Callable[[slice], T]) -> list[T]:
     """What the work makes of each band, in their order."""
     return shared(work, bands(pixels, lights))
+
+
+def begun[T](work: Callable[[], T]) -> Callable[[], T]:
+    """Work begun on a thread of its own, and how to wait for what it makes; on one core it is done when that is asked for."""
+    if workers() <= 1:
+        return cache(work)
+    pool = ThreadPoolExecutor(1, initializer=_cores.set, initargs=(1,))
+    future = pool.submit(work)
+    pool.shutdown(wait=False)
+    return future.result
 
 
 def shared[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:

@@ -22,7 +22,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
-from lpcal.surface import coarse, distance, normals, pieces
+from lpcal.surface import bands, coarse, distance, normals, pieces
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.crop import Crop
 from lpcal.surface.integrate import Grid, integrate, settle, steps
@@ -116,16 +116,22 @@ def search(
     box = Crop.about(inside)
     table = LightTable.of(image, lights, about_m, (box.rows, box.columns)).at_pixels(np.flatnonzero(box.of(inside)))
     grid = Grid.of(inside)
-    ends: list[Basin] = []
-    for done, share_of_working in enumerate(STARTS):
-        progress(f"{name}: distance", done, len(STARTS))
+    done: list[float] = []
+
+    def ended(share_of_working: float) -> Basin:
         end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
+        done.append(share_of_working)
+        progress(f"{name}: distance", len(done), len(STARTS))
+        return end
+
+    progress(f"{name}: distance", 0, len(STARTS))
+    ends: list[Basin] = []
+    for end in bands.shared(ended, STARTS):
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
             ends.append(end)
         elif end.cost < ends[twin].cost:
             ends[twin] = end
-    progress(f"{name}: distance", len(STARTS), len(STARTS))
     odds = odds_of(ends, len(lights), about_m)
     return Basins(tuple(ends[k] for k in np.argsort(-odds)), inside, factor, len(lights), about_m)
 

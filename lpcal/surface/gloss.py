@@ -22,6 +22,7 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
+from lpcal.surface import bands
 from lpcal.surface.sight import Lit
 
 MOST_PIXELS, FEWEST_PIXELS = 4000, 1000
@@ -119,11 +120,14 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     F0 = np.array(MIRRORED)
     ks, none = F0 * np.pi / per_unit, np.zeros(1)
     plain = _unexplained(residual, np.zeros_like(residual), weight, spread2, lit.B)
-    matte, found = _costs(*plain, none, weight, spread2, DOUBT).sum(), []
-    for roughness in ROUGHNESSES:
-        shape = lit.E * lobe(lit.d, n, v, roughness)
-        found.append(_unexplained(residual, shape, weight, spread2, lit.B))
-    cost = np.stack([_costs(*one, ks, weight, spread2, DOUBT).sum(axis=1) for one in found])
+    matte, B = _costs(*plain, none, weight, spread2, DOUBT).sum(), lit.B
+
+    def of(roughness: float) -> tuple[tuple[Array, Array], Array]:
+        one = _unexplained(residual, lit.E * lobe(lit.d, n, v, roughness), weight, spread2, B)
+        return one, _costs(*one, ks, weight, spread2, DOUBT).sum(axis=1)
+
+    found = bands.shared(of, ROUGHNESSES)
+    cost = np.stack([each for _, each in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
     prior = (1 - MATTE) * ((1 - METAL) * common / common.sum() + METAL / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
@@ -139,7 +143,7 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     misfit = 0.0
     for row in np.flatnonzero(odds.any(axis=1)):
         some = odds[row] > 0
-        misfit += float(odds[row, some] @ _costs(*found[row], ks[some], weight, spread2, 0.0)[:, 0])
+        misfit += float(odds[row, some] @ _costs(*found[row][0], ks[some], weight, spread2, 0.0)[:, 0])
     return Gloss(strength, width, misfit / max(float(_costs(*plain, none, weight, spread2, 0.0)[0, 0]), 1e-12))
 
 

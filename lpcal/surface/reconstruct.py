@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -138,16 +139,16 @@ def reconstruct(
         maps = sight.grey(radiance, lights)
         seen = sight.look_at(maps, rays_C, object_mask, central=central)
     found = background.planes if near and background is not None else ()
-    whole = surroundings.whole(maps, rays_C, object_mask) if found else None
-    around = surroundings.patches(whole, found, lights) if whole is not None else None
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
+    beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, found, lights))
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
         basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
         basins_found = reading.weighed(basins_found, options.reading, calibration.camera)
         u = basins_found.start(object_mask) if basins_found is not None else u
-    del maps  # what the rounds need of them is in the scene
+    whole, around = beside()
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
+    del maps, beside  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)

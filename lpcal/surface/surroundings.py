@@ -97,6 +97,16 @@ def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
     return Whole(seen, hidden, factor)
 
 
+def found_beside(
+    maps: Grey, rays_C: Array, object_mask: Mask, found: Sequence[planes.Plane], lights: Sequence[Light]
+) -> tuple[Whole | None, Around | None]:
+    """The whole image, and the patches of the planes `found` in it; None where there are none."""
+    if not found:
+        return None, None
+    image = whole(maps, rays_C, object_mask)
+    return image, patches(image, found, lights)
+
+
 def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]) -> Around | None:
     """Patches of the planes `found`; None where nothing is seen of them."""
     seen, free = image.seen, ~raster.grown(image.hidden, MARGIN).ravel()
