@@ -48,6 +48,7 @@ SIGNATURES = {
     "planar": "i i f f b f s f f f b",
     "plane": "i i i s d d f f n f f d f",
     "received": "i i i f f f f f f f i i f f i d d d d",
+    "misfit": "i i f f b f i f f f",
     "multigrid": "i n m m f f f f f f s i d i d d d",
     "two_labels": "i i s s s i n i d s s",
     "thrown_fits": "i i f f f f f d d f",

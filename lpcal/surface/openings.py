@@ -16,7 +16,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import planes
 from lpcal.surface.coarse import coarse_of, factor_of
-from lpcal.surface.sight import Grey, look_at, strength
+from lpcal.surface.sight import Grey, look_at, second, strength
 
 PIXELS = 200_000
 """Pixels of the image in which openings are looked for, at most: finer ones show no more of them."""
@@ -84,7 +84,7 @@ def _dim(level: Image, inside: Mask) -> Mask:
 
 def _albedo(signal: Array, m: Array) -> Array:
     """The second highest ratio (P,) of signals to a plane's m (L, P): shadows are lower, and the highest may be a highlight."""
-    return np.asarray(np.sort(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), -np.inf), axis=0)[-2])
+    return second(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), -np.inf))
 
 
 def _step(signal: Array, region: Mask, inside: Mask) -> float:

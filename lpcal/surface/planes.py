@@ -29,6 +29,8 @@ BEHIND = 1e-3
 NODES, MANY_RAYS = 64, 10_000
 """Nodes along a side of the lattice of rays on which the light of a plane is summed, and rays from which on it is: between the nodes it is
 right to 1e-4 of its most."""
+FEW_LIGHTS = 64
+"""Lights up to which the kernel finds a plane's misfit."""
 TRUSTED = 4.0
 """Misfit of a pixel under which the plane is believed there."""
 
@@ -125,6 +127,12 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
     """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
+    if len(m) <= FEW_LIGHTS and (run := kernel("misfit")):
+        square, count = np.empty(seen.pixels), np.empty(seen.pixels)
+        given = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma))
+        usable, constants = np.ascontiguousarray(seen.usable), np.array([MODEL, SHADE, WEAK])
+        run(*m.shape, *given, usable, np.ascontiguousarray(m, float), shaded, constants, square, count)
+        return square, count
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
 

@@ -17,7 +17,7 @@ from lpcal.records.calibration import Light
 from lpcal.surface import flats, layers, room_samples
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
 from lpcal.surface.room_samples import RoomPrior
-from lpcal.surface.sight import Grey, strength
+from lpcal.surface.sight import Grey, second, strength
 
 FEW_PIXELS, PIXELS = 1300, 5200
 """Coarse pixels at which levels are tried, and at which the room's light is mapped."""
@@ -136,4 +136,4 @@ def _spread(A: Array, image: Coarse, share: Array, maps: Grey) -> Image:
 
 def _bright(signal: Array, share: Array) -> Array:
     """The second brightest sample (P,), as if all of it were the room's."""
-    return np.asarray(np.sort(signal / share[:, None], axis=0)[-2])
+    return second(signal / share[:, None])

@@ -16,6 +16,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.surface import samples
+from lpcal.surface.sight import second
 
 SPREAD = 0.35
 """Relative standard deviation of A about level |b|: on simulated scenes 0.15 over an object, 0.3 between it and a wall behind."""
@@ -162,7 +163,7 @@ def _prior(A: Array, size: Array, room: RoomPrior) -> Array:
 
 def _second(values: Array, usable: Mask) -> Array:
     """The second largest value (P,) that counts."""
-    return np.asarray(np.sort(np.where(usable, values, 0.0), axis=0)[-2])
+    return second(np.where(usable, values, 0.0))
 
 
 def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array, Array]:

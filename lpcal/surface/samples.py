@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
+from lpcal.surface.sight import second
 
 MODEL = 0.03
 """Share of a signal that a model of matte matter lacks."""
@@ -68,7 +69,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
         return b, cost
     spread2, E = variance(signal, sigma, doubt), np.linalg.norm(B, axis=2)
     shading = np.where(usable & (E > 0), signal / np.maximum(E, 1e-12), 0.0)
-    shadow = shading < SHADOW * np.sort(shading, axis=0)[-2]
+    shadow = shading < SHADOW * second(shading)
     weight = (usable & ~shadow) / spread2
     b = lambert.weighted(B, signal, weight)[0]
     for _ in range(ROUNDS - 1):

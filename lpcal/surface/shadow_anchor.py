@@ -24,7 +24,7 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Camera, Light
 from lpcal.records.figures import Anchor
 from lpcal.surface import planes
-from lpcal.surface.sight import Sight
+from lpcal.surface.sight import Sight, second
 
 SCALES = np.linspace(0.955, 1.045, 31)
 RIM = 4
@@ -54,7 +54,7 @@ def screen(seen: Sight, plane: planes.Plane, lights: Sequence[Light], object_mas
     square, count = planes.misfit(seen, m)
     strong = (m > planes.WEAK * np.fmax.reduce(m, axis=0)) & seen.usable & (seen.sigma < 0.2 * np.fmax.reduce(seen.signal, axis=0))
     ratio = np.where(strong, seen.signal / np.maximum(m, 1e-9), -np.inf)
-    albedo = np.sort(ratio, axis=0)[-2]
+    albedo = second(ratio)
     shade = np.clip(1 - ratio / np.maximum(albedo, 1e-9), 0, 1)
     known = strong & (count >= 2) & (square < planes.TRUSTED**2) & ~object_mask.ravel()
     size = (len(m), *seen.mask.shape)

@@ -113,7 +113,16 @@ def vectors(light: Lit | Array, some: Indices | slice) -> Array:
 
 def strength(maps: Grey) -> Image:
     """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
-    return np.asarray(np.sort(maps.signal, axis=0)[-2], np.float32)
+    return np.asarray(second(maps.signal), np.float32)
+
+
+def second[T: np.floating](values: npt.NDArray[T]) -> npt.NDArray[T]:
+    """The highest value (...) but one of values (L, ...), L of two or more."""
+    high, found = np.maximum(values[0], values[1]), np.minimum(values[0], values[1])
+    for one in values[2:]:
+        np.maximum(found, np.minimum(high, one), out=found)
+        np.maximum(high, one, out=high)
+    return found
 
 
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:

@@ -162,6 +162,16 @@ def between(rng: np.random.Generator) -> Array:
     return planes.between(rng.random((12, 12, 5)), 11 * rng.random((300, 2))).ravel()
 
 
+def misfit(rng: np.random.Generator) -> Array:
+    found = []
+    for lights in (2, 3, 6, 9):
+        signal, _, usable, variance = shading(rng, lights)
+        seen = Sight(np.ones((20, 40), bool), rays(rng, 800), signal, np.sqrt(variance), usable, True)
+        m = np.where(rng.random(800) < 0.1, np.nan, np.maximum(signal * rng.uniform(0.6, 1.2, signal.shape), 0.0))
+        found += [np.minimum(each, 1e3) for shaded in (True, False) for each in planes.misfit(seen, m, shaded=shaded)]
+    return np.concatenate(found)
+
+
 def own_distance(rng: np.random.Generator) -> Array:
     signal, B, usable, variance = shading(rng, 9)  # of three lights alone rounding is all that is left
     slope, b = 0.3 * B + 0.1 * rng.normal(size=B.shape), lambert.weighted(B, signal, usable / variance)[0]
@@ -302,6 +312,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     nearest: (0.0, {"nearest"}),
     blurred: (1e-14, {"joined"}),
     blurred_singles: (0.0, {"joined_singles"}),
+    misfit: (1e-12, {"misfit"}),
     own_distance: (1e-7, {"own_distance", "weighted"}),
     free: (1e-8, {"free"}),
     planar: (1e-9, {"planar"}),
