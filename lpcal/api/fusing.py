@@ -13,7 +13,8 @@ import numpy as np
 from lpcal.api.engines import Engine, Lost, each
 from lpcal.api.staged import staged
 from lpcal.errors import DegenerateError, DisagreementError, InputError
-from lpcal.fusion.model import FEWEST, model_of
+from lpcal.fusion.model import model_of
+from lpcal.fusion.registration import FEWEST
 from lpcal.fusion.tiles import SpaceTile, TileFaces
 from lpcal.fusion.views import PlacedView, view_of
 from lpcal.fusion.volume import TileWork, in_turn

@@ -13,12 +13,12 @@ Source: S. Rusinkiewicz, A symmetric objective function for ICP (2019), for norm
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.fusion.bending import bending_of
+from lpcal.fusion.bending import Bending, bending_of
 from lpcal.fusion.pairs import Meeting, Placed, meet
 from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import se3
@@ -35,6 +35,10 @@ ROUNDS = 6
 """Rounds of looking up points and stepping: the step is under a hundredth of the noise after five."""
 SHARED_SCALE_STD = 0.004
 """Standard deviation, relative, of a scale that all distances share: what 1 % of light intensity is worth at the working distance."""
+ROUNDS_FOUND = 4
+"""Rounds where the views stand nearly right from the start."""
+START_FOUND_PX = 5.0
+"""Gate of their first round, in footprints of a pixel: pieces are found within two."""
 START_GATE = 3.5
 """Gate of the first round, in standard deviations of what priors allow."""
 GATE = 5.0
@@ -85,13 +89,20 @@ class PairFit:
     rms_m: float
 
 
-def align(views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progress = silent) -> Aligned:
-    """Align views; `H_PC_covariance` (6, 6) is that of the transform that all placements share, zero where it is exact."""
-    state = _start(views)
+def align(
+    views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progress = silent, start: Start | None = None, step_px: int | None = None
+) -> Aligned:
+    """Align views; `H_PC_covariance` (6, 6) is that of the transform that all placements share, zero where it is exact.
+
+    `start`: where they stand nearly; `step_px`: between the knots of their bendings, by default as `knots_px` has it.
+    """
+    state = _start(views, step_px)
     problem = _Problem.of(state, H_PC_covariance)
-    x = np.zeros(problem.size)
-    sigma_m, gate_m, before_m = 0.0, _first_gate(views, H_PC_covariance), 0.0
-    for done in range(ROUNDS):
+    x = np.zeros(problem.size) if start is None else start.parameters(state)
+    state = problem.moved(state, x)
+    sigma_m, before_m = 0.0, 0.0
+    gate_m = _first_gate(views, H_PC_covariance) if start is None else START_FOUND_PX * float(np.median([v.footprint_m for v in views]))
+    for done in range(ROUNDS if start is None else ROUNDS_FOUND):
         meetings = all_meetings(state, gate_m)
         spread_m = spread(meetings)
         before_m = before_m or spread_m
@@ -102,7 +113,7 @@ def align(views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progres
         x = x - np.linalg.solve(N + prior, g + prior @ x)
         state = problem.moved(state, x)
         gate_m = max(GATE * sigma_m, LEAST_GATE_PX * floor_m / LEAST_SIGMA_PX)
-        progress("rounds of alignment", done + 1, ROUNDS)
+        progress("rounds of alignment", done + 1, ROUNDS if start is None else ROUNDS_FOUND)
     meetings = all_meetings(state, gate_m)
     after_m = spread(meetings)
     N, _ = problem.normal_equations(state, meetings, max(after_m, floor_m))
@@ -111,9 +122,35 @@ def align(views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progres
     return Aligned(tuple(state), x, covariance, problem.starts, pairs, max(after_m, floor_m), before_m, after_m, H_PC_covariance)
 
 
-def compared(views: Sequence[PlacedView], H_PC_covariance: Array) -> dict[tuple[int, int], PairFit]:
+@dataclass(frozen=True)
+class Start:
+    """Where views stand nearly: what all share, and for each view its twist and bending, or what its pieces grow by alone."""
+
+    shared: Array
+    """(7,) e and c."""
+    own: Sequence[Array | None]
+    """(6 + n,) of each view; None: at its tracked pose."""
+    grown: Sequence[Mapping[int, float]]
+    """Steps of log distance of each view's pieces, c among them, by label; of those that are not named what `own` has, or c."""
+
+    def parameters(self, state: Sequence[Placed]) -> Array:
+        """The parameters (n,) of the whole problem."""
+        parts = [self.shared]
+        for one, own, grown in zip(state, self.own, self.grown, strict=True):
+            part = np.zeros(6 + one.bending.size) if own is None else own.copy()
+            for label, delta in grown.items():
+                part[6 + one.bending.place[label]] = delta - self.shared[6]
+            parts.append(part)
+        return np.concatenate(parts)
+
+    def placed(self, state: Sequence[Placed]) -> list[Placed]:
+        """Views there."""
+        return _Problem.of(state, np.zeros((6, 6))).moved(state, self.parameters(state))
+
+
+def compared(views: Sequence[PlacedView], H_PC_covariance: Array, step_px: int | None = None) -> dict[tuple[int, int], PairFit]:
     """How views agree where their placements put them."""
-    meetings = all_meetings(_start(views), _first_gate(views, H_PC_covariance))
+    meetings = all_meetings(_start(views, step_px), _first_gate(views, H_PC_covariance))
     return {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
 
 
@@ -135,15 +172,26 @@ def spread(meetings: dict[tuple[int, int], Meeting]) -> float:
     return float(1.4826 * np.median(np.abs(np.concatenate(residuals)))) if residuals else 0.0
 
 
-def _start(views: Sequence[PlacedView]) -> list[Placed]:
+def knots_px(views: Sequence[PlacedView]) -> int:
+    """Pixels between knots of the views' bendings."""
     area = sum(int((view.component > 0).sum()) for view in views)
-    step_px = int(np.clip(np.sqrt(area / KNOTS), LEAST_STEP_PX, MOST_STEP_PX))
-    state = []
-    for view in views:
-        bending = bending_of(view, step_px)
-        row, column = sampled(view, POINTS)
-        state.append(Placed(view, bending, view.placement.H_AC, np.zeros(bending.size), row, column))
-    return state
+    return int(np.clip(np.sqrt(area / KNOTS), LEAST_STEP_PX, MOST_STEP_PX))
+
+
+def _start(views: Sequence[PlacedView], step_px: int | None = None) -> list[Placed]:
+    step_px = knots_px(views) if step_px is None else step_px
+    return [placed_view(view, bending_of(view, step_px)) for view in views]
+
+
+def placed_view(view: PlacedView, bending: Bending) -> Placed:
+    """A view where its placement puts it."""
+    return Placed(view, bending, view.placement.H_AC, np.zeros(bending.size), *sampled(view, POINTS))
+
+
+def showing(one: Placed, view: PlacedView) -> Placed:
+    """A placed view that shows as much as another copy of it."""
+    row, column = sampled(view, POINTS)
+    return replace(one, view=view, row=row, column=column)
 
 
 def sampled(view: PlacedView, count: int) -> tuple[Index, Index]:
@@ -162,7 +210,8 @@ def _first_gate(views: Sequence[PlacedView], H_PC_covariance: Array) -> float:
         across = placement.noise_covariance + by @ H_PC_covariance @ by.T
         at_object = se3.adjoint(se3.transform(np.eye(3), -se3.apply(placement.H_AC, np.array([[0, 0, view.distance_m]]))[0]))
         local = at_object @ across @ at_object.T
-        scale_std = max(std for _, std in view.pieces)
+        shown = np.unique(view.component[view.witness])
+        scale_std = max((std for label, std in view.pieces if label in shown), default=0.0)
         variances.append(np.trace(local[3:, 3:]) / 3 + (view.distance_m * scale_std) ** 2 + float(np.nanmedian(view.depth_std_m)) ** 2)
     least_m = LEAST_GATE_PX * float(np.median([view.footprint_m for view in views]))
     return max(START_GATE * float(np.sqrt(2 * np.median(variances))), least_m)

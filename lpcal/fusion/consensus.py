@@ -23,10 +23,6 @@ LEAST_AGREEMENT = 0.75
 """Least share of a view's points that the others must confirm: whole sessions had 0.9 and more, a view 20 mm off had under 0.6."""
 BELOW_OTHERS = 0.12
 """How far under the median view's share a view must lie to be left out: where all views are poor, none is the odd one."""
-HEARD = 0.4
-"""Share of a view's points that must be confirmed at its tracked pose for it to be reconsidered once the others are aligned."""
-MOST_HEARD_SIGMAS = 3.0
-"""By how many of its sigmas the distance of a reconsidered view may have to change: one that is 20 mm too far is not taken in."""
 FEWEST_POINTS = 30
 """Fewest points in common that say anything of a pair."""
 MOST_SIGMAS = 6.0
@@ -98,13 +94,6 @@ def moved_too_far(aligned: Aligned) -> list[Doubted]:
     return [doubt for _, doubt in sorted(found, key=lambda each: -each[0])]
 
 
-def fits_after_all(aligned: Aligned, place: int) -> bool:
-    """Whether the others confirm a view once it is aligned with them, and it did not have to move or grow further than its sigmas allow."""
-    count = len(aligned.placed)
-    share = agreement(range(count), aligned.pairs)[place]
-    return share >= LEAST_AGREEMENT and _moved_sigmas(aligned, place) < MOST_SIGMAS and _grown(aligned, place)[1] < MOST_HEARD_SIGMAS
-
-
 def _moved_sigmas(aligned: Aligned, place: int) -> float:
     """By how many sigmas, over all six parameters of its pose, a view moved."""
     xi, covariance = aligned.shift(place)
@@ -113,9 +102,9 @@ def _moved_sigmas(aligned: Aligned, place: int) -> float:
 
 
 def _grown(aligned: Aligned, place: int) -> tuple[float, float]:
-    """By how much the distance of a view's largest piece grew, relative, and in its sigmas."""
+    """By how much the distance of the largest piece that a view shows grew, relative, and in its sigmas."""
     view, start = aligned.placed[place].view, aligned.starts[place] + 6
-    sizes = [int((view.component == label).sum()) for label, _ in view.pieces]
+    sizes = [int((view.component[view.witness] == label).sum()) for label, _ in view.pieces]
     largest = int(np.argmax(sizes))
     grown = float(aligned.parameters[start + largest])
     return grown, abs(grown) / view.pieces[largest][1]

@@ -1,10 +1,9 @@
 r"""From placed surfaces to a model, step by step.
 
-1. Points of every view are looked up in every other at the tracked poses; a view that the others contradict is left out (`consensus`).
-2. All pairs in one least-squares problem: poses, distances, slow bending (`align`); a view that had to move too far is left out as well.
-3. A view that was left out by its tracked pose is reconsidered: it is taken in if, aligned within its sigmas, it fits after all.
-4. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean with their normals (`vertices`).
-5. What no view saw well, and where the panel should stand next (`missing`).
+1. Where every view and every piece of it stands; what the others contradict is left out (`registration`).
+2. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean (`vertices`), with the detail of their
+   normals (`detail`).
+3. What no view saw well, and where the panel should stand next (`missing`).
 """
 
 from __future__ import annotations
@@ -14,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.errors import DegenerateError
-from lpcal.fusion.align import Aligned, align, compared
-from lpcal.fusion.consensus import HEARD, Doubted, agreement, fits_after_all, moved_too_far, outvoted
+from lpcal.fusion.align import Aligned
 from lpcal.fusion.missing import missing
+from lpcal.fusion.pieces import Piece
+from lpcal.fusion.registration import Registered, registered
 from lpcal.fusion.rig_evidence import rig_evidence
 from lpcal.fusion.vertices import Vertices, on_the_views
 from lpcal.fusion.views import PlacedView
@@ -25,13 +24,9 @@ from lpcal.fusion.volume import Over, in_turn, surface_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
-from lpcal.records.model import ModelFigures, ObjectModel, ViewInModel
+from lpcal.records.model import ModelFigures, ObjectModel, PieceInModel, ViewInModel
 from lpcal.records.outcome import Progress, silent
 
-MOST_LEFT_OUT = 3
-"""Views that may be left out after the alignment, one at a time: more than that is no session with some bad views."""
-FEWEST = 2
-"""Views that a model takes: of one alone `lpcal reconstruct` makes a mesh."""
 CONTRADICTION = 3.0
 """By how many sigmas of a vertex views must differ to be said to disagree there."""
 
@@ -51,47 +46,14 @@ def model_of(
     DegenerateError
         Fewer than two views are left that overlap, or none shows a surface.
     """
-    H_PC_covariance = shared_covariance(views)
-    pairs = compared(views, H_PC_covariance)
-    shares = agreement(range(len(views)), pairs)
-    out = outvoted(len(views), pairs)
-    progress("views compared", len(views) - len(out), len(views))
-    while True:
-        kept = [k for k in range(len(views)) if k not in {one.index for one in out}]
-        if len(kept) < FEWEST or not any(pairs[key].agree for key in pairs if set(key) <= set(kept)):
-            raise DegenerateError(
-                f"{len(kept)} of {len(views)} surfaces agree, and they do not overlap" if len(kept) >= FEWEST else "one surface is left",
-                where=name,
-                needed="surfaces that overlap, of one object",
-                todo="are they placed in one frame, and is the object the same?",
-            )
-        aligned = align([views[k] for k in kept], H_PC_covariance, progress)
-        doubted = moved_too_far(aligned)
-        if not doubted or len(out) >= len(views) // 2 or len(kept) <= FEWEST + 1:
-            break
-        out.append(Doubted(kept[doubted[0].index], doubted[0].why))
-    aligned, kept = _heard_again(views, aligned, kept, out, H_PC_covariance, progress)
+    places = registered(name, views, shared_covariance(views), progress)
+    aligned = places.aligned
     rough = surface_of(aligned.placed, step_m, over)
     progress("surface", 1, 2)
     found = on_the_views(aligned, rough)
     progress("surface", 2, 2)
-    model = _model(name, views, kept, out, shares, aligned, found)
+    model = _model(name, views, places, found)
     return model if lights is None else replace(model, rig=rig_evidence(aligned, found, lights))
-
-
-def _heard_again(
-    views: Sequence[PlacedView], aligned: Aligned, kept: list[int], out: list[Doubted], H_PC_covariance: Array, progress: Progress
-) -> tuple[Aligned, list[int]]:
-    """The alignment with those taken in that fit after all; they leave `out`."""
-    for doubt in sorted(out, key=lambda one: -one.agreement):
-        if doubt.agreement < HEARD:
-            break
-        tried = sorted([*kept, doubt.index])
-        with_it = align([views[k] for k in tried], H_PC_covariance, progress)
-        if fits_after_all(with_it, tried.index(doubt.index)):
-            aligned, kept = with_it, tried
-            out.remove(doubt)
-    return aligned, kept
 
 
 def shared_covariance(views: Sequence[PlacedView]) -> Array:
@@ -106,24 +68,22 @@ def shared_covariance(views: Sequence[PlacedView]) -> Array:
     return np.zeros((6, 6))
 
 
-def _model(
-    name: str,
-    views: Sequence[PlacedView],
-    kept: Sequence[int],
-    out: Sequence[Doubted],
-    shares: dict[int, float],
-    aligned: Aligned,
-    found: Vertices,
-) -> ObjectModel:
-    why = {one.index: one.why for one in out}
+def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Vertices) -> ObjectModel:
+    aligned, kept = places.aligned, places.kept
     said = []
     for k, view in enumerate(views):
-        share = None if not np.isfinite(shares[k]) else shares[k]
-        said.append(_fit(aligned, kept.index(k), share) if k in kept else ViewInModel(view.name, False, why[k], share))
+        share = None if not np.isfinite(places.shares[k]) else places.shares[k]
+        if k in kept:
+            said.append(replace(_fit(aligned, kept.index(k), share), pieces=_pieces(view, places.pieces[k])))
+        else:
+            said.append(ViewInModel(view.name, False, places.why.get(k, "nothing of it fits the others"), share))
     warnings = [f"{view.name} is left out: {view.why}" for view in said if not view.used]
     warnings += [
         f"{view.name} has too few points in common with the others: placed by its pose alone" for view in said if view.agreement is None
     ]
+    for one in said:
+        lost = [piece for piece in one.pieces if piece.why is not None]
+        warnings += [f"{one.name}: a piece of {piece.pixels} pixels is left out: {piece.why}" for piece in lost]
     triangles = found.triangles
     return ObjectModel(
         name,
@@ -141,6 +101,15 @@ def _model(
         tuple(warnings),
         missing(aligned, found),
     )
+
+
+def _pieces(view: PlacedView, pieces: Sequence[Piece]) -> tuple[PieceInModel, ...]:
+    """What became of the pieces of a view."""
+    found = []
+    for one in pieces:
+        grown_m = float(np.nanmedian(view.depth[view.component == one.label])) * np.expm1(one.delta)
+        found.append(PieceInModel(one.label, one.pixels, one.why, one.supporters, float(grown_m) if one.why is None else None))
+    return tuple(found)
 
 
 def _fit(aligned: Aligned, place: int, share: float | None) -> ViewInModel:

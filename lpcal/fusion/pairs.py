@@ -79,41 +79,85 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
     `gate_m` is how far apart the two surfaces may be, along the normal, to be taken for one.
     """
     p_A, n_p, from_p = first
-    camera_A = second.H_AC[:3, 3]
-    to_camera = camera_A - p_A
-    facing = np.flatnonzero(np.einsum("ij,ij->i", n_p, to_camera) > 0.3 * np.linalg.norm(to_camera, axis=1))
+    facing = np.flatnonzero(_faces(p_A, n_p, second))
     if len(facing) < 10:
         return None
-    x_C = se3.apply(se3.inv(second.H_AC), p_A[facing])
-    seen = look(second.view, x_C)
-    delta = np.zeros(len(facing))
-    at = np.flatnonzero(seen.ok)
-    delta[at] = second.bending.at(second.field, seen.pixel[at], seen.component[at])
-    z = seen.depth * np.exp(delta)
-    q_C = x_C * (z / x_C[:, 2])[:, None]
-    n_q = se3.rotate(second.H_AC, seen.normal_C)
-    n_A = n_p[facing] + n_q
-    n_A /= np.maximum(np.linalg.norm(n_A, axis=1, keepdims=True), 1e-12)
-    q_A = se3.apply(second.H_AC, q_C)
-    r = np.einsum("ij,ij->i", n_A, p_A[facing] - q_A)
-    cosine = np.einsum("ij,ij->i", n_p[facing], n_q)
-    close = seen.ok & (np.abs(r) < gate_m)
-    before = seen.ok & ~close & (x_C[:, 2] < z - gate_m)
-    beside = seen.in_image & background(second.view, seen.pixel)
-    keep = np.flatnonzero(close & (cosine > TURN))
+    seen = _Facing.of(p_A[facing], n_p[facing], second, gate_m)
+    keep = np.flatnonzero(seen.close & (seen.cosine > TURN))
     return Meeting(
         facing[keep],
         p_A[facing[keep]],
-        q_A[keep],
-        n_A[keep],
+        seen.q_A[keep],
+        seen.n_A[keep],
         from_p[facing[keep]],
-        se3.rotate(second.H_AC, q_C[keep]),
+        se3.rotate(second.H_AC, seen.q_C[keep]),
         seen.pixel[keep],
         seen.component[keep],
-        r[keep],
-        int((close & (cosine > LIKE)).sum()),
-        int((close & (cosine <= LIKE)).sum() + before.sum() + beside.sum()),
+        seen.residual_m[keep],
+        int(seen.agree.sum()),
+        int((seen.unlike | seen.through).sum()),
     )
+
+
+def votes(first: tuple[Array, Array], second: Placed, gate_m: float) -> tuple[Mask, Mask]:
+    """Which points (N, 3) with normals (N, 3) another view confirms, and which it contradicts.
+
+    Unlike in `meet`, a point whose normal turns away is judged as well: one that stands before what the view sees hides it, whichever
+    way it faces.
+    """
+    p_A, n_p = first
+    seen = _Facing.of(p_A, n_p, second, gate_m)
+    facing = _faces(p_A, n_p, second)
+    return seen.agree & facing, seen.through | (seen.unlike & facing)
+
+
+def _faces(p_A: Array, n_p: Array, second: Placed) -> Mask:
+    to_camera = second.H_AC[:3, 3] - p_A
+    return np.asarray(np.einsum("ij,ij->i", n_p, to_camera) > 0.3 * np.linalg.norm(to_camera, axis=1))
+
+
+@dataclass(frozen=True)
+class _Facing:
+    """What a view shows in the directions of points (N)."""
+
+    q_C: Array
+    q_A: Array
+    n_A: Array
+    pixel: Array
+    component: Labels
+    residual_m: Array
+    cosine: Array
+    close: Mask
+    through: Mask
+    """Points that the view sees through: they stand before what it shows, or before the background."""
+
+    @property
+    def agree(self) -> Mask:
+        return self.close & (self.cosine > LIKE)
+
+    @property
+    def unlike(self) -> Mask:
+        return self.close & (self.cosine <= LIKE)
+
+    @classmethod
+    def of(cls, p_A: Array, n_p: Array, second: Placed, gate_m: float) -> _Facing:
+        x_C = se3.apply(se3.inv(second.H_AC), p_A)
+        seen = look(second.view, x_C)
+        delta = np.zeros(len(p_A))
+        at = np.flatnonzero(seen.ok)
+        delta[at] = second.bending.at(second.field, seen.pixel[at], seen.component[at])
+        z = seen.depth * np.exp(delta)
+        q_C = x_C * (z / x_C[:, 2])[:, None]
+        n_q = se3.rotate(second.H_AC, seen.normal_C)
+        n_A = n_p + n_q
+        n_A /= np.maximum(np.linalg.norm(n_A, axis=1, keepdims=True), 1e-12)
+        q_A = se3.apply(second.H_AC, q_C)
+        r = np.einsum("ij,ij->i", n_A, p_A - q_A)
+        close = seen.ok & (np.abs(r) < gate_m)
+        before = seen.ok & ~close & (x_C[:, 2] < z - gate_m)
+        beside = seen.in_image & background(second.view, seen.pixel)
+        cosine = np.einsum("ij,ij->i", n_p, n_q)
+        return cls(q_C, q_A, n_A, seen.pixel, seen.component, r, cosine, close, before | beside)
 
 
 def background(view: PlacedView, pixel: Array) -> Mask:

@@ -19,6 +19,7 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned
+from lpcal.fusion.detail import with_detail
 from lpcal.fusion.pairs import Placed, background
 from lpcal.fusion.views import look, may_see
 from lpcal.fusion.volume import Triangles, normals_of, weight_of
@@ -35,8 +36,6 @@ SCALE_PX = 0.5
 """Scale of the robust mean over views, in footprints of a pixel: about what aligned views scatter by."""
 PASSES = 2
 """How often vertices are moved onto the views' mean."""
-BIAS_RAD = float(np.radians(1.0))
-"""What every normal of a view may be off by at least: light between surfaces shows in no standard deviation of one view."""
 SIGMA_VERTICES = 800
 """Vertices, of those that several views see, at which the covariance of the views' places is carried over; between them it is the nearest
 one's. Where one view alone sees a vertex it is that vertex's own: a patch beside an edge is known far less well than what is next to it."""
@@ -48,8 +47,8 @@ LOOSE = 0.006
 """Sigma, as a share of the distance, from which a vertex that one view alone sees is left out: a piece that the light puts there, known to
 a hundredth of its distance and tied to nothing, stood 10 mm beside the surface; where a view holds on to others, sigma is a thousandth."""
 
-OUTVOTED = 2
-"""Views that see through a vertex which one view alone shows, from which on it is left out: one of them may be wrong itself."""
+OUTVOTED = 1
+"""Views that see through a vertex which one view alone shows, from which on it is left out: of the two nobody knows which is wrong."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +92,7 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
         rest = _resting(state, v, n, footprint_m)
         v = v + n * rest.off_m[:, None]
         n = normals_of(v, faces)
-    v, n_photometric, normal_sigma = _with_detail(rest, v, n, faces, footprint_m)
+    v, n_photometric, normal_sigma = with_detail(v, n, faces, rest.mean_normal_A, rest.effective, footprint_m)
     rest = _resting(state, v, n, footprint_m)
     seen, faces = rested(rest.count > 0, faces)
     v, n, n_photometric, normal_sigma, rest = v[seen], n[seen], n_photometric[seen], normal_sigma[seen], rest.of(seen)
@@ -180,9 +179,9 @@ def rested(rests: Mask, faces: Index) -> tuple[Index, Index]:
     """The vertices that stay, and the faces between them by their new numbers: a patch that no view puts there goes.
 
     Between two views that contradict each other, both seen by no third, the volume's zero lies where neither sees a surface. A face with
-    one corner at least that a view sees stays, so that no pinholes open where a surface turns sharply.
+    two corners at least that a view sees stays, so that no pinholes open where a surface turns sharply.
     """
-    stays = faces[rests[faces].any(axis=1)]
+    stays = faces[rests[faces].sum(axis=1) >= 2]
     kept, numbers = np.unique(stays, return_inverse=True)
     return kept, numbers.reshape(stays.shape)
 
@@ -238,44 +237,6 @@ def _robust(found: Evidence, scale_m: float) -> Array:
         w = found.weight / (1 + (off / scale_m) ** 2) ** 2
         share = w / np.maximum(w.sum(axis=0), 1e-30)
     return np.asarray(share)
-
-
-def _with_detail(rest: Resting, v: Array, n: Array, faces: Index, footprint_m: float) -> tuple[Array, Array, Array]:
-    """Vertices whose faces lie as the photometric normals say, those normals, and their standard deviation.
-
-    Least squares over steps h along the normals: ``sum (h / sigma_h)^2 + sum_edges (m . (e + h_b n_b - h_a n_a) / (|e| sigma_n))^2`` with
-    m the mean of the two measured normals of the edge e. Source: D. Nehab et al., Efficiently combining positions and normals (2005).
-    """
-    from scipy.sparse import coo_array, diags_array
-    from scipy.sparse.linalg import cg
-
-    mean = rest.mean_normal_A
-    length = np.linalg.norm(mean, axis=1)
-    lit = length > 0.3
-    m = np.where(lit[:, None], mean / np.maximum(length, 1e-12)[:, None], n)
-    sigma_n = np.sqrt(BIAS_RAD**2 + (2 * np.maximum(1 - length, 0)) / np.maximum(rest.effective, 1))
-    edges = np.unique(np.sort(np.concatenate([faces[:, :2], faces[:, 1:], faces[:, ::2]]), axis=1), axis=0)
-    a, b = edges.T
-    e = v[b] - v[a]
-    me = m[a] + m[b]
-    me /= np.maximum(np.linalg.norm(me, axis=1, keepdims=True), 1e-12)
-    w = (
-        np.where(lit[a] & lit[b], 1.0, 0.05)
-        / (np.maximum(np.linalg.norm(e, axis=1), 0.1 * footprint_m) * np.hypot(sigma_n[a], sigma_n[b])) ** 2
-    )
-    ja, jb, r = -np.einsum("ij,ij->i", me, n[a]), np.einsum("ij,ij->i", me, n[b]), np.einsum("ij,ij->i", me, e)
-    count_v = len(v)
-    rows, columns = np.concatenate([a, b, a, b]), np.concatenate([a, b, b, a])
-    values = np.concatenate([w * ja * ja, w * jb * jb, w * ja * jb, w * ja * jb])
-    A = coo_array((values, (rows, columns)), shape=(count_v, count_v)).tocsr()
-    A = A + diags_array(np.full(count_v, (HOLD_PX * footprint_m) ** -2.0))
-    g = np.bincount(a, w * ja * r, count_v) + np.bincount(b, w * jb * r, count_v)
-    h, _ = cg(A, -g, rtol=1e-3, maxiter=300, M=diags_array(1 / A.diagonal()))
-    return v + n * h[:, None], m, sigma_n
-
-
-HOLD_PX = 0.25
-"""How far normals may pull a vertex off the views' mean, one standard deviation, in footprints of a pixel."""
 
 
 def _sigma(aligned: Aligned, rest: Resting, v: Array, n: Array, footprint_m: float) -> Array:

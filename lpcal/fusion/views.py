@@ -11,7 +11,7 @@ polynomial that is fitted to the view's own rays, so that no lens model is neede
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -98,6 +98,11 @@ class PlacedView:
 
         return np.asarray(~binary_dilation(self.component > 0, iterations=OUTSIDE_PX))
 
+    def without(self, gone: Mask) -> PlacedView:
+        """The view with pixels (H, W) that are not compared and show no surface; its outline and the parameters of its bending stay."""
+        touched = gone[:-1, :-1] | gone[:-1, 1:] | gone[1:, :-1] | gone[1:, 1:]
+        return replace(self, witness=self.witness & ~gone, whole=self.whole & ~touched)
+
     def points_C(self, row: Index, column: Index) -> Array:
         """Points (N, 3) at pixels, as the view has them."""
         z = self.depth[row, column].astype(float)
@@ -115,7 +120,8 @@ class PixelsOfRays:
 
     def __call__(self, plane: Array) -> Array:
         """Pixels (N, 2) as x, y."""
-        return np.asarray(_powers((plane - self.middle) / self.span) @ self.terms)
+        x, y = ((plane[:, k] - self.middle[k]) / self.span for k in range(2))
+        return np.column_stack([_polynomial(x, y, self.terms[:, k]) for k in range(2)])
 
 
 def fitted(plane: Array, origin: tuple[int, int] = (0, 0)) -> PixelsOfRays:
@@ -127,6 +133,21 @@ def fitted(plane: Array, origin: tuple[int, int] = (0, 0)) -> PixelsOfRays:
     pixels = np.column_stack([column.ravel() - origin[0], row.ravel() - origin[1]]).astype(float)
     terms, *_ = np.linalg.lstsq(_powers((rays - middle) / span), pixels, rcond=None)
     return PixelsOfRays(middle, span, terms)
+
+
+def _polynomial(x: Array, y: Array, terms: Array) -> Array:
+    """Values (N,) of a polynomial whose terms are in the order of `_powers`, by Horner's rule."""
+    found, end = np.zeros(len(x)), len(terms)
+    for i in range(DEGREE, -1, -1):
+        row = terms[end - (DEGREE + 1 - i) : end]
+        end -= len(row)
+        inner = np.full(len(x), row[-1])
+        for term in row[-2::-1]:
+            inner *= y
+            inner += term
+        found *= x
+        found += inner
+    return found
 
 
 def _powers(x: Array) -> Array:
@@ -170,13 +191,15 @@ def look(view: PlacedView, x_C: Array) -> LookedUp:
     """What a view shows where points (N, 3) in its C lie: depth and normal between pixels, where the four around are one surface."""
     front = x_C[:, 2] > 1e-6
     plane = x_C[:, :2] / np.where(front, x_C[:, 2], 1.0)[:, None]
-    near = front & (np.abs(plane - view.to_pixels.middle) < 1.6 * view.to_pixels.span).all(axis=1)
+    near = front
+    for k in range(2):
+        near = near & (np.abs(plane[:, k] - view.to_pixels.middle[k]) < 1.6 * view.to_pixels.span)
     pixel = np.full((len(x_C), 2), -1.0)
     pixel[near] = view.to_pixels(plane[near])
     height, width = view.depth.shape
     left, top, right, bottom = view.image
-    inside = near & (pixel >= (left, top)).all(axis=1) & (pixel < (right - 1, bottom - 1)).all(axis=1)
-    kept = inside & (pixel >= 0).all(axis=1) & (pixel < (width - 1, height - 1)).all(axis=1)
+    inside = near & _between(pixel, (left, top), (right - 1, bottom - 1))
+    kept = inside & _between(pixel, (0, 0), (width - 1, height - 1))
     column, row = (np.where(kept, pixel[:, k], 0).astype(int) for k in range(2))
     ok = kept & view.whole[row, column]
     at = np.flatnonzero(ok)
@@ -195,6 +218,12 @@ def look(view: PlacedView, x_C: Array) -> LookedUp:
     nearest_row, nearest_column = (np.clip(np.rint(pixel[at, 1 - k]).astype(int), 0, n - 1) for k, n in enumerate((height, width)))
     ok[at] = view.witness[nearest_row, nearest_column]
     return LookedUp(ok, inside, pixel, depth, normal, component)
+
+
+def _between(pixel: Array, first: tuple[int, int], last: tuple[int, int]) -> Mask:
+    """Which pixels (N, 2) lie in a window, its first column and row counted in, its last not."""
+    x, y = pixel.T
+    return np.asarray((x >= first[0]) & (y >= first[1]) & (x < last[0]) & (y < last[1]))
 
 
 def view_of(surface: Surface, placement: Placement) -> PlacedView:

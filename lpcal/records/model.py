@@ -11,6 +11,21 @@ from lpcal.records.shown import Shown
 
 
 @dataclass(frozen=True)
+class PieceInModel:
+    """A connected piece of a surface, and at which distance the other views confirm it."""
+
+    label: int
+    """As in the surface's `component`."""
+    pixels: int
+    why: str | None
+    """Why it was left out; None: it was used."""
+    supporters: int
+    """Other views that confirm it where it was placed."""
+    distance_change_m: float | None = None
+    """By how much its distance was changed; None: it was left out."""
+
+
+@dataclass(frozen=True)
 class ViewInModel:
     """How one surface fits the others."""
 
@@ -30,6 +45,8 @@ class ViewInModel:
     """Robust rms of its points from the other views' surfaces, along the normal."""
     H_AC: Array | None = None
     """(4, 4) the camera in the model's frame, as aligned."""
+    pieces: tuple[PieceInModel, ...] = ()
+    """Its connected pieces; none of a surface that was left out."""
 
 
 @dataclass(frozen=True)
