@@ -23,6 +23,7 @@ from lpcal.records.surface import Component, Surface
 from lpcal.surface import mask as masks
 from lpcal.surface import sight
 from lpcal.surface.mask import Hints
+from lpcal.surface.mesh import ends_of
 from lpcal.surface.of_normals import UNKNOWN_DISTANCE, surface_of_normals
 
 OWN = "lpcal"
@@ -125,8 +126,6 @@ def _assembled(name: str, normals_C: Image, depth: Array, mask: Mask, rays_C: Ar
     most = np.iinfo(np.uint8).max
     component = np.minimum(raster.labelled(mask)[0], most).astype(np.uint8)
     labels = [int(one) for one in np.unique(component[mask])]
-    breaks = np.ones((2, *mask.shape), bool)
-    breaks[0, :, :-1], breaks[1, :-1] = ~(mask[:, :-1] & mask[:, 1:]), ~(mask[:-1] & mask[1:])
     return Surface(
         name=name,
         normals=normals_C,
@@ -140,5 +139,5 @@ def _assembled(name: str, normals_C: Image, depth: Array, mask: Mask, rays_C: Ar
         rays_C=rays_C,
         components=tuple(Component(k, int((component == k).sum()), float(depth[component == k].mean()), UNKNOWN_DISTANCE) for k in labels),
         figures=SurfaceFigures(pixels=int(mask.sum())),
-        breaks=breaks,
+        breaks=ends_of(mask),
     )

@@ -93,6 +93,7 @@ def body_of(markers: MarkerStream, places_P: dict[str, tuple[float, float, float
         rate_hz=markers.rate_hz,
         notes=(*markers.notes, *notes),
         covariance=rigid_fit.covariances(se3.apply(H_OP, np.broadcast_to(template, track.shape)), fits.seen[good], sigma_m),
+        format=markers.format,
     )
 
 

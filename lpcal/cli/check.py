@@ -51,12 +51,15 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     said, strange = look_at(workspace, given.boards)
     wrong = [*(_in_the_rig(error, workspace) for error in found.wrong), *strange]
     notes = found.notes if given.stream is not None else (*found.notes[:1], *(("", note) for note in given.notes), *found.notes[1:])
-    lines = [f"{topic:<12}{text}" for topic, text in (*_boards(given), *notes, *said)]
+    name = section.file if section.poses is None else section.poses
+    recognised = ("format", f"{name} read as: {given.format}")
+    lines = [f"{topic:<12}{text}" for topic, text in (*_boards(given), recognised, *notes, *said)]
     for error in wrong:
         lines += [f"WRONG       {line}" if k == 0 else f"          {line}" for k, line in enumerate(error.message().splitlines())]
     return Outcome(
         summary=lines if wrong else [*lines, "verdict     nothing wrong found"],
-        document=document_of(found.figures)
+        document={"format": given.format}
+        | document_of(found.figures)
         | {"wrong": [{"message": error.message(), "exit_code": error.exit_code, "do": error.todo} for error in wrong]},
         warnings=list(found.warnings),
         next_command=None if wrong else "lpcal handeye",

@@ -60,16 +60,17 @@ def _read(path: Path, body: str | None, quaternion: str | None, units: str | Non
                 f"mocap.{what} says nothing to the format {added.name}", where=str(path), needed="metres, as it reads", todo=todo
             )
         return _by(added, path, body, direction)
-    table = _table(path, head, body, quaternion, units)
-    return markers_of(table, path, body) if isinstance(table, MarkerTable) else stream_of(table, path, direction)
+    name, table = _table(path, head, body, quaternion, units)
+    found = markers_of(table, path, body) if isinstance(table, MarkerTable) else stream_of(table, path, direction)
+    return replace(found, format=name)
 
 
-def _table(path: Path, head: bytes, body: str | None, quaternion: str | None, units: str | None) -> PoseTable | MarkerTable:
-    """The file read by the reader whose mark it bears."""
+def _table(path: Path, head: bytes, body: str | None, quaternion: str | None, units: str | None) -> tuple[str, PoseTable | MarkerTable]:
+    """The format whose mark the file bears, and the file as its reader reads it."""
     if mocap_ros.is_ros(path, head):
-        return mocap_ros.read_ros(path, body, units)
+        return "ROS bag", mocap_ros.read_ros(path, body, units)
     if mocap_c3d.is_c3d(head):
-        return mocap_c3d.read_c3d(path, units)
+        return "C3D", mocap_c3d.read_c3d(path, units)
     for mark, found in OTHER_FILES.items():
         if head.startswith(mark):
             what, _, todo = found.partition("; ")
@@ -79,17 +80,17 @@ def _table(path: Path, head: bytes, body: str | None, quaternion: str | None, un
         raise InputError("empty", where=str(path), needed=KNOWN, todo="export the recording again")
     refuse_other_systems(text, path)
     if mocap_qualisys.is_qualisys(text):
-        return mocap_qualisys.read_qualisys(decimal_points(text), path, body, units)
+        return "Qualisys tsv", mocap_qualisys.read_qualisys(decimal_points(text), path, body, units)
     if mocap_trc.is_trc(text):
-        return mocap_trc.read_trc(decimal_points(text), path, units)
+        return "TRC", mocap_trc.read_trc(decimal_points(text), path, units)
     if mocap_tum.is_tum(text):
-        return mocap_tum.read_tum(decimal_points(text), path, quaternion, units)
+        return "TUM trajectory", mocap_tum.read_tum(decimal_points(text), path, quaternion, units)
     text = with_commas(text, path)
     if mocap_motive.is_motive(text):
-        return mocap_motive.read_motive(text, path, body, quaternion, units)
+        return "Motive csv", mocap_motive.read_motive(text, path, body, quaternion, units)
     if mocap_vicon.is_vicon(text):
-        return mocap_vicon.read_vicon(text, path, body, units)
-    return mocap_generic.read_generic(text, path, quaternion, units)
+        return "Vicon csv", mocap_vicon.read_vicon(text, path, body, units)
+    return "csv of poses", mocap_generic.read_generic(text, path, quaternion, units)
 
 
 def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> PoseStream | MarkerStream:
@@ -99,10 +100,10 @@ def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> Pos
     if not isinstance(found, PoseStream | MarkerStream):
         raise InputError(f"the format {added.name} gave a {type(found).__name__}", where=str(path), needed="a PoseStream or a MarkerStream")
     if isinstance(found, MarkerStream):
-        return given.markers(found, str(path))
+        return replace(given.markers(found, str(path)), format=added.name)
     stream = given.stream(found, str(path))
     poses = stream.H_OP
-    return replace(stream, H_OP=se3.inv(poses) if direction == "H_PO" else poses)
+    return replace(stream, H_OP=se3.inv(poses) if direction == "H_PO" else poses, format=added.name)
 
 
 @reader("a csv of poses")

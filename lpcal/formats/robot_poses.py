@@ -73,6 +73,8 @@ class ImagePoses:
         What the reader had to decide, in words.
     lost : tuple of int
         Rows of H that are exactly the identity, as a lost body is written.
+    format : str
+        The layout that the file was recognised as.
 
     Examples
     --------
@@ -86,6 +88,8 @@ class ImagePoses:
     notes: tuple[str, ...] = ()
     lost: tuple[int, ...] = ()
     """Rows of H that are exactly the identity, as a lost body is written; the first alone may be the place that all count from."""
+    format: str = ""
+    """The layout that the file was recognised as."""
 
 
 @dataclass(frozen=True)
@@ -122,17 +126,17 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
     cells = [_cells(line) for _, line in lines]
     numbers = [number for number, _ in lines]
     if not all(map(is_number, cells[0])):
-        poses = _table(cells, numbers, path, stated)
+        name, poses = "csv with names, an image a row", _table(cells, numbers, path, stated)
     elif len(cells[0]) == 6:
-        poses = _sixes(cells, numbers, path, stated)
+        name, poses = "six numbers a line, in the images' order", _sixes(cells, numbers, path, stated)
     else:
-        poses = _matrices(cells, numbers, path, stated)
+        name, poses = "matrices, in the images' order", _matrices(cells, numbers, path, stated)
     lost = tuple(int(row) for row in np.flatnonzero(np.all(poses.H - np.eye(4) == 0, axis=(1, 2))))
     lost = () if lost == (0,) else lost
     if len(lost) == len(poses.H):
         raise DegenerateError(f"all {len(lost)} poses are the identity", where=str(path), needed="a tracked body", todo="export it again")
     notes = (*poses.notes, *[f"{len(lost)} poses are the identity: lost"] * bool(lost))
-    return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, notes, lost)
+    return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, notes, lost, name)
 
 
 def _cells(line: str) -> list[str]:

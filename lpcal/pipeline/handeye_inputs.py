@@ -47,6 +47,8 @@ class HandEyeInputs:
     """The tracked body's name."""
     notes: tuple[str, ...] = ()
     """What was repaired or matched in the recording, in words."""
+    format: str = ""
+    """The format that the recording, or the file of poses, was recognised as."""
 
 
 def section_of(workspace: Workspace) -> MocapSection:
@@ -121,7 +123,7 @@ def gather(workspace: Workspace, progress: Progress) -> HandEyeInputs:
     boards = replace(boards, t_camera_s=np.array([listed[image] for image in boards.images]))
     times = np.array(list(listed.values()))
     share = _share(workspace, boards)
-    return HandEyeInputs(boards, camera, share, stream, None, without, tuple(listed), times, {}, stream.body, stream.notes)
+    return HandEyeInputs(boards, camera, share, stream, None, without, tuple(listed), times, {}, stream.body, stream.notes, stream.format)
 
 
 def recording(workspace: Workspace, section: MocapSection) -> PoseStream:
@@ -189,7 +191,7 @@ def _from_poses(workspace: Workspace, section: MocapSection, known: BoardPoses, 
     boards = boards.of(np.array([k for k, image in enumerate(boards.images) if image in pose_of], dtype=np.intp))
     H_OP = np.array([pose_of[image] for image in boards.images])
     share = _share(workspace, boards)
-    return HandEyeInputs(boards, camera, share, None, H_OP, without, tuple(images), None, unposed, notes=poses.notes)
+    return HandEyeInputs(boards, camera, share, None, H_OP, without, tuple(images), None, unposed, notes=poses.notes, format=poses.format)
 
 
 def _from_rests(workspace: Workspace, section: MocapSection, known: BoardPoses, camera: Camera) -> HandEyeInputs:
@@ -209,7 +211,8 @@ def _from_rests(workspace: Workspace, section: MocapSection, known: BoardPoses, 
     )
     H_OP = rests.H_OP[match[rows]]
     boards = boards.of(rows)
-    return HandEyeInputs(boards, camera, _share(workspace, boards), None, H_OP, without, tuple(images), None, unposed, stream.body, notes)
+    share = _share(workspace, boards)
+    return HandEyeInputs(boards, camera, share, None, H_OP, without, tuple(images), None, unposed, stream.body, notes, format=stream.format)
 
 
 def _paired(poses: ImagePoses, images: list[str], path: Path) -> dict[str, Array]:
@@ -239,4 +242,4 @@ def _from_board_poses(workspace: Workspace, section: MocapSection) -> HandEyeInp
     if section.file is None:
         raise InputError("no file", where=workspace.rig_file.where("mocap"), needed="mocap.file: a recording", todo="name it")
     stream = recording(workspace, section)
-    return HandEyeInputs(found, None, 0.0, stream, None, {}, names, rows.t_s, {}, stream.body, stream.notes)
+    return HandEyeInputs(found, None, 0.0, stream, None, {}, names, rows.t_s, {}, stream.body, stream.notes, stream.format)

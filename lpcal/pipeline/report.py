@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
 import numpy as np
 
@@ -30,7 +32,7 @@ from lpcal.records.pictures import png
 from lpcal.records.rig import Rig
 from lpcal.report.page import render
 from lpcal.report.pictures import doubtful, shaded, shrink
-from lpcal.report.rig_report import KINDS, RigReport, SurfaceReport
+from lpcal.report.rig_report import KINDS, PARTS, RigReport, SurfaceReport
 from lpcal.report.verdict import headline, verdicts
 
 THUMBNAIL = 220
@@ -108,22 +110,58 @@ def write_report(workspace: Workspace, progress: Progress) -> Outcome:
             needed="at least one of " + ", ".join(f"{kind}.yaml" for kind in KINDS),
             todo="lpcal run, or a stage such as lpcal intrinsics",
         )
-    surfaces = []
-    for done, folder in enumerate(folders, start=1):
-        surfaces.append(_surface(folder))
-        progress("pictures", done, len(folders))
-    report = _report(workspace, surfaces)
+    report = _report(workspace, _surfaces(folders, path, progress))
     write_text(path, render(report, _stamp(workspace)), KIND)
+    return _outcome(report, path, workspace.relative(path))
+
+
+def report_calibration(calibration: Path, surfaces: Sequence[Path], target: Path | None, progress: Progress) -> Outcome:
+    """Write the report of a calibration that stands by itself, and of surfaces; without a rig nothing else is known.
+
+    Parameters
+    ----------
+    calibration : a calibration.yaml
+    surfaces : folders that `lpcal reconstruct` wrote
+    target : the page; None: beside the calibration, after its name
+
+    Raises
+    ------
+    InputError
+        The calibration or a surface is not there or cannot be read, or something else stands where the page would.
+    """
+    path = target or calibration.with_name(f"{calibration.stem}_report.html")
+    refuse_place(path, KIND, [calibration])
+    found = read_calibration(calibration)
+    report = RigReport(
+        found.name,
+        calibration=found,
+        provenance={"calibration": read_provenance(calibration, "calibration")},
+        surfaces=tuple(_surfaces([folder.resolve() for folder in surfaces], path, progress)),
+        lacks=frozenset(PARTS),
+    )
+    write_text(path, render(report), KIND)
+    return _outcome(report, path, str(path))
+
+
+def _outcome(report: RigReport, path: Path, shown: str) -> Outcome:
+    """The verdicts in words and as a document."""
     lines = verdicts(report)
     tone, sentence = headline(lines)
-    summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, workspace.relative(path)]
+    summary = [*(f"{line.title:<10} {line.word:<10} {line.found}" for line in lines), sentence, shown]
     found = [{"stage": line.stage, "name": line.title, "verdict": line.tone, "found": line.found, "notes": line.notes} for line in lines]
     return Outcome(summary, {"report": str(path), "verdict": tone, "stages": found})
 
 
-def _surface(folder: Path) -> SurfaceReport:
-    relight = f"../surfaces/{folder.name}/relight.html" if (folder / "relight.html").is_file() else None
-    return SurfaceReport(folder.name, read_summary(folder / "summary.json"), _pictures(folder), relight)
+def _surfaces(folders: Sequence[Path], page: Path, progress: Progress) -> list[SurfaceReport]:
+    """What each folder holds, with the way from the page to its relighting page."""
+    found = []
+    for done, folder in enumerate(folders, start=1):
+        there = (folder / "relight.html").is_file()
+        way = Path(os.path.relpath(folder, page.parent.resolve())).as_posix() if there else ""
+        relight = f"{quote(way)}/relight.html" if there else None
+        found.append(SurfaceReport(folder.name, read_summary(folder / "summary.json"), _pictures(folder), relight))
+        progress("pictures", done, len(folders))
+    return found
 
 
 def _pictures(folder: Path) -> dict[str, bytes]:

@@ -163,6 +163,8 @@ class PoseStream(Shown):
         What the reader had to decide or repair, in words.
     covariance : ndarray (N, 6, 6), optional
         Of the left perturbations, where the poses come from markers; white noise of the markers alone.
+    format : str
+        The format that the file was recognised as; empty where the poses come from no file.
 
     Examples
     --------
@@ -190,6 +192,8 @@ class PoseStream(Shown):
     """What the reader had to decide or repair, in words."""
     covariance: Array | None = None
     """(N, 6, 6) of the left perturbations, where the poses come from markers; white noise of the markers alone."""
+    format: str = ""
+    """The format that the file was recognised as; empty where the poses come from no file."""
 
 
 @dataclass(frozen=True)
@@ -210,6 +214,8 @@ class MarkerStream:
         Samples a second; NaN: `read_mocap` finds it from the times.
     notes : tuple of str
         What the reader had to decide or repair, in words.
+    format : str
+        The format that the file was recognised as; empty where the markers come from no file.
 
     Examples
     --------
@@ -228,6 +234,8 @@ class MarkerStream:
     """(N, M, 3) metres, NaN where a marker was not seen."""
     rate_hz: float = float("nan")
     notes: tuple[str, ...] = ()
+    format: str = ""
+    """The format that the file was recognised as; empty where the markers come from no file."""
 
 
 @dataclass(frozen=True, repr=False)

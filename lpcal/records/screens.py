@@ -292,6 +292,7 @@ def _pose_stream(stream: PoseStream) -> RecordScreen:
         ("time", f"{t_s[0]:.3f} to {t_s[-1]:.3f} s" if len(t_s) else "none"),
         ("moves over", f"{_numbers(np.ptp(x_mm, axis=0), 1)} mm along x, y, z of O" if len(t_s) else "nothing"),
         ("markers", ", ".join(list(stream.markers_O)[:LISTED]) or "none"),
+        *([("format", stream.format)] if stream.format else []),
     ]
     return RecordScreen(f"PoseStream of {stream.body or 'a body'}", rows, stream.notes)
 

@@ -21,6 +21,10 @@ NAME_ROOM = 12
 """Units of the drawing that a name under the axis takes across, turned by 60 degrees."""
 LONGEST_NAME, MOST_BELOW = 14, 68
 """Letters of a name, and units under the axis that names may take."""
+LETTER = 7.0
+"""Units of the drawing that a letter takes across, at most, in the charts' type."""
+LINE = 13.0
+"""Units of the drawing from one line of type to the next."""
 BAR = 12
 """Height of a colour bar."""
 
@@ -52,9 +56,10 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
     measured = [item.value for item in items if item.value is not None]
     top = max([*measured, gate or 0.0, 1e-12]) * 1.06
     longest = max((len(item.name) for item in items), default=0)
-    below = 0 if not longest else min(10 + 5 * longest, MOST_BELOW)
+    thick = (WIDTH - LEFT - RIGHT) / max(len(items), 1)
+    level = longest * LETTER < thick
+    below = 0 if not longest else 10 if level else min(10 + 5 * longest, MOST_BELOW)
     plot = _Plot(height + below, (0, max(len(items), 1)), (0, top), bottom=BOTTOM + below)
-    thick = plot.width / max(len(items), 1)
     parts = plot.y_axis("deg" if unit == "°" else unit)
     for k, item in enumerate(items):
         u, tip = plot.u(k) + 0.1 * thick, f"<title>{escape(item.label)}</title>"
@@ -63,13 +68,25 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
         parts.append(f'<rect {shape} class="fill-{item.tone}">{tip}</rect>')
     if gate is not None:
         parts.append(plot.rule(gate))
-    every = max(1, math.ceil(len(items) * NAME_ROOM / plot.width))
+    parts += _level_names(items, plot) if level else _turned_names(items, plot)
+    return plot.svg([*parts, plot.x_line(), plot.x_title(across)], f"bars, {across}, {unit}")
+
+
+def _level_names(items: Sequence[Bar], plot: _Plot) -> list[str]:
+    """The bars' names under the axis, where each has room."""
+    v = plot.v(0) + 13
+    return [f'<text class="middle" x="{plot.u(k + 0.5):.1f}" y="{v:.1f}">{escape(item.name)}</text>' for k, item in enumerate(items)]
+
+
+def _turned_names(items: Sequence[Bar], plot: _Plot) -> list[str]:
+    """The bars' names under the axis, on end, as many of them as there is room for."""
+    every, drawn = max(1, math.ceil(len(items) * NAME_ROOM / plot.width)), []
     for k, item in enumerate(items):
         if item.name and k % every == 0:
             u, v = plot.u(k + 0.5) + 3, plot.v(0) + 9
             shown = item.name if len(item.name) <= LONGEST_NAME else f"…{item.name[1 - LONGEST_NAME :]}"
-            parts.append(f'<text class="end name" x="{u:.1f}" y="{v:.1f}" transform="rotate(-60 {u:.1f} {v:.1f})">{escape(shown)}</text>')
-    return plot.svg([*parts, plot.x_line(), plot.x_title(across)], f"bars, {across}, {unit}")
+            drawn.append(f'<text class="end name" x="{u:.1f}" y="{v:.1f}" transform="rotate(-60 {u:.1f} {v:.1f})">{escape(shown)}</text>')
+    return drawn
 
 
 def histogram(values: Array, *, unit: str, sigma: float, height: int = 190) -> str:
@@ -106,13 +123,25 @@ def rings(found: Sequence[Ring], image_size: tuple[int, int]) -> str:
     scale = (WIDTH - 4) / w
     height = round(h * scale) + 4
     parts = [f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>']
+    taken: list[tuple[float, float, float]] = []
     for ring in found:
         path = "L".join(f"{u:.1f} {v:.1f}" for u, v in ring.points_px * scale + 2)
         parts.append(f'<path class="{"gate" if ring.doubted else "curve"}" d="M{path}Z"><title>{escape(ring.label)}</title></path>')
         parts += [f'<circle class="fill-warm" cx="{u:.1f}" cy="{v:.1f}" r="1.5"/>' for u, v in ring.spots_px * scale + 2]
-        u, v = ring.points_px.mean(axis=0)[0] * scale + 2, ring.points_px[:, 1].max() * scale + 15
-        parts.append(f'<text class="middle" x="{u:.1f}" y="{min(v, height - 4):.1f}">{escape(ring.label)}</text>')
+        u, v = _free_place(ring, scale, height, taken)
+        parts.append(f'<text class="middle" x="{u:.1f}" y="{v:.1f}">{escape(ring.label)}</text>')
     return framed(height, parts, "where the spheres' outlines were found in the image")
+
+
+def _free_place(ring: Ring, scale: float, height: int, taken: list[tuple[float, float, float]]) -> tuple[float, float]:
+    """Where a ring's name stands, its middle and its foot: under the ring, else over it or further under it, clear of those `taken`."""
+    u, half = float(ring.points_px[:, 0].mean()) * scale + 2, len(ring.label) * LETTER / 2
+    top, foot = (float(edge) * scale for edge in (ring.points_px[:, 1].min(), ring.points_px[:, 1].max()))
+    places = [min(foot + 15, height - 4), max(top - 5, 12), min(foot + 15 + LINE, height - 4), max(top - 5 - LINE, 12)]
+    free = [v for v in places if all(abs(u - x) >= half + other or abs(v - y) >= LINE for x, y, other in taken)]
+    v = free[0] if free else places[0]
+    taken.append((u, v, half))
+    return u, v
 
 
 def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array | None = None) -> str:
@@ -124,10 +153,11 @@ def over_image(points_px: Array, image_size: tuple[int, int], arrows_px: Array |
     parts += [f'<path d="M{2 + k * w * scale / 6:.1f} 2v{h * scale:.1f}" class="grid"/>' for k in range(1, 6)]
     parts += [f'<path d="M2 {2 + k * h * scale / 4:.1f}h{w * scale:.1f}" class="grid"/>' for k in range(1, 4)]
     inside = points_px[np.all((points_px > -1) & (points_px < [w, h]), axis=1)] * scale + 2
-    parts.append(f'<path class="dots" d="{"".join(f"M{u:.1f} {v:.1f}h0" for u, v in inside)}"/>')
+    over = [f'<path class="dots" d="{"".join(f"M{u:.1f} {v:.1f}h0" for u, v in inside)}"/>']
     for x, y, dx, dy in [] if arrows_px is None else arrows_px * scale:
-        parts.append(f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/>')
-        parts.append(f'<circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>')
+        over.append(f'<path class="arrow" d="M{x + 2:.1f} {y + 2:.1f}l{dx:.1f} {dy:.1f}"/>')
+        over.append(f'<circle class="fill-warm" cx="{x + 2:.1f}" cy="{y + 2:.1f}" r="2"/>')
+    parts.append(_within(w * scale, h * scale, over))
     return framed(height, parts, "where the board's corners fell in the image")
 
 
@@ -205,7 +235,14 @@ def vectors(points_px: Array, arrows_px: Array, image_size: tuple[int, int]) -> 
         f"M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}" for (x, y), (dx, dy) in zip(points_px * scale + 2, arrows_px * scale, strict=True)
     )
     frame = f'<rect x="2" y="2" width="{w * scale:.1f}" height="{h * scale:.1f}" class="plate"/>'
-    return framed(height, [frame, f'<path class="vectors" d="{lines}"/>'], "residuals of the corners, as lines over the image")
+    drawn = _within(w * scale, h * scale, [f'<path class="vectors" d="{lines}"/>'])
+    return framed(height, [frame, drawn], "residuals of the corners, as lines over the image")
+
+
+def _within(width: float, height: float, parts: Iterable[str]) -> str:
+    """Parts of a drawing cut off at the plate of an image, which begins at (2, 2)."""
+    frame = f'x="2" y="2" width="{width:.1f}" height="{height:.1f}" viewBox="2 2 {width:.1f} {height:.1f}"'
+    return f'<svg {frame} overflow="hidden">{"".join(parts)}</svg>'
 
 
 def dot_rows(rows: Sequence[tuple[str, Sequence[tuple[float, str, str]]]], *, unit: str, gate: float | None = None) -> str:

@@ -41,7 +41,7 @@ def render(report: RigReport, stamp: str = "") -> str:
     """The page, whole; a stage that is not there is said to be so. `stamp` is kept in it and states later what it was made from."""
     lines = verdicts(report)
     tone, sentence = headline(lines)
-    rig = rig_scene(report)
+    rig, judged = rig_scene(report), {line.stage for line in lines}
     return (
         environment()
         .get_template("report.html")
@@ -67,7 +67,7 @@ def render(report: RigReport, stamp: str = "") -> str:
             surfaces=[surface_section(surface) for surface in report.surfaces],
             provenance=[_provenance(kind, report.provenance[kind]) for kind in KINDS if kind in report.provenance],
             sections=[part for part in ("camera", "handeye", "lights", "spheres", "surfaces") if not report.left_out(part)],
-            without=listed([words for part, words in LACKING.items() if report.left_out(part)]),
+            without=listed([words for part, words in LACKING.items() if report.left_out(part) and part not in judged]),
             missing=_missing(report),
         )
     )
@@ -84,7 +84,7 @@ def _script(scene: LineScene | None) -> str | None:
 
 def _missing(report: RigReport) -> list[str]:
     """Kinds of document that the rig should have and does not."""
-    needless = {kind for part, kinds in PARTS.items() if report.left_out(part) for kind in kinds}
+    needless = {kind for part, kinds in PARTS.items() if part in report.lacks for kind in kinds}
     return [kind for kind in KINDS if kind not in report.provenance and kind != OPTIONAL and kind not in needless]
 
 
@@ -150,6 +150,8 @@ class LightsPart:
     direction_from: str
     focus: str | None
     d_object: str | None
+    before: str
+    """What `d_object` is counted from, in words."""
     intensities: str | None
     lobe: str | None
     field: Drawing | None
@@ -198,7 +200,8 @@ def lights_section(report: RigReport) -> LightsPart | None:
         direction_from="from the focus" if focus is not None else "to the light",
         focus=None if focus is None else ", ".join(fixed(1000 * value, 2) for value in focus.tolist()),
         d_object=fixed(1000 * found.d_object_m, 1, "mm") if found.d_object_m else None,
-        intensities=charts.bars(_intensities(found.lights), unit="relative", across="lights in order") if measured else None,
+        before="away" if report.left_out("wings") else "in front of the disc",
+        intensities=charts.bars(_intensities(found.lights), unit="relative", across="lights") if measured else None,
         lobe=_lobe(found.lights),
         field=_field(found.lights, report.lens, found.d_object_m, found.focus_C),
         warnings=found.warnings,

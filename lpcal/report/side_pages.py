@@ -25,6 +25,9 @@ from lpcal.report.templates import environment, packed_three
 DIFF_MARK = '<meta name="lpcal-page" content="diff">'
 """What marks the page as lpcal's."""
 
+ROOM = 1.2
+"""By how much the drawing of two rigs is wider than the one rig, so that arrows, drawn longer than they are, stay in it."""
+
 
 def diff_html(
     names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str], verdict: str
@@ -65,7 +68,7 @@ def scene_of(rigs: tuple[Calibration, Calibration], change: CalibrationChange) -
         for light in change.lights
         if light.name in sources
     ]
-    return replace(scene, items=(*ghosts, *scene.items, *arrows))
+    return replace(scene, items=(*ghosts, *scene.items, *arrows), radius=ROOM * scene.radius)
 
 
 SOFTWARE = "lpcal study"

@@ -16,7 +16,7 @@ from lpcal.records.calibration import HandEye, Wings
 from lpcal.records.camera import ViewVerdict
 from lpcal.records.distance import SensorSolution
 from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas, sigmas
-from lpcal.report.wording import fixed, number, plural, sigma_of, with_sigma
+from lpcal.report.wording import fixed, grouped, number, plural, sigma_of, with_sigma
 
 GATES = {
     "camera_rms_px": (0.3, 0.7),
@@ -40,7 +40,7 @@ GATE_WORDS = {
     "light_percent": "intensity ≤ {:g} %",
     "surface_percent": "distance ≤ {:g} %",
 }
-UNREFINED = "The lights stand as designed or imported; no spheres refined them."
+UNREFINED = "As the calibration states them: whether spheres refined them it does not say."
 type Level = Literal["good", "fair", "poor"]
 type Tone = Literal["good", "fair", "poor", "none", "absent"]
 """A level; or none where nothing is judged, absent where a stage is not there."""
@@ -182,8 +182,9 @@ def _lights(report: RigReport) -> Verdict:
     found += "" if report.intensities_measured else ", intensity not measured"
     found += f", {sum(sphere.used for sphere in spheres)} of {plural(len(spheres), 'sphere')}" if spheres else ""
     measured = ((direction, "light_deg"), (intensity, "light_percent"))
+    level = _lower(_level(*measured), placed.warnings)
     notes = placed.warnings if report.lights is not None else (UNREFINED, *placed.warnings)
-    return Verdict("lights", "Lights", _lower(_level(*measured), notes), found, _gate(*measured), notes)
+    return Verdict("lights", "Lights", level, found, _gate(*measured), notes)
 
 
 def _worst(values: Sequence[float] | Array) -> float:
@@ -195,7 +196,7 @@ def _surface(surface: SurfaceReport) -> Verdict:
     pieces, metric = surface.summary.components, surface.summary.metric
     spread = [100 * piece.scale_std for piece in pieces if metric and np.isfinite(piece.scale_std)]
     pixels = sum(piece.pixels for piece in pieces)
-    found = f"{pixels:,} pixels in {plural(len(pieces), 'piece')}".replace(",", "\N{NARROW NO-BREAK SPACE}") if pieces else "a surface"
+    found = f"{grouped(pixels)} pixels in {plural(len(pieces), 'piece')}" if pieces else "a surface"
     measured = (max(spread, default=float("nan")), "surface_percent")
     if spread and np.isfinite(depth := pieces[0].mean_depth_m):
         found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away"

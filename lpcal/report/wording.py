@@ -48,6 +48,11 @@ def with_sigma(value: float | None, sigma: float | None, unit: str = "") -> str:
     return f"{_signed(f'{float(value):.{decimals}f}')} ± {float(sigma):.{decimals}f}{_unit(unit)}"
 
 
+def grouped(count: int) -> str:
+    """``13 316``: a count in groups of three digits."""
+    return f"{count:,}".replace(",", "\N{NARROW NO-BREAK SPACE}")
+
+
 def plural(count: int, one: str, many: str = "") -> str:
     """``1 light``, ``6 lights``."""
     return f"{count} {one if count == 1 else many or one + 's'}"

@@ -9,7 +9,7 @@ The mesh of a large picture takes several times the memory of its maps: `MeshBan
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -60,7 +60,9 @@ class MeshBands:
 
     @staticmethod
     def of(surface: Surface) -> MeshBands:
-        """Number the pixels that a triangle uses, in reading order."""
+        """Number the pixels that a triangle uses, in reading order; a surface that states no breaks is cut where its mask ends."""
+        if not surface.breaks.size:
+            surface = replace(surface, breaks=ends_of(surface.mask))
         used, counts = np.zeros(surface.mask.shape, bool), np.zeros(len(CORNERS), int)
         for rows in _bands(_squares(surface)):
             for kind in range(len(CORNERS)):
@@ -127,6 +129,13 @@ def points_C(surface: Surface) -> Array:
 def colours(surface: Surface) -> npt.NDArray[np.uint8]:
     """Albedo (H, W, 3) as 8 bit display numbers (sRGB's gamma), its 99th percentile at nine tenths."""
     return _displayed(surface.albedo, _white(surface))
+
+
+def ends_of(mask: Mask) -> Mask:
+    """Where (2, H, W) a mask (H, W) ends towards the right [0] and below [1]: the breaks of a surface that states none."""
+    ends = np.ones((2, *mask.shape), bool)
+    ends[0, :, :-1], ends[1, :-1] = ~(mask[:, :-1] & mask[:, 1:]), ~(mask[:-1] & mask[1:])
+    return ends
 
 
 def _points(surface: Surface, rows: slice) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -40,6 +41,8 @@ def test_both_streams(tmp_path: Path, session: Session, lpcal: Callable[..., tup
     assert set(document["views"][0]) == {"image", "used", "why", "residual_px", "residual_m", "residual_deg", "held_out_m"}
     code, out, _ = lpcal("check", cwd=folder)
     assert (code, "nothing wrong found" in out) == (0, True)
+    assert "\nformat      mocap.csv read as: csv of poses\n" in out
+    assert json.loads(lpcal("check", "--json", cwd=folder)[1])["format"] == "csv of poses"
 
 
 def test_one_pose_an_image(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
@@ -56,6 +59,8 @@ def test_one_pose_an_image(tmp_path: Path, lpcal: Callable[..., tuple[int, str, 
     np.savetxt(folder / "robot.txt", session.H_OP[:-1].reshape(-1, 16))
     code, _, err = lpcal("handeye", cwd=folder)
     assert (code, "23 poses for 24 images" in err) == (6, True)
+    image_rig(folder, session, session.H_OP)
+    assert "\nformat      robot.txt read as: matrices, in the images' order\n" in lpcal("check", cwd=folder)[1]
 
 
 @pytest.mark.parametrize("lost", ["handeye.easy_handeye.yaml", "H_OP.yaml", "handeye.yaml"])

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
-import threading
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -24,67 +20,13 @@ from lpcal.formats.capture import read_capture
 from lpcal.formats.marks import with_value
 from lpcal.formats.panel_yaml import read_rig
 from lpcal.pipeline.mark import Marking, mark
-
-PANEL = """# my panel
-lpcal: 1
-lights: {L0: {}, L1: {}, L2: {}}   # three
-spheres:
-  ball: {kind: chrome, radius: 25 mm, images: spheres/ball}  # the large one
-  grey:
-    kind: matte   # painted
-    radius: 20 mm
-    images: spheres/grey
-"""
-SIZE = (60, 80)
+from marking import PANEL, SIZE, Served, boards, capture_folder
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """A rig with the images of a sphere."""
-    (tmp_path / "panel.yaml").write_text(PANEL)
-    (tmp_path / "spheres" / "ball").mkdir(parents=True)
-    y, x = np.mgrid[: SIZE[0], : SIZE[1]]
-    ball = np.where((x - 40) ** 2 + (y - 30) ** 2 < 400, 180, 20).astype(np.uint8)
-    for k in range(3):
-        Image.fromarray(ball + np.uint8(k)).save(tmp_path / "spheres" / "ball" / f"IMG_{k}.png")
-    return tmp_path / "spheres" / "ball"
-
-
-class Served:
-    """The command at work in a thread."""
-
-    def __init__(self, folder: Path) -> None:
-        self.said: list[str] = []
-        told = threading.Event()
-
-        def say(line: str) -> None:
-            self.said.append(line)
-            told.set()
-
-        self.outcome: Any = None
-        self.thread = threading.Thread(
-            target=lambda: setattr(
-                self,
-                "outcome",
-                mark(folder, read_rig(next(up / "panel.yaml" for up in folder.parents if (up / "panel.yaml").is_file())), say),
-            )
-        )
-        self.thread.start()
-        assert told.wait(20)
-        self.address = self.said[0].split()[-1]
-
-    def ask(self, path: str, message: Any = None, *, token: bool = True, host: str | None = None) -> tuple[int, bytes]:
-        base, _, query = self.address.partition("/?")
-        request = urllib.request.Request(
-            base + path + (f"?{query}" if token else ""), None if message is None else json.dumps(message).encode()
-        )
-        if host:
-            request.add_header("Host", host)
-        try:
-            with urllib.request.urlopen(request, timeout=20) as answer:
-                return answer.status, answer.read()
-        except urllib.error.HTTPError as error:
-            return error.code, error.read()
+    return capture_folder(tmp_path)
 
 
 @pytest.fixture
@@ -92,9 +34,7 @@ def served(folder: Path) -> Iterator[Served]:
     """The command, ended at the end."""
     at = Served(folder)
     yield at
-    at.ask("/done", {})
-    at.thread.join(10)
-    assert not at.thread.is_alive()
+    at.end()
 
 
 def picture(mask: np.ndarray) -> str:
@@ -197,15 +137,6 @@ def test_large_pictures_are_shown_smaller(folder: Path, monkeypatch: pytest.Monk
     assert Image.open(folder / "mask.png").size == (80, 60)
 
 
-def boards(folder: Path) -> Path:
-    """A rig with a chessboard and images of it."""
-    (folder / "panel.yaml").write_text("lpcal: 1\ncamera: {images: stations/*.png}\nboard: {corners: [9, 6], square: 25 mm}  # printed\n")
-    (folder / "stations" / "a").mkdir(parents=True)
-    for k in range(2):
-        Image.fromarray(np.full((60, 80), 100 + k, np.uint8)).save(folder / "stations" / "a" / f"{k}.png")
-    return folder / "stations" / "a"
-
-
 def test_a_boards_corners_are_written_by_image(tmp_path: Path) -> None:
     folder = boards(tmp_path)
     at = Marking(folder, read_rig(tmp_path / "panel.yaml"), ("0.png", "1.png"))
@@ -260,8 +191,7 @@ def test_the_page_marks_a_boards_corners(tmp_path: Path) -> None:
             page.click("#save")
             page.wait_for_function("document.documentElement.dataset.answer === '200'", timeout=90_000)
     finally:
-        at.ask("/done", {})
-        at.thread.join(10)
+        at.end()
     marks = read_rig(tmp_path / "panel.yaml").rig.board.marks
     assert marks == {"stations/a/0.png": pytest.approx((10, 10, 70, 12, 68, 50, 13, 48), abs=0.6)}
 

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+import lpcal as library
 from lpcal.formats.documents import write_document
 from lpcal.records.provenance import Provenance
+from relight_ball import ball
 from report_rig import documents, plain
 
 
@@ -109,3 +111,43 @@ def test_the_stage_knows_when_it_is_out_of_date(rig: Path, lpcal: Any) -> None:
     assert STAGE.up_to_date(workspace)
     (rig / "calib" / "handeye.yaml").unlink()
     assert not STAGE.up_to_date(workspace)
+
+
+def test_a_calibration_alone_has_a_page(tmp_path: Path, rig: Path, lpcal: Any) -> None:
+    """Without a rig, of the calibration alone; its page is not the rig's, which would be of all its stages."""
+    fill(rig)
+    place = tmp_path / "elsewhere"
+    place.mkdir()
+    (rig / "calib" / "calibration.yaml").rename(place / "ours.yaml")
+    code, out, err = lpcal("report", "-c", "ours.yaml", cwd=place)
+    assert (code, err) == (0, "")
+    assert "ours_report.html" in out
+    page = (place / "ours_report.html").read_text(encoding="utf-8")
+    assert 'id="lights"' in page
+    assert 'id="handeye"' not in page
+    assert lpcal("report", "-c", "ours.yaml", "-o", "page.html", cwd=place)[0] == 0
+    assert (place / "page.html").read_text(encoding="utf-8") == page
+    (place / "note.html").write_text("mine", encoding="utf-8")
+    assert lpcal("report", "-c", "ours.yaml", "-o", "note.html", cwd=place)[0] == 3
+    assert (place / "note.html").read_text(encoding="utf-8") == "mine"
+    assert lpcal("report", "-c", "ours.yaml", "-o", "ours.yaml", cwd=place)[0] == 2
+    assert lpcal("report", "-c", "absent.yaml", cwd=place)[0] == 3
+
+
+@pytest.mark.parametrize("words", [("surfaces/bust",), ("-o", "page.html")])
+def test_what_needs_a_calibration_says_so(rig: Path, lpcal: Any, words: tuple[str, ...]) -> None:
+    fill(rig)
+    code, _, err = lpcal("report", *words, cwd=rig)
+    assert code == 2
+    assert "-c calibration.yaml" in err
+
+
+def test_surfaces_on_the_page_of_a_calibration_lead_to_their_own_pages(tmp_path: Path, rig: Path, lpcal: Any) -> None:
+    fill(rig)
+    calibration = library.read_calibration(rig / "calib" / "calibration.yaml")
+    folder = tmp_path / "shapes of two" / "ball"
+    library.write_surface(folder, ball(perspective=True), calibration)
+    code, out, err = lpcal("report", "-c", str(rig / "calib" / "calibration.yaml"), str(folder), "-o", str(tmp_path / "p.html"), cwd=rig)
+    assert (code, err.replace("pictures: 1 of 1\n", "")) == (0, "")
+    assert "ball" in out
+    assert 'href="shapes%20of%20two/ball/relight.html"' in (tmp_path / "p.html").read_text(encoding="utf-8")

@@ -64,6 +64,7 @@ def test_it_is_asked_before_lpcals_own(tmp_path: Path) -> None:
     assert len(lpcal.read_mocap(path).t_s) == 9
     lpcal.register_mocap("ours", lambda head: head.startswith(b"t_s,x_m"), lambda path, body: stream(4))
     assert len(lpcal.read_mocap(path).t_s) == 4
+    assert lpcal.read_mocap(path).format == "ours"
 
 
 def test_the_last_of_a_name_counts(recording: Path) -> None:
@@ -162,6 +163,7 @@ def test_the_command_line_knows_an_installed_format(tmp_path: Path) -> None:
     assert "rail" not in without.stdout
     assert without.returncode == 3
     assert "500" in found.stdout
+    assert "run.dat read as: our rail" in found.stdout
     assert "Traceback" not in found.stderr
 
 

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+import lpcal
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.mocap import read_mocap
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
+from mocap_files import motive
 
 RATE = 100.0
 MARKERS_P = {"A": (0.08, 0.0, 0.0), "B": (0.0, 0.06, 0.01), "C": (-0.07, 0.02, 0.0), "D": (0.01, -0.05, 0.03)}
@@ -258,6 +260,27 @@ def test_ros(tmp_path: Path, truth: tuple[Array, Array], file: str, kind: str) -
     assert np.abs(found.H_OP - H_OP).max() < 1e-9
     if path.suffix != ".bag":
         assert len(read_mocap(path.parent).t_s) == 30
+
+
+def test_the_stream_names_the_format_that_was_recognised(tmp_path: Path, truth: tuple[Array, Array]) -> None:
+    """What is read names it, whichever reader knew it; a body made of markers keeps it."""
+    t, H_OP = truth
+    tracks = marker_tracks(H_OP)
+    poses = np.column_stack([t, H_OP[:, :3, 3], se3.quaternion(H_OP[:, :3, :3])])
+    np.savetxt(tmp_path / "take.txt", poses)
+    np.savetxt(tmp_path / "plain.csv", poses, delimiter=",")
+    files = {
+        "Vicon csv": vicon_poses(tmp_path / "vicon.csv", H_OP),
+        "Qualisys tsv": qualisys(tmp_path / "take.tsv", "6D", ("Panel",), [body_block(H_OP)]),
+        "C3D": c3d(tmp_path / "take.c3d", {f"Panel_{name}": track for name, track in tracks.items()}),
+        "TUM trajectory": tmp_path / "take.txt",
+        "csv of poses": tmp_path / "plain.csv",
+        "ROS bag": ros(tmp_path / "take.bag", t, H_OP),
+        "Motive csv": motive(tmp_path / "motive.csv", t, H_OP),
+    }
+    assert {name: read_mocap(path).format for name, path in files.items()} == {name: name for name in files}
+    assert lpcal.read_mocap(files["C3D"]).format == "C3D"
+    assert "C3D" in str(lpcal.read_mocap(files["C3D"]))
 
 
 def test_ros_refusals(tmp_path: Path, truth: tuple[Array, Array], monkeypatch: pytest.MonkeyPatch) -> None:

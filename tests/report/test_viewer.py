@@ -12,19 +12,11 @@ import numpy as np
 import pytest
 
 from browser_pages import Opened, chromium, findings, opened, ready
-from lpcal.records.surface import Component
 from lpcal.report import relight_page
 from lpcal.report.distant_shape import bend_of
 from lpcal.report.relight_page import render
+from page_kinds import SCALE_STD, whole_ball
 from relight_ball import CENTRE, SIZE, ball, lights
-
-SCALE_STD = 0.004
-
-
-def whole_ball() -> Any:
-    """The ball as one piece whose distance is known to some parts in a thousand."""
-    whole = ball(perspective=True, colour=True)
-    return replace(whole, components=(Component(1, int(whole.mask.sum()), 0.33, SCALE_STD),))
 
 
 @pytest.fixture(scope="module")

@@ -18,6 +18,7 @@ from lpcal.formats.import_lights import read_lights
 from lpcal.records.surface import Surface
 from lpcal.surface import mesh, planes, shadow_anchor, sight
 from lpcal.surface.reconstruct import Options, reconstruct
+from relight_ball import ball
 
 
 def angle_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -66,6 +67,17 @@ def test_the_mesh_faces_the_camera_and_is_cut_at_the_outline(sphere: Surface) ->
     assert np.linalg.norm(b - a, axis=1).max() < 0.02
     assert len(made.vertices_C) == len(made.normals_C) == len(made.colours)
     assert len(made.vertices_C) > 0.97 * sphere.mask.sum()
+
+
+def test_a_surface_that_states_no_breaks_is_cut_where_its_mask_ends() -> None:
+    whole = ball(perspective=True)
+    assert whole.breaks.size == 0
+    made = mesh.build(whole)
+    stated = mesh.build(replace(whole, breaks=mesh.ends_of(whole.mask)))
+    np.testing.assert_array_equal(made.faces, stated.faces)
+    sides = made.vertices_C[made.faces].astype(float)
+    assert np.linalg.norm(np.diff(sides, axis=1), axis=-1).max() < 0.03
+    assert len(made.vertices_C) > 0.97 * whole.mask.sum()
 
 
 @pytest.mark.slow

@@ -68,6 +68,11 @@ function pyramid(view, colour) {
   return line(points, colour, 1.4, false);
 }
 
+// How far from the model's middle the views and the stops to come stand at most: zooming out ends beyond them.
+function around() {
+  return Math.max(data.radius, ...[...data.views, ...data.next].map((one) => Math.hypot(one.H[0][3], one.H[1][3], one.H[2][3])));
+}
+
 function beside() {
   for (const old of space.children.filter((one) => one !== mesh)) space.remove(old);
   lines = [];
@@ -88,7 +93,7 @@ function draw() {
   const w = Math.max(1, canvas.clientWidth), h = Math.max(1, canvas.clientHeight), away = camera.position.length();
   gl.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2)); gl.setSize(w, h, false);
   for (const one of lines) one.resolution.set(w, h);
-  camera.aspect = w / h; camera.near = Math.max(0.02 * data.radius, away - 12 * data.radius); camera.far = away + 12 * data.radius; camera.updateProjectionMatrix();
+  camera.aspect = w / h; camera.near = Math.max(0.02 * data.radius, away - Math.max(12 * data.radius, 1.5 * around())); camera.far = away + Math.max(12 * data.radius, 1.5 * around()); camera.updateProjectionMatrix();
   gl.render(space, camera); overlay(w, h);
   document.documentElement.dataset.drawn = "yes";
 }
@@ -224,7 +229,7 @@ async function begin() {
   shape.setAttribute("position", new THREE.BufferAttribute(values.position, 3)); shape.setAttribute("normal", new THREE.BufferAttribute(values.normal, 3)); shape.setIndex(new THREE.BufferAttribute(values.faces, 1));
   mesh = new THREE.Mesh(shape, material()); space.add(mesh);
   controls = new THREE.OrbitControls(camera, canvas); controls.addEventListener("change", later);
-  controls.minDistance = 0.2 * data.radius; controls.maxDistance = 20 * data.radius;
+  controls.minDistance = 0.2 * data.radius; controls.maxDistance = Math.max(20 * data.radius, 5 * around());
   colours(); beside(); see(); hands(); show();
   new ResizeObserver(later).observe(canvas);
 }
