@@ -5,8 +5,8 @@ drawn    corners of boards drawn by ray casting: rms against where the pattern's
 spread   100 seeded calibrations: predicted projection uncertainty against the spread; NEES of the intrinsics
 bouguet  Bouguet's example 1 by opencv4 and a flat board, and by what is chosen
 boards   boards found on real sets, compared with OpenCV's detectors alone
-frames   1920x1080 frames without a board: seconds of processor an image, compared with OpenCV's classic and sector detectors
-count    28x17 boards asked for as 24x17, thirty images: what ``lpcal intrinsics`` says and the seconds of processor that it takes
+frames   1920x1080 frames without a board: seconds of processor time an image, compared with OpenCV's classic and sector detectors
+count    28x17 boards asked for as 24x17, thirty images: what ``lpcal intrinsics`` says and the seconds of processor time that it takes
 speed    bouguet_ex1: ``lpcal intrinsics`` compared with mrcal-calibrate-cameras fed the same corners plus OpenCV's detection
 """
 
@@ -153,7 +153,7 @@ def boards() -> None:
 
 
 def timed(run: Callable[[], object]) -> tuple[float, float]:
-    """Seconds on the clock and of processors, children counted."""
+    """Wall-clock and processor seconds, child processes counted."""
 
     def now() -> tuple[float, float]:
         both = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
@@ -174,7 +174,9 @@ def frames() -> None:
             own = timed(lambda image=image, board=board: find_board(image, board))[1]
             classic = timed(lambda image=image, corners=corners: cv2.findChessboardCorners(image, corners))[1]
             sector = timed(lambda image=image, corners=corners: cv2.findChessboardCornersSB(image, corners))[1]
-            print(f"{draw.__name__}, {corners[0]}x{corners[1]}: {own:.2f} s of processor; OpenCV classic {classic:.2f}, SB {sector:.2f}")
+            print(
+                f"{draw.__name__}, {corners[0]}x{corners[1]}: {own:.2f} s of processor time; OpenCV classic {classic:.2f}, SB {sector:.2f}"
+            )
 
 
 def count() -> None:
@@ -187,9 +189,8 @@ def count() -> None:
         said: list[subprocess.CompletedProcess[str]] = []
         command = [sys.executable, "-m", "lpcal.cli.main", "intrinsics", "--rig", folder]
         took = timed(lambda: said.append(subprocess.run(command, capture_output=True, check=False, text=True)))
-        print(
-            f"28x17 asked for as 24x17, 30 images: {took[1]:.1f} s of processor, exit code {said[0].returncode}: {said[0].stderr.strip()}"
-        )
+        ended = f"exit code {said[0].returncode}: {said[0].stderr.strip()}"
+        print(f"28x17 asked for as 24x17, 30 images: {took[1]:.1f} s of processor time, {ended}")
 
 
 def speed() -> None:
@@ -219,7 +220,7 @@ def speed() -> None:
         ]
         flat = Board((13, 12), (0.03, 0.03), warp=False)
         took = timed(lambda: solve_camera(found(paths, flat), flat, model="opencv4"))
-        print(f"lpcal's detection + solve, one thread, opencv4 on a flat board: {took[0]:.2f} s, {took[1]:.2f} s of processors")
+        print(f"lpcal's detection + solve, one thread, opencv4 on a flat board: {took[0]:.2f} s, {took[1]:.2f} s of processor time")
         peer = [timed(detect)]
         for model in ("opencv4", "auto"):
             camera = f"{{images: [{', '.join(paths)}], model: {model}}}"
@@ -229,12 +230,11 @@ def speed() -> None:
             for left in (Path(cache), Path(folder) / "calib" / ".cache" / "corners.json"):
                 left.unlink(missing_ok=True)
             took = timed(lambda: subprocess.run(own, capture_output=True, check=True))
-            print(f"lpcal intrinsics, the whole command, model {model}, warp {warp}: {took[0]:.2f} s, {took[1]:.2f} s of processors")
+            print(f"lpcal intrinsics, the whole command, model {model}, warp {warp}: {took[0]:.2f} s, {took[1]:.2f} s of processor time")
         peer.append(timed(lambda: subprocess.run(tool, capture_output=True, check=True)))
         wall, work = (sum(one[k] for one in peer) for k in (0, 1))
-        print(
-            f"OpenCV's detection {peer[0][0]:.2f} s + mrcal-calibrate-cameras {peer[1][0]:.2f} s: {wall:.2f} s, {work:.2f} s of processors"
-        )
+        parts = f"OpenCV's detection {peer[0][0]:.2f} s + mrcal-calibrate-cameras {peer[1][0]:.2f} s"
+        print(f"{parts}: {wall:.2f} s, {work:.2f} s of processor time")
 
 
 BENCHES = {

@@ -123,9 +123,8 @@ def main() -> int:
             before = used_s()
             frames, seconds, triangles, level = shown.evaluate(TURN, [what, options.seconds])
             frame_ms = 1000 * (used_s() - before) / max(frames, 1)
-            print(
-                f"{what}: {frames / seconds:.1f} frames/s, {frame_ms:.0f} ms of processor a frame, {triangles} triangles, thinning {level}"
-            )
+            pace = f"{frames / seconds:.1f} frames/s, {frame_ms:.0f} ms of processor time a frame"
+            print(f"{what}: {pace}, {triangles} triangles, thinning {level}")
         held_mb, scripts_mb = (
             sum(size for _, size in processes(os.getpid()).values()),
             shown.evaluate("performance.memory.usedJSHeapSize") / 1e6,

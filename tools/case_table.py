@@ -4,7 +4,8 @@ Each record of `CASES` is one case of the cases' folder (beside the folder of ``
 edited in the copy, the commands, the exit code that is right of the last one, and what is right to be said by then: words (a regular
 expression), or a figure that is read from what was written and its bounds. Case 31 has a test of its own (tests/formats/test_documents.py).
 
-A row each: case, commands, exit code, seconds of processor, what was said or measured, right or not. Exit code 1 where one is not right.
+A row each: case, commands, exit code, seconds of processor time, what was said or measured, right or not. Exit code 1 where one is not
+right.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ class Case:
     edit: tuple[str, str] = ("", "")
     """Text of panel.yaml and what stands for it."""
     seconds: float = 600.0
-    """Of processor, of the last command."""
+    """Seconds of processor time, of the last command."""
 
 
 def place(name: str, *mm: float) -> Figure:
@@ -196,7 +197,7 @@ CASES = (
 
 
 def run(folder: Path, words: str) -> tuple[int, str, float]:
-    """One command of lpcal's: exit code, all that it prints but its progress, seconds of processor."""
+    """One command of lpcal's: exit code, all that it prints but its progress, seconds of processor time."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     ended = subprocess.run([sys.executable, "-m", "lpcal", *words.split()], cwd=folder, capture_output=True, text=True, check=False)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -246,7 +247,7 @@ def main() -> int:
     beside = Path(os.environ.get("LPCAL_DATA", "../shared/data")).parent / "cases"
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--cases", type=Path, default=beside)
-    parser.add_argument("--only", default="", help="parts of cases' names, apart by commas")
+    parser.add_argument("--only", default="", help="parts of cases' names, separated by commas")
     options = parser.parse_args()
     chosen = [case for case in CASES if not options.only or any(number in case.folder for number in options.only.split(","))]
     print("| case | commands | code | s | said or measured | right |\n|---|---|---|---|---|---|")

@@ -3,8 +3,8 @@
 ``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE.npz]``: SCENES are simulated scenes with truth (folders
 that hold ``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of such. Each is reconstructed
 within its true mask; the clues of its pixels stand beside the angle between its normals and the true ones. The variance is a sum of squared
-clues, each with a factor that is not negative; the factors are those of the greatest likelihood (Student's, so that wild pixels do not
-rule), every scene counting alike, scaled so that the median scene has the share of pixels within two sigma that is expected.
+clues, each with a factor that is not negative; the factors are those of the greatest likelihood (Student's, so that outliers do not
+dominate), every scene counting alike, scaled so that the median scene has the share of pixels within two sigma that is expected.
 
 ``--keep`` writes the clues, or reads them where the file is there.
 

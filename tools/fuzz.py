@@ -37,7 +37,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from fuzz_samples import SAMPLES, Sample
 
 MOST_S = 10.0
-"""Seconds of processor time after which a case counts as slow; ten times as many by the clock and it hangs."""
+"""Seconds of processor time after which a case counts as slow; ten times as many of wall-clock time and it hangs."""
 MOST_BYTES = 1 << 30
 """Bytes of memory, beyond what the imports take, that a case may ask for."""
 MOST_CHARACTERS = 600
@@ -266,7 +266,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--cases", type=int, default=20000, help="how many (default 20000)")
     parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
-    parser.add_argument("--formats", help="only these, by name, with commas between")
+    parser.add_argument("--formats", help="only these, by name, separated by commas")
     parser.add_argument("--case", type=int, help="one case, with all that it says")
     parser.add_argument("--json", type=Path, help="write what was wrong there")
     options = parser.parse_args()

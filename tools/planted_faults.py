@@ -253,7 +253,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--only", default="", help="kinds, apart by commas")
+    parser.add_argument("--only", default="", help="kinds, separated by commas")
     parser.add_argument("--keep", type=Path, help="keep the cases' folders here")
     parser.add_argument("--sound", action="store_true", help="run the rigs without a fault")
     options = parser.parse_args()

@@ -1,4 +1,4 @@
-"""A queue of many captures on 1 to 200 workers that fail, played through: what bounds it, and what failures cost.
+"""A queue of many captures on 1 to 200 workers that fail, simulated: what bounds it, and what failures cost.
 
 ``python tools/queue_of_captures.py [--captures 10000] [--seconds 12] [--megabytes 40] [--disk 500] [--hand-over 0.01] [--mtbf 24]``
 
@@ -49,7 +49,7 @@ class Played:
 
 
 def play(site: Site, workers: int, seed: int = 0) -> Played:
-    """Play the queue through."""
+    """Simulate the queue."""
     rng = np.random.default_rng(seed)
     cost = site.seconds * np.exp(SPREAD * rng.normal(size=site.captures) - SPREAD**2 / 2)
     kind = rng.random(site.captures)

@@ -31,8 +31,11 @@ class CheckFigures:
     """The figures that could be had before something turned out to be wrong; None for the others."""
 
     mocap_samples: int | None = None
+    """Samples of the recording with the body."""
     mocap_lost: int | None = None
+    """Samples of the recording without the body."""
     mocap_rate_hz: float | None = None
+    """Samples a second."""
     dropped: dict[str, int] | None = None
     """Samples that were left out, by the reason."""
     clock_offset_s: float | None = None
@@ -44,7 +47,9 @@ class CheckFigures:
     misplaced_m: float | None = None
     """Median distance by which the board misses its place, by the closed form."""
     views_off: tuple[str, ...] | None = None
+    """Images whose board contradicts the others."""
     carries: Carries | None = None
+    """What rides on the tracked body, the camera or the board."""
     expected_sigma_m: float | None = None
     """The position's expected standard deviation in its worst direction."""
 

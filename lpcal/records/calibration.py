@@ -17,10 +17,10 @@ from lpcal.records.camera import Camera, CameraSolution, ViewVerdict
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.evidence import HandEyeEvidence, LightsEvidence
 from lpcal.records.lobes import LedCluster, Lobe
-from lpcal.records.observations import SphereKind
 from lpcal.records.placement import RoomTracking
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.shown import Shown
+from lpcal.records.sphere_finding import SphereFinding
 
 FURTHER = 1e-3
 """Share of the distance on either side over which a light's change with distance is taken where it has no formula."""
@@ -87,16 +87,22 @@ class HandEye(Shown):
     """
 
     H_PC: Array
+    """(4, 4) the camera in the tracked body."""
     H_PC_covariance: Array
+    """(6, 6) of `H_PC`."""
     H_OB: Array
+    """(4, 4) the board in the room."""
     H_OB_covariance: Array
+    """(6, 6) of `H_OB`."""
     clock_offset_s: float | None
     """None: the data cannot show it, or there are no clocks."""
     clock_offset_std_s: float | None
+    """Standard deviation of the offset."""
     views: tuple[ViewVerdict, ...]
     clock_drift: float = 0.0
     """By how much the camera's clock runs faster, s/s; the offset holds at the camera's time `clock_middle_s`. 0: no drift shows."""
     clock_middle_s: float = 0.0
+    """The time on the camera's clock at which the offset holds, where the rates differ."""
     warnings: tuple[str, ...] = ()
     evidence: HandEyeEvidence | None = None
     """What the solve rests on; None where the transform was not solved for here."""
@@ -151,9 +157,13 @@ class Wing:
 
     name: str
     azimuth_rad: float
+    """Of the wing about the disc's axis, from x towards y."""
     joint_angle_rad: float
+    """Of the wing's joint, 0 along the disc."""
     d1_m: float
+    """From the disc's axis to the joint."""
     d2_m: float
+    """From the joint to the blob."""
     leds: int | None = None
 
 
@@ -162,8 +172,11 @@ class Wings(Shown):
     """The lights as designed, in C, with the covariance that the tolerances and the frames' errors give them jointly."""
 
     wings: tuple[Wing, ...]
+    """The wings, light by light."""
     H_CD: Array
+    """(4, 4) the disc in the camera."""
     H_CD_covariance: Array
+    """(6, 6) of `H_CD`."""
     setting_sigma: Array
     """(4,) of azimuth (rad), joint angle (rad), d1 (m), d2 (m)."""
     H_DL: Array
@@ -175,6 +188,7 @@ class Wings(Shown):
     source_of_H_CD: str = ""
     """Where H_CD comes from, in words."""
     d_object_m: float = float("nan")
+    """From the disc's origin to where the lights' axes meet."""
 
     @property
     def position_std_m(self) -> Array:
@@ -231,11 +245,16 @@ class Light(Shown):
     """(1,) or (3,), relative."""
     H_CL: Array | None = None
     source_C: Array | None = None
+    """(3,) the point in C that its rays seem to come from; None for a distant light."""
     axis_C: Array | None = None
+    """(3,) unit vector of emission in C."""
     lobe: Lobe = field(default_factory=Lobe)
     position_std_m: float = float("nan")
+    """Standard deviation of the position, an axis."""
     direction_std_rad: float = float("nan")
+    """Standard deviation of the direction, an axis."""
     intensity_std: float = float("nan")
+    """Relative standard deviation of the intensity."""
 
     def extrapolated(self, x_C: Array) -> Mask:
         """Whether points x_C (..., 3) lie in directions from which no sphere showed the light."""
@@ -270,50 +289,34 @@ class Light(Shown):
         return np.asarray(change / (2 * FURTHER * self.intensity.mean()))
 
 
-@dataclass(frozen=True)
-class SphereFinding:
-    """What one sphere shows on its own."""
-
-    name: str
-    kind: SphereKind
-    centre_C: Array | None
-    radius_m: float | None
-    used: bool
-    why: str | None
-    directions_C: dict[str, Array] = field(default_factory=dict)
-    """Chrome: unit vector from the sphere's highlight towards each light."""
-    residual: float = float("nan")
-    """Chrome: highlight rms in px; matte: shading rms as a fraction."""
-    outline_px: Array = field(default_factory=lambda: np.zeros((0, 2)))
-    """(K, 2) points of the outline as it was found in the images."""
-    highlights_px: dict[str, Array] = field(default_factory=dict)
-    """Chrome: where (2,) each light's mirror image was found."""
-    image_size: tuple[int, int] | None = None
-    """Width and height of the sphere's images."""
-    outline_sigma_px: float = float("nan")
-    """Scatter of the outline's points."""
-    highlight_sigma_px: dict[str, float] = field(default_factory=dict)
-    """Standard deviation of each highlight, an axis, as stated by the detection."""
-
-
 @dataclass(frozen=True, repr=False)
 class LightsSolution(Shown):
     """The refined lights and what they rest on."""
 
     lights: tuple[Light, ...]
+    """The lights as refined, with their covariances."""
     focus_C: Array
+    """(3,) the point in C where the lights' axes nearly meet."""
     d_object_m: float | None
+    """From the disc's origin to where the lights' axes meet."""
     H_CD: Array | None
+    """(4, 4) the disc in the camera."""
     spheres: tuple[SphereFinding, ...]
+    """What became of each sphere, and what it says by itself."""
     warnings: tuple[str, ...] = ()
+    """What to look at, in words."""
     evidence: LightsEvidence = field(default_factory=LightsEvidence)
+    """What the solve rests on."""
     H_CD_covariance: Array | None = None
+    """(6, 6) of `H_CD`."""
     camera: Camera | None = None
     """The camera as the joint solve has it; None: it was taken as it is."""
     H_PC: Array | None = None
+    """(4, 4) the camera in the tracked body."""
     H_PC_covariance: Array | None = None
     """The hand-eye transform as the joint solve has it; None: it was taken as it is."""
     H_PD: Array | None = None
+    """(4, 4) the disc in the tracked body."""
     H_PD_covariance: Array | None = None
     """The disc in the tracked body, where no markers say it, or as the joint solve has it."""
 

@@ -127,12 +127,19 @@ class ViewVerdict:
     """What became of one image in a solve; `why` is None where it was used."""
 
     image: str
+    """The image's name."""
     used: bool
+    """Whether the solve rests on it."""
     why: str | None
+    """Why it was left out; None where it was used."""
     residual_px: float | None = None
+    """Rms of its corners, a coordinate."""
     residual_m: float | None = None
+    """By how much the board misses its place."""
     residual_rad: float | None = None
+    """By how much the board is turned from its place."""
     corners: int = 0
+    """Count of corners found in it."""
     rejected: int = 0
     """Corners that did not fit."""
     blur_px: float | None = None
@@ -150,9 +157,11 @@ class CameraSolution(Shown):
     """The intrinsics solve: the camera, the board's shape, and what became of each view."""
 
     camera: Camera
+    """The intrinsics with their covariance."""
     points_B: Array
     """(M, 3) corners of the board with its warp, mean plane z = 0."""
     views: tuple[ViewVerdict, ...]
+    """What became of each image."""
     solver: str
     """mrcal or opencv, or from where the camera was given."""
     corner_sigma_px: float
@@ -160,6 +169,7 @@ class CameraSolution(Shown):
     evidence: CameraEvidence = field(default_factory=CameraEvidence)
     """How the model was chosen and how sure the camera is; empty for a camera that was given."""
     warnings: tuple[str, ...] = ()
+    """What to look at, in words."""
     cameramodel: str = ""
     """The text of the .cameramodel file, with the optimisation inputs where mrcal solved."""
     H_CB: dict[str, Array] = field(default_factory=dict)

@@ -41,27 +41,36 @@ class LightChange:
     """
 
     name: str
+    """The light's name."""
     moved_C: Array
     """(3,) of its source, or of its direction where it is distant (then a unit's share)."""
     moved: float
+    """Length of its own move."""
     moved_std: float
+    """Standard deviation of `moved` for a part that has not moved."""
     turned_rad: float
     """Angle by which its axis of emission turned; NaN where it has none."""
     turned_std_rad: float
+    """Standard deviation of that angle for a part that has not turned."""
     power: float
     """Relative change of its intensity against the others'."""
     power_std: float
+    """Standard deviation of `power` for a light that has not changed."""
     says: tuple[str, ...] = ()
     """What has changed beyond chance: moved, turned, power."""
     moved_L: Array = field(default_factory=lambda: np.full(3, np.nan))
     """(3,) the same in the light's own frame: along its arm, sideways, along its emission. NaN where no spheres of both days say it, or
     the light has no frame."""
     moved_L_std: Array = field(default_factory=lambda: np.full(3, np.nan))
+    """(3,) standard deviations of `moved_L`."""
     by_azimuth_rad: float = float("nan")
     """The turn of its wing about the disc's axis, and of its joint, that would move it as far sideways and along its emission."""
     by_joint_rad: float = float("nan")
+    """The turn of its joint that would move it as far along its emission."""
     by_azimuth_std_rad: float = float("nan")
+    """Standard deviation of `by_azimuth_rad`."""
     by_joint_std_rad: float = float("nan")
+    """Standard deviation of `by_joint_rad`."""
 
     @property
     def least(self) -> LeastChange:
@@ -83,8 +92,11 @@ class PartChange:
     moved: float = float("nan")
     """Metres; pixels rms for the camera."""
     moved_std: float = float("nan")
+    """Standard deviation of `moved` for a part that has not moved."""
     turned_rad: float = float("nan")
+    """Angle by which it turned."""
     turned_std_rad: float = float("nan")
+    """Standard deviation of that angle for a part that has not turned."""
     chance: float = float("nan")
     """Probability of so large a change where there is none."""
 
@@ -128,7 +140,9 @@ class CalibrationChange:
     together: PartChange
     scale: float
     handeye: PartChange = PartChange()
+    """By how much the hand-eye has changed."""
     camera: PartChange = PartChange()
+    """By how much the camera has changed, pixels rms over the image."""
     exchanged: tuple[tuple[str, str], ...] = ()
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

@@ -170,10 +170,13 @@ class ReadingVerdict:
     """What became of one reading."""
 
     name: str
+    """The image, or the time, of the reading."""
     used: bool
+    """Whether the solve rests on it."""
     why: str | None
     """Why it was not used."""
     reading_m: float
+    """What the sensor read."""
     residual_m: float
     """What it differs by from the beam that was found."""
     at_m: tuple[float, ...]
@@ -185,10 +188,13 @@ class SensorEvidence:
     """What the beam rests on."""
 
     readings_used: int
+    """Count of readings that the fit rests on."""
     residual_rms_m: float
+    """Rms of the readings used."""
     expected_rms_m: float
     """The rms that the noise as stated would give, what the fit takes counted."""
     off_drawing_deg: float
+    """Angle between the beam found and the one drawn."""
     off_drawing_m: float
     """How far the beam found is from that of the drawing: its direction, and its line at the boards."""
     off_drawing_sigmas: float
@@ -206,9 +212,13 @@ class SensorSolution(Shown):
     """The sensor as calibrated, what became of each reading, and what it rests on."""
 
     sensor: DistanceSensor
+    """The sensor with its covariance."""
     readings: tuple[ReadingVerdict, ...]
+    """What became of each reading."""
     evidence: SensorEvidence
+    """What the fit rests on."""
     warnings: tuple[str, ...] = ()
+    """What to look at, in words."""
 
     @property
     def used(self) -> Mask:

@@ -13,10 +13,13 @@ class Evaluation(Shown):
     """Differences of a surface from the truth, over the pixels that both hold."""
 
     name: str
+    """The surface's name."""
     pixels: int
     """Pixels that are compared."""
     normal_mean_deg: float
+    """Mean angle to the true normals."""
     normal_median_deg: float
+    """Median angle to the true normals."""
     normal_p95_deg: float
     """95th percentile of the angles."""
     depth_rms_m: float

@@ -16,8 +16,11 @@ class ChosenModel:
     """The lens model and the board's shape that were taken, and why, in words."""
 
     model: str
+    """The lens model: opencv4, opencv5, opencv8 or splined."""
     board: str
+    """The board's shape: shaped, bowed, stretched or flat."""
     why: str
+    """Why these were taken, in words."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,9 +28,13 @@ class TriedModel:
     """A lens model on a board: how far the halves of the views are apart, and the expected error, px; NaN where not known."""
 
     model: str
+    """The lens model: opencv4, opencv5, opencv8 or splined."""
     board: str
+    """The board's shape: shaped, bowed, stretched or flat."""
     cross_validation_px: float
+    """How far the cameras of two halves of the views are apart, rms over the image."""
     expected_error_px: float
+    """The expected error of its projection, of noise and of what the model lacks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +42,9 @@ class ShapeTerm:
     """A term of the board's shape (metres; stretch and shear without unit) with its standard deviation."""
 
     value: float
+    """Metres; stretch and shear without unit."""
     std: float
+    """Standard deviation of `value`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,11 +54,17 @@ class Coverage:
     corners_in_cells: Index
     """(rows, columns) counts."""
     empty_cells: int
+    """Count of the image's parts in which no corner fell."""
     tilt_about_x_deg: tuple[float, ...]
+    """The least and the largest tilt of the boards about x."""
     tilt_about_y_deg: tuple[float, ...]
+    """The least and the largest tilt of the boards about y."""
     roll_deg: tuple[float, ...]
+    """The least and the largest turn of the boards in the image."""
     distance_m: tuple[float, ...]
+    """The nearest and the farthest of the boards."""
     in_words: str
+    """What is lacking, in words."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,11 +98,17 @@ class OtherSolver:
     """The same corners by another program: its camera and how far it projects from ours, px; `failed` holds its message where it failed."""
 
     by: str
+    """Whose solver it is."""
     failed: str | None = None
+    """What went wrong, where it found nothing."""
     f_px: tuple[float, ...] | None = None
+    """The focal lengths that it finds, x and y."""
     c_px: tuple[float, ...] | None = None
+    """The principal point that it finds, x and y."""
     difference_rms_px: float | None = None
+    """By how much its projection differs, rms over the image."""
     difference_worst_px: float | None = None
+    """By how much its projection differs where it does so most."""
     board_off_rms_m: float | None = None
     """How far the corners lie from the board's shape, where they were free."""
 
@@ -97,7 +118,9 @@ class ResidualPattern:
     """How large a pattern left in the residuals is, rms px a coordinate, and how sure it is there, in standard errors."""
 
     size_px: float
+    """Rms of the pattern that is left in the residuals, a coordinate."""
     z: float
+    """How sure it is there, in standard errors."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +128,9 @@ class ViewThatMatters:
     """By what factor the camera would be less well known without this view."""
 
     image: str
+    """The image's name."""
     without_it: float
+    """By what the camera's standard deviation grows without it, as a factor."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,8 +138,11 @@ class NextView:
     """Where to hold the board next, in words, and what that makes of the mean standard deviation, px."""
 
     hold_the_board: str
+    """Where and how to hold the board, in words."""
     std_now_px: float
+    """The mean standard deviation of the projection as it is."""
     std_then_px: float
+    """The same with that view."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -206,9 +234,13 @@ class RefinedSetting:
     """A wing's setting as refined."""
 
     azimuth_deg: float
+    """Of the wing about the disc's axis."""
     joint_angle_deg: float
+    """Of the wing's joint."""
     d1_m: float
+    """From the disc's axis to the joint."""
     d2_m: float
+    """From the joint to the blob."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -216,9 +248,13 @@ class NextSphere:
     """Where one more chrome sphere helps most, and the mean standard deviation of the directions without and with it."""
 
     where: str
+    """Where the sphere would be, in words."""
     centre_m: Array
+    """(3,) where in C its centre would be."""
     direction_std_deg: float
+    """The mean standard deviation of the directions as they are."""
     with_it_deg: float
+    """The same with that sphere."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -226,10 +262,15 @@ class ExposureSweep:
     """What a sweep of exposures says of the sensor."""
 
     black_level: float
+    """The stored number of no light, as a fraction of full scale."""
     gamma: float
+    """``stored = linear^(1/gamma)``."""
     misfit: float
+    """Rms deviation of the images from the curve, in their noise."""
     noise_read: float
+    """Variance of reading, of full scale squared."""
     noise_shot: float
+    """Variance over signal, of full scale."""
 
 
 @dataclass(frozen=True, kw_only=True)

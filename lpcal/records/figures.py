@@ -25,8 +25,11 @@ class GlossFound:
     """Strength and roughness of the gloss, and the share of the robust cost that is left with it."""
 
     ks: float
+    """Strength of the gloss against the diffuse part."""
     roughness: float
+    """Width of the gloss, as the slope of its facets."""
     gain: float
+    """Share of the robust cost that is left with it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +39,9 @@ class AmbientFound:
     estimated: bool
     """Whether it was estimated and taken away."""
     note: str | None = None
+    """What was made of it, in words."""
     share_of_signal: float | None = None
+    """The room's light over all light, the median pixel."""
     relative_std: float | None = None
     """The estimate's own, of its size."""
     law: tuple[float, ...] | None = None
@@ -62,8 +67,11 @@ class ConventionFound:
     """Whether the green channel of a normal map was turned over, and what its curl is both ways."""
 
     green_turned_over: bool
+    """Whether the map is read with its green channel turned over."""
     curl_as_is: Curl
+    """The curl of the map as it is stored."""
     curl_turned_over: Curl
+    """The curl with its green channel turned over."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +89,7 @@ class DistanceRead:
     """What the panel's distance sensor read at a capture, and what it did to the distance of the piece that its beam meets."""
 
     reading_m: float
+    """What the sensor read."""
     expected_m: float
     """What it would read of the piece as the light alone has it; NaN where the beam meets none."""
     hit: float

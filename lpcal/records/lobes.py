@@ -88,6 +88,7 @@ class LedCluster:
     power: Array
     """(n,)."""
     exponent: float
+    """Of the power of the cosine by which an LED's emission falls off."""
 
 
 @dataclass(frozen=True)
@@ -122,10 +123,14 @@ class Lobe:
     kind: str = "isotropic"
     exponent: float = 0.0
     angle_rad: Array = field(default_factory=lambda: np.zeros(0))
+    """(N,) angles from the axis at which `value` is tabulated."""
     value: Array = field(default_factory=lambda: np.zeros(0))
+    """(N,) emission at `angle_rad`, 1 at its largest."""
     leds: LedCluster | None = None
     node_rad: Array = field(default_factory=lambda: np.zeros(0))
+    """(N,) angles from an LED's axis at which `factor` is tabulated."""
     factor: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    """(N,) by what the LEDs' own emission is multiplied at `node_rad`."""
     seen_rad: float = float("nan")
     """Largest angle from the axis at which spheres showed this light: beyond it the lobe is extrapolated. NaN: not known."""
 

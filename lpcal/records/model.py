@@ -30,7 +30,9 @@ class ViewInModel:
     """How one surface fits the others."""
 
     name: str
+    """The capture's name."""
     used: bool
+    """Whether the solve rests on it."""
     why: str | None
     """Why it was left out; None: it was used."""
     agreement: float | None
@@ -60,6 +62,7 @@ class ModelFigures:
     pairs: int
     """Pairs of views that overlap."""
     area_m2: float
+    """Of the model's surface, square metres."""
     step_m: float
     """Median length of an edge."""
     sigma_m: float
@@ -73,6 +76,7 @@ class ModelFigures:
     distance_scale: float
     """By how much all distances were changed together, relative."""
     distance_scale_std: float
+    """Relative standard deviation of the scale that all distances share."""
 
 
 @dataclass(frozen=True)
@@ -118,9 +122,11 @@ class LightEvidence:
     """The change of a calibrated light that the views favour."""
 
     name: str
+    """The light's name."""
     intensity_change: float
     """Relative."""
     intensity_std: float
+    """Relative standard deviation of the intensity."""
     source_change_C: Array
     """(3,) metres."""
     source_std_m: Array
@@ -142,7 +148,9 @@ class RigEvidence:
     distance_scale: float
     """Relative change of all distances."""
     distance_scale_std: float
+    """Relative standard deviation of the scale that all distances share."""
     lights: tuple[LightEvidence, ...]
+    """By light, what its own solve rests on."""
     normals_before_rad: float
     """What two views' normals of one place differ by, an axis and a view, robust rms."""
     normals_after_rad: float

@@ -105,6 +105,7 @@ class BoardPoses(Shown):
     """H_CB of some images, with what their corners say of it."""
 
     images: tuple[str, ...]
+    """The images' names, row by row."""
     t_camera_s: Array | None
     """Times (N,) on the camera's clock; None: no clock."""
     H_CB: Array

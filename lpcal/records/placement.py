@@ -54,9 +54,13 @@ class RoomTracking:
     H_PC_covariance: Array
     """(6, 6) of the left perturbation of H_PC; where the body carries the board, of H_OC."""
     clock_offset_s: float | None = None
+    """``t_camera = t_mocap + offset``."""
     clock_offset_std_s: float | None = None
+    """Standard deviation of the offset."""
     clock_drift_ppm: float = 0.0
+    """By how much the clocks' rates differ."""
     clock_middle_s: float = 0.0
+    """The time on the camera's clock at which the offset holds."""
     mocap_sigma_m: float = POSE_STD[0]
     """One sigma of the origin of a measured body pose, an axis."""
     mocap_sigma_deg: float = float(np.degrees(POSE_STD[1]))
@@ -64,6 +68,7 @@ class RoomTracking:
     mocap_sigma_dwell_m: float | None = None
     """The same of a mean over a dwell; None: none was seen."""
     mocap_sigma_dwell_deg: float | None = None
+    """The same of its turn."""
 
     def mocap_times(self, t_camera_s: Array) -> Array:
         """Times (N,) on the mocap's clock of times (N,) on the camera's, seconds."""

@@ -19,6 +19,7 @@ class FlatField:
     """
 
     coefficients: Array
+    """Of the polynomial by which the image's brightness falls off."""
 
     @staticmethod
     def terms(rows: Array, columns: Array, shape: tuple[int, ...], degree: int) -> Array:
@@ -65,7 +66,9 @@ class StatedSensor:
 
     gamma: Gamma | None = None
     black_level: float | None = None
+    """The stored number of no light, as a fraction of full scale."""
     white_level: float | None = None
+    """The stored number of saturation, as a fraction of full scale."""
     flat_field: FlatField | None = None
 
     def over(self, other: StatedSensor) -> StatedSensor:
@@ -110,9 +113,13 @@ class Sensor:
     """What the sensor does to light: levels as fractions of full scale."""
 
     black_level: float = 0.0
+    """The stored number of no light, as a fraction of full scale."""
     white_level: float = 1.0
+    """The stored number of saturation, as a fraction of full scale."""
     gamma: Gamma = 1.0
+    """``stored = linear^(1/gamma)``."""
     flat_field: FlatField | None = None
+    """How lens and sensor weaken light over the image."""
 
     def linear(self, stored: Image) -> Image:
         """Linear numbers, 0 at black and 1 at white, the flat field not yet divided out."""
@@ -145,6 +152,7 @@ class SensorInUse:
     """A sensor and where each thing that is not plain comes from."""
 
     sensor: Sensor
+    """Gamma, levels and flat field."""
     said_by: dict[str, str] = field(default_factory=dict)
     """Who says it, by what is said: gamma, black_level, white_level, flat_field."""
 

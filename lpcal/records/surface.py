@@ -18,8 +18,11 @@ class Alternative:
     """Another distance of a component that the images allow, and its odds (0..1); `scale_std` is relative."""
 
     mean_depth_m: float
+    """Mean depth of the piece along z of C."""
     scale_std: float
+    """Relative standard deviation of the distance of the whole piece."""
     odds: float
+    """That this is the right one, 0 to 1."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +30,15 @@ class Component:
     """One connected piece; `scale_std` is relative, of the distance of the whole piece."""
 
     label: int
+    """The piece's number in the map `component`."""
     pixels: int
+    """Count of pixels."""
     mean_depth_m: float
+    """Mean depth of the piece along z of C."""
     scale_std: float
+    """Relative standard deviation of the distance of the whole piece."""
     alternatives: tuple[Alternative, ...] = field(default=(), metadata=ALWAYS)
+    """Other distances that the images allow, with their odds."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +113,7 @@ class Surface(Shown):
     depth_std: Image
     """Metres, of the shape, scale apart."""
     lights_used: Labels
+    """(H, W) count of lights that a normal rests on."""
     component: Labels
     """0 outside, 1.. a connected piece each."""
     rays_C: Array

@@ -77,6 +77,23 @@ def test_every_key_that_the_page_shows_is_described() -> None:
     assert bare == []
 
 
+def test_the_page_of_the_stages_records_is_that_of_the_records() -> None:
+    """Every field of every record that a stage returns has its words, and the page is as the tool writes it."""
+    import make_records_page
+
+    records = make_records_page.stage_records()
+    assert sum(len(own) for own in records.values()) > 50
+    bare = [
+        f"{one.__name__}.{name}"
+        for own in records.values()
+        for one in own
+        for name, said in make_records_page.described(one).items()
+        if not said
+    ]
+    assert bare == []
+    assert make_records_page.PAGE.read_text(encoding="utf-8") == make_records_page.page(), "uv run python tools/make_records_page.py"
+
+
 FILES = re.compile(r"(?<![\w/.-])((?:tools|examples|tests|packaging|docs|rigs)/[\w./-]+\.(?:py|md|yaml|csv|ipynb|sbatch|txt))\b")
 """A file of the repository as a page names it."""
 

@@ -179,6 +179,7 @@ def drag(page: Any, start: tuple[float, float], end: tuple[float, float]) -> Non
 def measured(page: Any) -> None:
     """Two points of what is drawn are picked, seen as at first."""
     page.click("#reset")
+    page.wait_for_timeout(600)
     page.click("[data-does=measure]")
     for share in (0.45, 0.55):
         drag(page, (share, 0.5), (share, 0.5))

@@ -45,6 +45,7 @@ def course() -> BodyCourse:
 
 def timed(report: RigReport) -> RigReport:
     """The report with the course of the body and the views' times."""
+    assert report.handeye is not None
     return replace(report, course=course(), image_times_s={view.image: 5.0 + 9 * k for k, view in enumerate(report.handeye.views)})
 
 
@@ -54,6 +55,8 @@ def bad() -> RigReport:
     for view in whole["handeye"]["views"][:3]:
         view["used"], view["why"] = False, "flipped: its board is 180 degrees off"
     report = timed(report_of(whole, surface(0.09), name="a_rig_with_a_name_that_is_longer_than_a_phone_is_wide"))
+    assert report.handeye is not None
+    assert report.lights is not None
     wide = replace(report.handeye, H_PC_covariance=1e4 * report.handeye.H_PC_covariance, warnings=("the panel turned about one axis only",))
     unsure = tuple(replace(light, direction_std_rad=0.05, position_std_m=0.02) for light in report.lights.lights)
     found = replace(report.lights, lights=unsure, warnings=("chrome_0: its outline is not round; is it the sphere's?",))
