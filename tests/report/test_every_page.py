@@ -177,12 +177,15 @@ def drag(page: Any, start: tuple[float, float], end: tuple[float, float]) -> Non
 
 
 def measured(page: Any) -> None:
-    """Two points of what is drawn are picked, seen as at first."""
+    """Two points of what is drawn are picked, seen as at first; a busy machine may not have drawn it yet when it is clicked."""
     page.click("#reset")
-    page.wait_for_timeout(600)
     page.click("[data-does=measure]")
-    for share in (0.45, 0.55):
-        drag(page, (share, 0.5), (share, 0.5))
+    for share, told in ((0.45, "second"), (0.55, "±")):
+        for _ in range(20):
+            page.wait_for_timeout(300)
+            drag(page, (share, 0.5), (share, 0.5))
+            if told in page.inner_text("#found"):
+                break
     page.wait_for_selector("#section svg")
 
 
