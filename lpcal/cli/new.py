@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="origin",
         metavar="RIG",
-        help="a bundled rig's name, mocap, rti, or a panel.yaml or its folder (default: lightpanel-6)",
+        help="a bundled rig's name, mocap, rti, rti-with-ball, or a panel.yaml or its folder (default: lightpanel-6)",
     )
 
 
@@ -39,7 +39,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     folders = _folders(origin.rig)
     for name in folders:
         (options.folder / name).mkdir(parents=True, exist_ok=True)
-    beside = _samples(origin.file.parent) if options.origin in {*rig_names(), *start_names()} else []
+    known = [*rig_names(), *start_names()]
+    beside = _samples(origin.file.parent) if options.origin in known else []
     for sample in beside:
         place = options.folder / sample.relative_to(origin.file.parent)
         if not place.exists():
@@ -48,12 +49,14 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:  # noqa: AR
     summary = [
         f"{target}: a copy of {options.origin or DEFAULT_RIG}; edit it to your rig",
         *(f"  {options.folder / name}/" for name in folders),
-        f"then: {'; '.join(_todo(origin.rig))}",
-        f"other rigs to start from: {', '.join([*rig_names(), *start_names()])}",
+        *(f"  {options.folder / sample.relative_to(origin.file.parent)}: a sample" for sample in beside),
+        f"then: {'; '.join(_todo(origin.rig, numbered=any(sample.name == 'capture.yaml' for sample in beside)))}",
+        f"other rigs to start from: {', '.join(name for name in known if name != (options.origin or DEFAULT_RIG))}",
     ]
-    document = {"panel": str(target), "folders": [str(options.folder / name) for name in folders], "rigs": [*rig_names(), *start_names()]}
+    document = {"panel": str(target), "folders": [str(options.folder / name) for name in folders], "rigs": known}
     first = "lpcal intrinsics" if origin.rig.camera and origin.rig.camera.images else "lpcal run"
-    return Outcome(summary, document, next_command=f"cd {options.folder} && lpcal board; after the images are there, {first}")
+    board = " && lpcal board" if origin.rig.board else ""
+    return Outcome(summary, document, next_command=f"cd {options.folder}{board}; after the images are there, {first}")
 
 
 def _samples(folder: Path) -> list[Path]:
@@ -71,8 +74,8 @@ def _folders(rig: Rig) -> list[str]:
     return list(dict.fromkeys(path.as_posix() for path in inside))
 
 
-def _todo(rig: Rig) -> list[str]:
-    """What goes where, in words."""
+def _todo(rig: Rig, *, numbered: bool) -> list[str]:
+    """What goes where, in words; `numbered` where a capture.yaml takes photographs by their order."""
     todo = []
     if rig.camera and rig.camera.images:
         todo.append(f"board views as {', '.join(rig.camera.images)}")
@@ -82,5 +85,6 @@ def _todo(rig: Rig) -> list[str]:
     if rig.camera and rig.camera.flat_field:
         todo.append(f"a white card, evenly lit, as {rig.camera.flat_field}, or leave the line flat_field out")
     if rig.spheres or rig.objects:
-        todo.append(f"for every sphere and object one image a light ({', '.join(list(rig.lights)[:2])}, ...) and ambient, in its folder")
+        names = "in the lights' order, named as capture.yaml there says" if numbered else f"{', '.join(list(rig.lights)[:2])}, ..."
+        todo.append(f"for every sphere and object one image a light ({names}) and ambient, in its folder")
     return todo or ["fill in the sections that you need"]

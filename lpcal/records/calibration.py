@@ -157,9 +157,9 @@ class Wing:
 
     name: str
     azimuth_rad: float
-    """Of the wing about the disc's axis, from x towards y."""
+    """The wing's azimuth about the disc's axis, from x towards y."""
     joint_angle_rad: float
-    """Of the wing's joint, 0 along the disc."""
+    """The joint's angle, 0 along the disc."""
     d1_m: float
     """From the disc's axis to the joint."""
     d2_m: float

@@ -234,9 +234,9 @@ class RefinedSetting:
     """A wing's setting as refined."""
 
     azimuth_deg: float
-    """Of the wing about the disc's axis."""
+    """The wing's azimuth about the disc's axis."""
     joint_angle_deg: float
-    """Of the wing's joint."""
+    """The joint's angle."""
     d1_m: float
     """From the disc's axis to the joint."""
     d2_m: float

@@ -88,7 +88,7 @@ class LedCluster:
     power: Array
     """(n,)."""
     exponent: float
-    """Of the power of the cosine by which an LED's emission falls off."""
+    """The power of the cosine by which an LED's emission falls off."""
 
 
 @dataclass(frozen=True)

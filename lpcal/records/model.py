@@ -62,7 +62,7 @@ class ModelFigures:
     pairs: int
     """Pairs of views that overlap."""
     area_m2: float
-    """Of the model's surface, square metres."""
+    """Area of the model's surface, square metres."""
     step_m: float
     """Median length of an edge."""
     sigma_m: float

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
+from ball_scenes import LIGHTS, picture, vase
 from lpcal.formats.bundled import rig_names
+from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.panel_yaml import read_rig
 
 
@@ -73,8 +77,12 @@ def test_an_unknown_rig_and_a_broken_one(lpcal: Callable[..., tuple[int, str, st
 
 
 def test_an_rti_folder_takes_numbered_photographs(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
-    code, _, err = lpcal("new", tmp_path / "mine", "--from", "rti")
+    code, out, err = lpcal("new", tmp_path / "mine", "--from", "rti")
     assert code == 0, err
+    assert "lpcal board" not in out, "it has none"
+    assert "as capture.yaml there says" in out
+    assert "ball/capture.yaml: a sample" in out
+    assert "lightpanel-6, robot-camera, mocap, rti-with-ball\n" in out, "the others"
     rig = read_rig(tmp_path / "mine" / "panel.yaml").rig
     assert rig.camera is None
     for capture in ("ball", "objects/tablet"):
@@ -83,6 +91,36 @@ def test_an_rti_folder_takes_numbered_photographs(lpcal: Callable[..., tuple[int
     assert code == 6
     assert "0 images match IMG_*.jpg" in err
     assert "24, one a light" in err
+
+
+def test_photographs_of_ball_and_object_give_the_lights_and_the_object_alone(
+    lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    """The template as it is, but for its count of lights: numbered photographs of a vase and a chrome ball beside it."""
+    folder, (x, y, radius) = tmp_path / "mine", (270.0, 120.0, 55.0)
+    code, out, _ = lpcal("new", folder, "--from", "rti-with-ball")
+    assert code == 0
+    assert "objects/tablet/capture.yaml: a sample" in out
+    text = (folder / "panel.yaml").read_text()
+    for light in range(len(LIGHTS), 24):
+        text = text.replace(f"  L{light:02d}: {{}}\n", "")
+    (folder / "panel.yaml").write_text(text)
+    seen = picture([vase(110, 120, 80)], chrome=(x, y, radius))
+    white = float(seen.signal.max())
+    for k, image in enumerate((*seen.signal, seen.ambient)):
+        name = f"IMG_{k:04d}.jpg" if k < len(LIGHTS) else "ambient.jpg"
+        stored = np.clip(image / white, 0, 1)
+        srgb = np.where(stored < 0.0031308, 12.92 * stored, 1.055 * stored ** (1 / 2.4) - 0.055)
+        Image.fromarray(np.rint(255 * srgb).astype(np.uint8)).save(folder / "objects/tablet" / name, quality=97)
+    code, out, err = lpcal("run", cwd=folder)
+    assert code == 0, err
+    found = read_calibration(folder / "calib" / "calibration.yaml")
+    for light, true in zip(found.lights, LIGHTS, strict=True):
+        assert light.direction_C @ np.array(true) / np.linalg.norm(true) > np.cos(np.radians(1.5))
+    mask = np.asarray(Image.open(folder / "surfaces/tablet/mask.png")) > 0
+    row, column = np.indices(mask.shape)
+    assert mask[120, 110]
+    assert not mask[np.hypot(column - x, row - y) < radius].any()
 
 
 def test_a_mocap_folder_says_what_it_lacks(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
@@ -98,6 +136,9 @@ def test_a_mocap_folder_says_what_it_lacks(lpcal: Callable[..., tuple[int, str, 
 def test_a_robots_table_has_a_sample(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
     from lpcal.formats.robot_poses import read_robot_poses
 
-    assert lpcal("new", tmp_path / "mine", "--from", "robot-camera")[0] == 0
+    code, out, _ = lpcal("new", tmp_path / "mine", "--from", "robot-camera")
+    assert code == 0
+    assert "robot.csv.example: a sample" in out
+    assert "&& lpcal board; after the images are there, lpcal intrinsics" in out
     sample = tmp_path / "mine" / "robot.csv.example"
     assert read_robot_poses(sample.rename(sample.with_suffix(""))).H.shape == (3, 4, 4)
