@@ -19,7 +19,7 @@ class FlatField:
     """
 
     coefficients: Array
-    """Of the polynomial by which the image's brightness falls off."""
+    """(n, n) of the Chebyshev terms, row i the power along rows."""
 
     @staticmethod
     def terms(rows: Array, columns: Array, shape: tuple[int, ...], degree: int) -> Array:
