@@ -17,6 +17,7 @@ class PieceInModel:
     label: int
     """As in the surface's `component`."""
     pixels: int
+    """Count of its pixels."""
     why: str | None
     """Why it was left out; None: it was used."""
     supporters: int
