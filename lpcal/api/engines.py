@@ -45,9 +45,11 @@ DASK_LEAN = {
     "distributed.admin.tick.interval": "500ms",
     "distributed.admin.system-monitor.interval": "5s",
     "distributed.scheduler.active-memory-manager.start": False,
+    "distributed.scheduler.http.routes": [],
+    "distributed.worker.http.routes": [],
 }
 """Settings of a dask cluster that is started here, which nobody watches: by default each of its processes profiles itself a hundred times
-a second and looks at its clock fifty times, a tenth of a core together."""
+a second and looks at its clock fifty times, a tenth of a core together, and has pages ready for a browser."""
 WORDS = "processes, dask, dask://HOST:PORT, slurm or slurm-trial"
 
 
@@ -314,7 +316,9 @@ def _dask_here(count: int) -> Iterator[Executor]:
         one_thread(),
         dask.config.set(DASK_LEAN | {"distributed.worker.multiprocessing-method": context().get_start_method()}),
         _preloaded(distributed.utils.get_mp_context()),
-        distributed.LocalCluster(n_workers=count, threads_per_worker=1, memory_limit=0, dashboard_address=None) as cluster,
+        distributed.LocalCluster(
+            n_workers=count, threads_per_worker=1, memory_limit=0, dashboard_address="127.0.0.1:0", scheduler_kwargs={"dashboard": False}
+        ) as cluster,  # any free port: another cluster may have dask's own
         distributed.Client(cluster) as client,
         _undone_cancelled(client) as executor,
     ):

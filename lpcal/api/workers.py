@@ -17,12 +17,9 @@ from typing import Any
 
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 """The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
-PRELOADED = (
-    *("lpcal.api.surfaces", "lpcal.api.files", "lpcal.formats.surface_files", "scipy.ndimage", "scipy.optimize", "scipy.sparse.linalg"),
-    *("scipy.spatial", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2"),
-)
-"""What a worker that reconstructs would import, a second and more of processor time: where processes are forked off a server, the server
-imports it once for all workers and for those that take a lost one's place."""
+PRELOADED = ("lpcal.pipeline.many", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2")
+"""What a worker that reconstructs would import, a third of a second of processor time: where processes are forked off a server, the server
+imports it once for all workers and for those that take a lost one's place. What few captures need is imported where it is needed."""
 DASK_PRELOADED = ("distributed.nanny", "distributed.worker")
 """And what dask's own do before that."""
 

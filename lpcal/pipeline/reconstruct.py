@@ -117,11 +117,12 @@ def refuse_targets(tasks: list[Task], inputs: list[Path]) -> None:
     UsageError, InputError
         As `refuse_place`; or two captures have one name.
     """
-    for k, task in enumerate(tasks):
+    there: dict[Path, Task] = {}
+    for task in tasks:
         if not task.name:
             raise UsageError("a capture without a name", where=str(task.capture), needed="a capture folder")
-        twin = next((other for other in tasks[:k] if other.target == task.target), None)
-        if twin:
+        twin = there.setdefault(task.target, task)
+        if twin is not task:
             raise UsageError(
                 f"the surfaces of {twin.capture} and of {task.capture} would both be written there",
                 where=str(task.target),
