@@ -9,8 +9,8 @@ shifts the highlights by what the simulator's own LEDs make of it. ``--render`` 
 Spheres are drawn once and kept in a folder of the system's temporary files; the first so many of each day are used.
 
 ``--bound`` draws nothing: highlights with `SCATTER_PX` and outlines as lpcal's own covariances have them, of spheres placed as each of
-`DESIGNS` says; printed is the Cramer-Rao bound of one light's move, what all lights share being nothing, and how many of those sigmas a
-joint turned by 0.1 deg is.
+`DESIGNS` says; printed is the Cramer-Rao bound of one light's move, what all lights share being nothing, the share of moves by `MOVE_M`
+along the arm or sideways that the best test can then name, and how many of those sigmas a joint turned by 0.1 deg is.
 
 Printed otherwise: silent pairs; named lights of the moved, those named as one of two, and false names; the sigma that is stated, which is
 the Cramer-Rao bound by the scatter of the highlights, and the errors of the found moves compared with it.
@@ -26,6 +26,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from scipy.stats import chi2, ncx2
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -50,6 +51,8 @@ SCATTER_PX = 0.006
 """Of a drawn chrome sphere's highlights, as pairs of days show it."""
 JOINT_RAD = np.radians(0.1)
 """The turn of a joint that is to be seen."""
+MOVE_M = 3e-4
+"""The move of a light that is to be seen."""
 PLACES = 60
 """Places that are tried for a sphere, of which the one farthest from all others is taken."""
 
@@ -71,6 +74,8 @@ DEEP = (0.6, 1.5)
 """Depths at which spheres of 50 mm are whole in the picture and lit by all lights."""
 DESIGNS = (
     Design("at the working distance", 4),
+    Design("at the working distance", 6),
+    Design("at the working distance", 8),
     Design("at the working distance", 12),
     Design("at the working distance", 24),
     Design("near and far", 12, depth=DEEP),
@@ -240,12 +245,24 @@ def bound_of(design: Design, seeds: int) -> tuple[np.ndarray, float]:
     return np.sqrt(np.mean(variances, axis=0)), float(np.median(sigmas))
 
 
+def named_share(sigma_m: float, by_m: float = MOVE_M, lights: int = 6) -> float:
+    """Share of moves by `by_m` that the best test names, where an axis is known to `sigma_m` and which light moved, and whither, is not.
+
+    The estimate's squared length in its own sigmas is chi2 of 3 about ``(by_m / sigma_m)^2``, and of an unmoved light about 0; a name is
+    given where that has odds under `UNLIKELY` over all lights.
+    """
+    return float(ncx2.sf(chi2.isf(UNLIKELY / lights, 3), 3, (by_m / sigma_m) ** 2))
+
+
 def bounds(seeds: int) -> None:
     """Print the bound of each design."""
-    print("spheres a day, where; sigma of a light's move along its arm, sideways, along its emission, mm; a joint's 0.1 deg in sigmas")
+    print("spheres a day, where; sigma of a light's move along its arm, sideways, along its emission, mm;", end=" ")
+    print(f"share of {1e3 * MOVE_M:.1f} mm named at best; a joint's 0.1 deg in sigmas")
     for design in DESIGNS:
         sigma, joint = bound_of(design, seeds)
-        print(f"{design.spheres:4d} {design.words:40s} " + "".join(f"{1e3 * one:8.3f}" for one in sigma) + f"{joint:8.1f}", flush=True)
+        best = np.mean([named_share(one) for one in sigma[:2]])
+        sigmas = "".join(f"{1e3 * one:8.3f}" for one in sigma)
+        print(f"{design.spheres:4d} {design.words:40s} {sigmas}{best:8.2f}{joint:8.1f}", flush=True)
 
 
 @dataclass
