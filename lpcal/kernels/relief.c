@@ -21,14 +21,20 @@ static double behind(const double y[3], int64_t height, int64_t width, const dou
     return y[2] / front[(int64_t)row * width + (int64_t)column] - 1.0;
 }
 
+/* Whether a point lies in the body: more than `tolerance` of its depth behind the front, and less than `thickness`. */
+static bool holds(const double y[3], int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
+                  double thickness) {
+    double deep = behind(y, height, width, front, pixel_of_ray);
+    return deep > tolerance && deep < thickness;
+}
+
 /* Whether the surface stands between two points, tried at so many places. */
 static bool stands_between(const double from[3], const double to[3], int64_t steps, int64_t height, int64_t width, const double *front,
                            const double *pixel_of_ray, double tolerance, double thickness) {
     for (int64_t k = 0; k < steps; k++) {
         double share = ((double)k + 0.5) / (double)steps, y[3];
         for (int i = 0; i < 3; i++) y[i] = from[i] + share * (to[i] - from[i]);
-        double deep = behind(y, height, width, front, pixel_of_ray);
-        if (deep > tolerance && deep < thickness) return true;
+        if (holds(y, height, width, front, pixel_of_ray, tolerance, thickness)) return true;
     }
     return false;
 }
@@ -69,4 +75,32 @@ KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const 
             for (int64_t k = 0; k < lights; k++)
                 for (int i = 0; i < 3; i++) J[3 * (k * count + p) + i] += signal[q * lights + k] * factor * e[i];
         }
+}
+
+/* Whether a way from each place x meets the body within the reaches, shares of its depth, and how far it goes until then, by halvings between
+   the first reach in the body and the last before it. Twin: surface/sides.py (_entries). */
+KERNEL void lpcal_entries(int64_t count, const double *x, const double *way, int64_t reaches, const double *reach, int64_t halvings,
+                          int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
+                          double thickness, bool *met, double *far) {
+    for (int64_t p = 0; p < count; p++) {
+        const double *from = x + 3 * p, *along = way + 3 * p;
+        double low = 0.0, high = 0.0, y[3];
+        met[p] = false;
+        for (int64_t k = 0; k < reaches && !met[p]; k++) {
+            double r = reach[k] * from[2];
+            for (int i = 0; i < 3; i++) y[i] = from[i] + r * along[i];
+            if (holds(y, height, width, front, pixel_of_ray, tolerance, thickness)) {
+                high = r;
+                met[p] = true;
+            } else
+                low = r;
+        }
+        for (int64_t k = 0; k < halvings && met[p]; k++) {
+            double middle = (low + high) / 2;
+            for (int i = 0; i < 3; i++) y[i] = from[i] + middle * along[i];
+            if (holds(y, height, width, front, pixel_of_ray, tolerance, thickness)) high = middle;
+            else low = middle;
+        }
+        far[p] = high;
+    }
 }

@@ -117,16 +117,24 @@ class Found:
 
 
 def automatic(
-    maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float | None, hints: Hints = NO_HINTS, room: Image | None = None
+    maps: Grey,
+    rays_C: Array,
+    lights: Sequence[Light],
+    distance_m: float | None,
+    hints: Hints = NO_HINTS,
+    room: Image | None = None,
+    *,
+    drawn: bool = True,
 ) -> Found:
     """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes.
 
-    `room` (H, W) is the image without lights, where there is one.
+    `room` (H, W) is the image without lights, where there is one. Where the outline need not be `drawn`, the mask is that of coarse pixels:
+    its planes are what is asked for.
     """
     if distance_m is not None:
         some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
         fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
-        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room)
+        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room, drawn=drawn)
         if found is not None:
             return found
     return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
@@ -142,7 +150,9 @@ def _by_strength(maps: Grey) -> Mask:
     return tidy(cut.along_the_seam(tidy(mask), _picture(maps)))
 
 
-def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None) -> Found | None:
+def _by_layers(
+    maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None, *, drawn: bool
+) -> Found | None:
     image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
     lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
     if lit.mean() < LEAST_OF_IMAGE:
@@ -160,6 +170,9 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     if mask.sum() < LEAST_OF_IMAGE * mask.size:
         every = hints.of(outline.enlarged(image.image(lit), image.factor, shape))
         return Found(every, "all that is lit lies in one plane: that is the object", walls, layer=every.astype(np.uint8))
+    how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
+    if not drawn:
+        return Found(hints.of(outline.enlarged(mask, image.factor, shape)), how, walls)
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
@@ -167,7 +180,6 @@ def _by_layers(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: f
     apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
     fine = tidy(outline.drawn(apart, maps, rays_C, room))
     fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
-    how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
 

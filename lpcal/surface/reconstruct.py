@@ -127,9 +127,8 @@ def reconstruct(
         return without_ambient.reconstruct(radiance, calibration, given, focus_C, float(begin), solve, options.hints)
     wanted = _is_wanted(radiance, options)
     given_mask = None if wanted else _object(None, radiance, options)
-    room = sight.room(radiance)
     progress(f"{radiance.name}: which pixels are the object", 0, 1)
-    background = mask.automatic(maps, rays_C, lights, float(begin) if near else None, options.hints, room) if wanted or near else None
+    background = _background(radiance, maps, rays_C, lights, float(begin) if near else None, options)
     progress(f"{radiance.name}: which pixels are the object", 1, 1)
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
@@ -164,6 +163,16 @@ def reconstruct(
     return surface
 
 
+def _background(
+    radiance: Radiance, maps: sight.Grey, rays_C: Array, lights: Sequence[Light], about_m: float | None, options: Options
+) -> mask.Found | None:
+    """What is found of the object and of the planes about it, where lights are near `about_m`; None where neither is asked for."""
+    if not (wanted := _is_wanted(radiance, options)) and about_m is None:
+        return None
+    room, drawn = sight.room(radiance), wanted or not options.automatic_mask
+    return mask.automatic(maps, rays_C, lights, about_m, options.hints, room, drawn=drawn)
+
+
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
     """The images that fit another light than theirs, and which."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
@@ -173,17 +182,16 @@ def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str
 
 def _with_mask(figures: SurfaceFigures, found_by: mask.Found | None, radiance: Radiance, options: Options) -> SurfaceFigures:
     """The figures with how the mask was found and how far that is in doubt."""
-    how = _how(found_by, radiance, options)
+    figures = replace(figures, mask=_how(found_by, radiance, options))
     if found_by is None or found_by.doubt is None:
-        return replace(figures, mask=how)
-    return replace(figures, mask=how, mask_doubt=found_by.doubt, mask_doubt_why=found_by.why)
+        return figures
+    return replace(figures, mask_doubt=found_by.doubt, mask_doubt_why=found_by.why)
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
     """How the mask was found, in words."""
-    if background is not None:
-        return background.how
-    return "given" if options.mask is not None or radiance.mask is not None else "every pixel"
+    given = "given" if _given(radiance, options) is not None else "every pixel"
+    return given if background is None else background.how
 
 
 def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: planes.Plane, camera: Camera) -> State:

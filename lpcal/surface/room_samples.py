@@ -12,9 +12,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface import samples
 from lpcal.surface.sight import second
 
@@ -26,6 +28,8 @@ BRIGHTER = 0.03
 """Light from other surfaces, as in surface.samples but less of it: with more, the room's level comes out too low by a third."""
 STEPS = 4
 """Solves of b and A, the first with half of the least sample for A."""
+PLANE_STEPS = 3
+"""Solves of a plane's albedo and A, from the best that single samples say."""
 LEVEL_TIE = 1e-9
 """Least share of a diagonal that holds a system where the samples determine fewer than four numbers."""
 
@@ -56,6 +60,10 @@ class Free:
 
 def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> Free:
     """Pixels as matter of any normal lit by B (L, P, 3), as `samples.free`."""
+    if len(signal) <= samples.MOST_LIGHTS and (run := kernel("room_free")):
+        b, (A, cost, information) = np.empty(B.shape[1:]), np.empty((3, B.shape[1]))
+        run(*signal.shape, *_given(signal, sigma, usable, B, doubt, room), STEPS, b, A, cost, information)
+        return Free(b, A, cost, information)
     share, E = room.share[:, None], np.linalg.norm(B, axis=2)
     A = lowest(signal, usable, room) / 2
     n = np.zeros(B.shape[1:])
@@ -79,6 +87,10 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
     """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels as parts of a plane of signals m (L, P), as `samples.planar`."""
+    if len(signal) <= samples.MOST_LIGHTS and (run := kernel("room_planar")):
+        (cost, albedo, A), lit = np.empty((3, m.shape[1])), np.empty(m.shape, bool)
+        run(*signal.shape, *_given(signal, sigma, usable, m, doubt, room), PLANE_STEPS, cost, albedo, lit, A)
+        return cost, albedo, lit, A
     share = room.share[:, None]
     least, albedo, A = np.full(m.shape[1], np.inf), np.zeros(m.shape[1]), np.zeros(m.shape[1])
     lit = np.zeros(m.shape, bool)
@@ -94,7 +106,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
     for k in range(len(m)):
         one = signal[k] / np.maximum(m[k] + room.level * share[k], 1e-12)
         consider(one, room.level * one, usable[k] & (m[k] > 0))
-    for _ in range(3):
+    for _ in range(PLANE_STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
         dark = usable & ~lit & (lamps < samples.DARK_SHARE * albedo * m)
         weight = (lit | dark) / (spread2 + (DEEP * lamps.max(axis=0)) ** 2)
@@ -102,6 +114,17 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
         consider(one, np.maximum(ambient, 0.0), one > 0)
     blind = usable.sum(axis=0) < 2
     return np.where(blind, 0.0, np.where(np.isfinite(least), least, samples.OUTLIER * len(m))), albedo, lit, A
+
+
+def _given(
+    signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array, room: RoomPrior
+) -> tuple[npt.NDArray[np.generic] | float, ...]:
+    """What the kernels are given: samples (L, P), their light, the room's, and the constants."""
+    constants = [samples.MODEL**2, BRIGHTER, samples.DARKER, samples.OUTLIER, samples.DARK, samples.HALF_DARK, samples.DARK_SHARE]
+    constants += [samples.SHADOW, samples.WIDTH2, DEEP, SPREAD, LEVEL_TIE]
+    signal, sigma, light, share = (np.ascontiguousarray(one, float) for one in (signal, sigma, light, room.share))
+    doubts = np.ascontiguousarray(doubt, np.float32)
+    return signal, sigma, np.ascontiguousarray(usable), light, doubts, share, room.level, np.array(constants)
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:

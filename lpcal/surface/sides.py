@@ -17,8 +17,9 @@ import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.surface.relief import Relief
+from lpcal.surface.relief import THICKNESS, TOLERANCE, Relief
 from lpcal.surface.sight import Indices, light_vectors
 
 DIRECTIONS = 64
@@ -60,6 +61,12 @@ def _directions(n: Array) -> Array:
 
 def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
     """Which of places and directions (Q, 3) enter the body by an unseen side, and where (N, 3)."""
+    if run := kernel("entries"):
+        found, far = np.empty(len(x_C), bool), np.empty(len(x_C))
+        body = (*relief.front.shape, relief.front, relief.pixel_of_ray, TOLERANCE, THICKNESS)
+        run(len(x_C), *(np.ascontiguousarray(one, float) for one in (x_C, way)), len(REACHES), REACHES, HALVINGS, *body, found, far)
+        at = np.flatnonzero(found)
+        return _unseen(at, x_C[at] + far[at, None] * way[at], relief)
     low, high = np.zeros(len(x_C)), np.zeros(len(x_C))
     met: Mask = np.zeros(len(x_C), bool)
     for reach in REACHES:
@@ -74,7 +81,11 @@ def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
         middle = (low + high) / 2
         inside = relief.holds(x_C[at] + middle[:, None] * way[at])
         low, high = np.where(inside, low, middle), np.where(inside, middle, high)
-    y_C = x_C[at] + high[:, None] * way[at]
+    return _unseen(at, x_C[at] + high[:, None] * way[at], relief)
+
+
+def _unseen(at: Indices, y_C: Array, relief: Relief) -> tuple[Indices, Array]:
+    """Those of entries (N,) at places (N, 3) that the camera does not see."""
     unseen = relief.behind(y_C) > UNSEEN
     return at[unseen], y_C[unseen]
 

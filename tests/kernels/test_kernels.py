@@ -17,12 +17,28 @@ from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.surface import bounce, cut, distance, field, flats, gloss, layers, multigrid, normals, pieces, planes, samples
+from lpcal.surface import (
+    bounce,
+    cut,
+    distance,
+    field,
+    flats,
+    gloss,
+    layers,
+    multigrid,
+    normals,
+    pieces,
+    planes,
+    room_samples,
+    samples,
+    sides,
+)
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.integrate import Grid, system
 from lpcal.surface.multigrid import Matrix, Pyramid
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
+from lpcal.surface.room_samples import RoomPrior
 from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Patches
 
@@ -50,6 +66,12 @@ def hidden(rng: np.random.Generator) -> Array:
 
 def behind(rng: np.random.Generator) -> Array:
     return relief(rng).behind(np.concatenate([points(rng, 4000), [[0.0, 0.0, 0.0], [1e30, 0.0, 1.0], [np.nan, 0.0, 1.0]]]))
+
+
+def entries(rng: np.random.Generator) -> Array:
+    places = np.concatenate([points(rng, 3000), points(rng, 1000) * [1, 1, 1.1]])
+    at, y_C = sides._entries(places, lambert.unit(rng.normal(size=(4000, 3)))[0], relief(rng))
+    return np.concatenate([at.astype(float), y_C.ravel()])
 
 
 def received(rng: np.random.Generator) -> Array:
@@ -202,6 +224,27 @@ def planar(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for each in samples.planar(signal, sigma, usable, m, doubt)])
 
 
+def in_room(rng: np.random.Generator) -> tuple[tuple[Any, ...], RoomPrior]:
+    """Samples of lights from the viewer's side: of fewer that reach a pixel rounding is all that the solves leave."""
+    B = lambert.unit(rng.normal(size=(9, 700, 3)) - [0, 0, 2.5])[0]
+    b = rng.uniform(0.2, 1.0, (700, 1)) * lambert.unit(0.4 * rng.normal(size=(700, 3)) - [0, 0, 1])[0]
+    room = RoomPrior(rng.uniform(0.8, 1.2, 9), 0.4)
+    signal = lambert.predicted(B, b) + 0.3 * room.share[:, None] * rng.random(700) + 0.01 * rng.normal(size=(9, 700))
+    return (signal, np.full(signal.shape, 0.01), rng.random(signal.shape) < 0.95, B, 0.1 * rng.random(signal.shape, np.float32)), room
+
+
+def room_free(rng: np.random.Generator) -> Array:
+    given, room = in_room(rng)
+    found = room_samples.free(*given, room)
+    return np.concatenate([each.ravel() for each in (found.b, found.A, found.cost / 10, found.information)])
+
+
+def room_planar(rng: np.random.Generator) -> Array:
+    (signal, sigma, usable, _, doubt), room = in_room(rng)
+    m = np.maximum(signal * rng.uniform(0.7, 1.4, signal.shape) - 0.1, 0.0)
+    return np.concatenate([each.ravel() for each in room_samples.planar(signal, sigma, usable, m, doubt, room)])
+
+
 def rays(rng: np.random.Generator, count: int) -> Array:
     return np.concatenate([0.3 * rng.normal(size=(count, 2)), np.ones((count, 1))], axis=1)
 
@@ -293,6 +336,7 @@ def distort(rng: np.random.Generator) -> Array:
 CASES: dict[Callable, tuple[float, set[str]]] = {
     hidden: (0.0, {"hidden"}),
     behind: (1e-13, {"behind"}),
+    entries: (0.0, {"behind", "entries"}),
     received: (1e-13, {"received"}),
     weighted: (1e-9, {"weighted"}),
     few: (1e-9, {"few"}),
@@ -316,6 +360,8 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     own_distance: (1e-7, {"own_distance", "weighted"}),
     free: (1e-8, {"free"}),
     planar: (1e-9, {"planar"}),
+    room_free: (1e-6, {"room_free"}),
+    room_planar: (1e-9, {"room_planar"}),
     white: (1e-12, {"white"}),
     plane: (1e-9, {"plane"}),
     cluster: (1e-12, {"cluster"}),
