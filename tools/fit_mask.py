@@ -122,7 +122,7 @@ def of_view(name: str, view: View, planes: list[np.ndarray], lit: np.ndarray, di
         here = replace(view, allowed=crop(true, rng) if k else None)
         w = here.window
         pictures = Pictures.of(here, labels, found.planes, cost)
-        examples.append(Example(name, pictures, Regions.of(pictures.labels), true[w], now[w], not k))
+        examples.append(Example(name, pictures, Regions.of(pictures.labels, pictures.bright), true[w], now[w], not k))
     return examples
 
 

@@ -21,34 +21,37 @@ from lpcal.surface.likeness import likeness
 from lpcal.surface.regions import Pictures, Regions, View
 
 OWN = {
-    "": 4.69,
-    "frame": -5.34,
-    "plane": 1.95,
-    "frame, a plane": -2.14,
-    "spared": -0.15,
-    "begins low": -2.12,
-    "width": -4.88,
-    "height": -3.96,
-    "fills its box": -3.47,
-    "size": 11.8,
-    "size, of any normal": 2.97,
-    "facing down": 1.33,
-    "facing aside": 1.3,
-    "bright": 0.136,
-    "edge in the lights": -2.04,
-    "dark frame": 2.31,
-    "nothing beside": -1.78,
-    "before": 1.43,
+    "": 4.96,
+    "frame": -6.0,
+    "plane": 2.2,
+    "frame, a plane": -1.46,
+    "spared": -0.182,
+    "begins low": -1.6,
+    "width": -4.71,
+    "height": -4.14,
+    "fills its box": -4.35,
+    "size": 12.4,
+    "size, of any normal": 3.13,
+    "facing down": 1.31,
+    "facing aside": 1.95,
+    "bright": 0.0953,
+    "edge in the lights": -0.931,
+    "dark frame": 2.28,
+    "nothing beside": -3.06,
+    "before": 1.11,
 }
 """Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
 BESIDE = {
-    "": 0.533,
-    "itself": 0.346,
-    "about": 0.927,
-    "widely about, of any normal": -0.389,
-    "alike in the lights', a plane": 1.1,
-    "frame of the whole plane": -1.77,
-    "frame of the whole, seen through": -1.72,
+    "": 0.562,
+    "itself": 0.279,
+    "about": 0.994,
+    "widely about, of any normal": -0.34,
+    "alike in the lights', a plane": 1.32,
+    "frame of the whole plane": -2.16,
+    "frame of the whole, seen through": -1.16,
+    "above, facing up": 0.932,
+    "goes on, a plane": 3.58,
+    "in the hull, dark": -0.945,
 }
 """Weights of the clues of the regions about it, likewise."""
 CONTEXT = {"": 0.311, "odds": 0.947, "about": 0.636, "lights": 0.17, "room": 0.448, "room, widely": 0.126}
@@ -102,7 +105,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judg
     Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
     """
     pictures = Pictures.of(view, labels, planes, cost)
-    found = Regions.of(pictures.labels)
+    found = Regions.of(pictures.labels, pictures.bright)
     probable = odds_of(pictures, found)
     odds = np.zeros(labels.shape)
     odds[view.window] = probable[found.number]

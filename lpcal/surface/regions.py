@@ -12,6 +12,7 @@ import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.geometry.hull import inside_hull
 from lpcal.surface.coarse import Coarse, LightTable
 from lpcal.surface.flats import Sweep
 from lpcal.surface.sight import Indices, strength
@@ -26,6 +27,14 @@ ALIKE_BRIGHT = 0.15
 """Natural logarithm of a step of the lights' brightness at which the likeness of two regions falls to 1/e."""
 ABOUT = (0.05, 0.125)
 """Standard deviations, in picture widths, of the neighbourhoods that a region is compared with."""
+EDGE = 0.3
+"""Natural logarithm of the steepest change of the lights' brightness over three pixels that lies within a region: .2 to .5 do the same."""
+PART = 20
+"""Coarse pixels without such an edge that make a region of their own: 12 to 40 do the same."""
+JUMP = 0.03
+"""Natural logarithm of a ratio of depths across an outline at which the surface's chance of going on there falls to 1/e."""
+PIECE = 0.08
+"""Share of the largest piece of the likely object from which a piece belongs to its hull."""
 
 
 @dataclass(frozen=True)
@@ -68,14 +77,23 @@ class Regions:
     """(K, 2) these pixels."""
 
     @staticmethod
-    def of(labels: Labels) -> Regions:
-        """The regions of labels (rows, columns)."""
+    def of(labels: Labels, bright: Array) -> Regions:
+        """The regions of labels (rows, columns), cut along the edges of the logarithm of the lights' brightness (rows, columns).
+
+        A label by itself may join an object and its shadow on the wall, or an object and the front of what carries it.
+        """
         number = np.zeros(labels.shape, int)
         label: list[int] = []
+        plain = raster.highest(bright, 1, -np.inf) + raster.highest(-bright, 1, -np.inf) < EDGE
         for one in np.unique(labels):
-            piece, count = raster.labelled(labels == one)
-            number[piece > 0] = piece[piece > 0] - 1 + len(label)
-            label += [int(one)] * count
+            own = labels == one
+            core, _ = raster.labelled(own & plain)
+            large = np.flatnonzero(np.bincount(core[core > 0], minlength=1) >= PART)
+            nearest = core.ravel()[raster.nearest(np.isin(core, large))] if len(large) else np.zeros(labels.shape, int)
+            for part in np.unique(nearest[own]):
+                piece, count = raster.labelled(own & (nearest == part))
+                number[piece > 0] = piece[piece > 0] - 1 + len(label)
+                label += [int(one)] * count
         flat = np.arange(labels.size).reshape(labels.shape)
         beside = [(flat[:, :-1], flat[:, 1:]), (flat[:-1], flat[1:])]
         pixels = np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in beside])
@@ -130,7 +148,7 @@ class Pictures:
     bright: Array
     """Log of the brightest signal but one."""
     normals: Array
-    """(rows, columns, 3) the plane's, or those of matter of any normal."""
+    """(rows, columns, 3) the plane's, or those of matter of any normal; 0 where no light reaches."""
     rays_C: Array
     """(rows, columns, 3)."""
     swept: tuple[Array, Array]
@@ -143,13 +161,13 @@ class Pictures:
         image, count = view.image, len(planes)
         signal = strength(image.maps)
         facing = np.stack([np.zeros(3), *(-q / np.linalg.norm(q) for q in planes), np.zeros(3), np.zeros(3)])[labels]
-        in_plane = (labels > 0) & (labels <= count)
+        of_any = (labels == 0) | (labels == count + 2)  # what no light reaches shows no normal
         return Pictures(
             labels[here],
             planes,
             np.clip(cost[0] - np.take_along_axis(cost, labels[None], axis=0)[0], *SPARED)[here],
             np.log(np.maximum(signal, 1e-3 * np.percentile(signal, 99)))[here],
-            np.where(in_plane[..., None], facing, view.normals)[here],
+            np.where(of_any[..., None], view.normals, facing)[here],
             image.image(image.rays_C)[here],
             (view.swept.u, view.swept.cost.reshape(-1, *image.shape)[:, *here]),
         )
@@ -191,6 +209,7 @@ def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Arra
     plane, free = (regions.label > 0) & (regions.label <= count), regions.label == 0
     near, far = (regions.mean(raster.blurred(logit[regions.number], share * regions.number.shape[1], "nearest")) for share in ABOUT)
     frame = regions.frame()
+    odds = 1 / (1 + np.exp(-logit))
     of_label = np.bincount(regions.label, weights=frame, minlength=count + 3)[regions.label]
     alike = np.exp(-((_step(pictures.bright, regions) / ALIKE_BRIGHT) ** 2))
     return {
@@ -200,7 +219,38 @@ def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Arra
         "alike in the lights', a plane": plane * regions.outline(alike, logit),
         "frame of the whole plane": plane * of_label,
         "frame of the whole, seen through": (frame == 0) * of_label,
+        "above, facing up": plane * np.maximum(-regions.mean(pictures.normals[..., 1]), 0.0) * _above(regions, odds),
+        "goes on, a plane": plane * _goes_on(pictures, regions, odds),
+        "in the hull, dark": (regions.label == count + 1) * _in_hull(regions, odds),
     }
+
+
+def _above(regions: Regions, odds: Array) -> Array:
+    """How far (N,) regions lie above the likely object's middle, by their odds (N,), in its standard deviations: what carries it does not."""
+    of_pixel = odds[regions.number]
+    weight = np.where(of_pixel > 0.5, of_pixel, 1e-9)
+    row = np.indices(regions.number.shape)[0]
+    middle = np.average(row, weights=weight)
+    spread = np.sqrt(np.average((row - middle) ** 2, weights=weight))
+    return np.clip((middle - regions.mean(row)) / (spread + 1), -3, 3)
+
+
+def _goes_on(pictures: Pictures, regions: Regions, odds: Array) -> Array:
+    """The share (N,) of each region's outline over which the likely object, by odds (N,), goes on at the same depth."""
+    log_z = _log_depth(pictures, regions)
+    a, b = log_z.ravel()[regions.pixels].T
+    same = np.nan_to_num(np.exp(-np.abs(a - b) / JUMP))
+    return regions.outline(same, odds)
+
+
+def _in_hull(regions: Regions, odds: Array) -> Array:
+    """The share (N,) of each region that lies in the convex hull of the likely object, by odds (N,)."""
+    piece, _ = raster.labelled(odds[regions.number] > 0.5)
+    size = np.bincount(piece.ravel())
+    size[0] = 0
+    held = np.isin(piece, np.flatnonzero(size >= PIECE * max(int(size.max()), 1)))
+    places = np.indices(piece.shape).reshape(2, -1).T.astype(float)
+    return regions.mean(inside_hull(places, places[held.ravel()]).reshape(piece.shape))
 
 
 def _step(picture: Array, regions: Regions) -> Array:
@@ -215,16 +265,21 @@ def _before(pictures: Pictures, regions: Regions, frame: Array, plane: Mask) -> 
         return np.zeros(len(regions.label))
     held = np.bincount(regions.label[plane], weights=frame[plane], minlength=len(pictures.planes) + 1)[1:]
     wall = _depth(pictures.planes[int(np.argmax(held))], pictures.rays_C)
+    ahead = np.nan_to_num(np.clip(np.log(wall) - _log_depth(pictures, regions), -1, 1))
+    return np.asarray(regions.mean(ahead) > BEFORE, float)
+
+
+def _log_depth(pictures: Pictures, regions: Regions) -> Array:
+    """Log depth (rows, columns): a plane's, or that at which a region's pixels together cost least; NaN where there is none."""
     log_z = np.full(regions.number.shape, np.nan)
     u, cost = pictures.swept
-    for k in range(len(regions.label)):
+    for k, label in enumerate(regions.label):
         inside = regions.number == k
-        if plane[k]:
-            log_z[inside] = np.log(_depth(pictures.planes[regions.label[k] - 1], pictures.rays_C[inside]))
-        elif regions.label[k] != len(pictures.planes) + 1 and inside.sum() >= FEWEST:
+        if 0 < label <= len(pictures.planes):
+            log_z[inside] = np.log(_depth(pictures.planes[label - 1], pictures.rays_C[inside]))
+        elif label != len(pictures.planes) + 1 and inside.sum() >= FEWEST:
             log_z[inside] = u[np.argmin(np.minimum(cost[:, inside], SPARED[1]).mean(axis=1))]
-    ahead = np.nan_to_num(np.clip(np.log(wall) - log_z, -1, 1))
-    return np.asarray(regions.mean(ahead) > BEFORE, float)
+    return log_z
 
 
 def _depth(q: Array, rays_C: Array) -> Array:

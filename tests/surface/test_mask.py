@@ -171,7 +171,7 @@ def object_of(labels: np.ndarray, planes_found: list[np.ndarray], view: View) ->
 def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_beside_them() -> None:
     labels = np.full((20, 30), 1)
     labels[5:10, 5:10], labels[12:16, 0:4], labels[0:3, 20:30] = 0, 0, 2
-    found = regions.Regions.of(labels)
+    found = regions.Regions.of(labels, np.zeros(labels.shape))
     assert sorted(found.area) == [16, 25, 30, 529]
     by = {int(area): k for k, area in enumerate(found.area)}
     assert found.frame()[by[25]] == 0
@@ -189,7 +189,7 @@ def test_every_clue_has_its_weight_and_every_weight_its_clue() -> None:
     labels = np.full((20, 30), 1)
     labels[5:12, 8:20] = 0
     pictures = regions.Pictures.of(view_of(labels.shape), labels, [WALL], costs(labels, 1))
-    found = regions.Regions.of(labels)
+    found = regions.Regions.of(labels, np.zeros(labels.shape))
     assert set(background.OWN) == {"", *regions.own(pictures, found)}
     assert set(background.BESIDE) == {"", *regions.beside(pictures, found, np.zeros(len(found.label)))}
 
