@@ -128,7 +128,10 @@ def _tilt_rad(b: Array, own: Array) -> Array:
     """Standard deviation (P,) of normals about an axis, radians, by the samples' matrices (P, 3, 3) and a prior of ANY_RAD."""
     n, albedo = lambert.unit(b)
     loose = 1 / np.maximum(albedo * ANY_RAD, 1e-12) ** 2
-    covariance = lambert.inverse_3x3(own + loose[:, None, None] * np.eye(3))
+    held = own + loose[:, None, None] * np.eye(3)
+    covariance = lambert.inverse_3x3(held)
+    steep = np.isnan(covariance[:, 0, 0])  # samples of one direction so strong that the prior looks like nothing beside them
+    covariance[steep] = np.linalg.inv(held[steep])
     across = np.trace(covariance, axis1=1, axis2=2) - np.einsum("pi,pij,pj->p", n, covariance, n)
     return np.asarray(np.sqrt(np.maximum(across, 0.0) / 2) / np.maximum(albedo, 1e-12))
 

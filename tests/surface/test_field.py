@@ -172,3 +172,13 @@ def test_a_normal_is_as_sure_as_its_samples() -> None:
     assert 0.5 * np.median(scatter) < np.median(tilt[bright])
     assert np.percentile(scatter / tilt[bright], 90) < 1.2
     assert np.median(tilt[none]) > 3 * np.median(tilt[bright])
+
+
+def test_a_normal_that_one_strong_sample_holds_is_open_across_it_and_no_more_than_the_prior() -> None:
+    """However strong the sample is: of the two axes across the normal it says nothing of one, and all of the other."""
+    n = np.array([0.0, 0.6, -0.8])
+    light = np.array([0.0, -0.8, -0.6])  # square to the normal: it turns the normal about one axis alone
+    for albedo in (1.0, 1e4, 1e8):
+        own = np.einsum("i,j->ij", light, light)[None] / 1e-6
+        tilt = field._tilt_rad(albedo * n[None], own)
+        assert tilt[0] == pytest.approx(field.ANY_RAD / np.sqrt(2), rel=1e-3), albedo
