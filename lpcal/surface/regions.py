@@ -226,7 +226,7 @@ def beside(pictures: Pictures, regions: Regions, logit: Array) -> dict[str, Arra
 
 
 def _above(regions: Regions, odds: Array) -> Array:
-    """How far (N,) regions lie above the middle of the likely object, by odds (N,), in its standard deviations: what carries it lies below."""
+    """How far (N,) regions lie above the middle of the likely object, by odds (N,), in its standard deviations: no support does."""
     of_pixel = odds[regions.number]
     weight = np.where(of_pixel > 0.5, of_pixel, 1e-9)
     row = np.indices(regions.number.shape)[0]
