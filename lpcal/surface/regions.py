@@ -250,7 +250,7 @@ def _in_hull(regions: Regions, odds: Array) -> Array:
     size[0] = 0
     held = np.isin(piece, np.flatnonzero(size >= PIECE * max(int(size.max()), 1)))
     places = np.indices(piece.shape).reshape(2, -1).T.astype(float)
-    return regions.mean(inside_hull(places, places[held.ravel()]).reshape(piece.shape))
+    return regions.mean(inside_hull(places, places[held.ravel()]).astype(float).reshape(piece.shape))
 
 
 def _step(picture: Array, regions: Regions) -> Array:
