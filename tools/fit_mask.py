@@ -22,9 +22,10 @@ from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
+from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
 from lpcal.surface import background, flats, layers, mask, regions, room_light, sight
-from lpcal.surface.coarse import LightTable, coarse_of, factor_of, joined
+from lpcal.surface.coarse import LightTable, coarse_of, factor_of
 from lpcal.surface.regions import Pictures, Regions, View
 
 FOLDS, INNER = 6, 5
@@ -108,7 +109,7 @@ def example(scene: Path) -> list[Example]:
     """A scene taken apart as the mask does it."""
     seen = Seen.of(scene)
     view, lit = seen.view()
-    true = joined(seen.true.astype(float), view.image.factor) > 0.5
+    true = block_means(seen.true.astype(float), view.image.factor) > 0.5
     planes = flats.find(view.image, view.table, view.swept, lit, seen.distance_m)
     return of_view(scene.name, view, planes, lit, seen.distance_m, true)
 

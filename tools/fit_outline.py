@@ -16,8 +16,8 @@ import numpy as np
 from scipy import optimize
 
 from fit_mask import WRONG, Seen, iou, line_of, of_scenes
+from lpcal.geometry.raster import block_means
 from lpcal.surface import background, cut, flats, layers, mask, outline
-from lpcal.surface.coarse import joined
 
 FOLDS = 6
 RIDGE = 1e-3
@@ -72,7 +72,7 @@ def example(scene: Path) -> Example:
     image = view.image
     planes = flats.find(image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
-    share = joined(seen.true.astype(float), image.factor)
+    share = block_means(seen.true.astype(float), image.factor)
     first = background.judged(view, labels, found.planes, cost)
     pictures = outline.levels_of(image, seen.room)
     clues = background.context_of(first.odds, *pictures)
@@ -86,7 +86,7 @@ def example(scene: Path) -> Example:
         here, weights = judged.mask, outline.WITHOUT_ROOM if seen.room is None else outline.WITH_ROOM
         for before, factor in outline.factors(image.factor):
             level = outline.asked(apart, seen.maps, seen.rays_C, seen.room, here, before, factor)
-            of_outline.append(Clues.of(level.clues, joined(seen.true.astype(float), factor)[level.band], rng))
+            of_outline.append(Clues.of(level.clues, block_means(seen.true.astype(float), factor)[level.band], rng))
             here = level.drawn(weights)
         fine = iou(mask.tidy(cut.halfway(here, seen.maps.signal, seen.maps.sigma)), seen.true)
     return Example(

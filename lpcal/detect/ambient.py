@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.errors import DisagreementError
-from lpcal.geometry.arrays import Image
+from lpcal.geometry import raster
+from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import Sensor
 
@@ -150,8 +151,6 @@ def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _block_mean(images: Image) -> Image:
+def _block_mean(images: Image) -> Array:
     """Mean (L, h, w) over blocks of images (L, H, W)."""
-    rows, columns = (side // BLOCK_PX for side in images.shape[1:])
-    cut = images[:, : rows * BLOCK_PX, : columns * BLOCK_PX]
-    return np.asarray(cut.reshape(-1, rows, BLOCK_PX, columns, BLOCK_PX).mean(axis=(2, 4)))
+    return np.stack([raster.block_means(image, BLOCK_PX) for image in images])

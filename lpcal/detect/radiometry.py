@@ -21,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.geometry.piled import piled_level, piled_words
 from lpcal.records.observations import Radiance, RawCapture
@@ -152,8 +153,8 @@ def _blocks(images: Image) -> tuple[Image, Image]:
     mean, std = np.empty((len(images), h, w), np.float32), np.empty((len(images), h, w), np.float32)
     for k, image in enumerate(images):
         grey = image if image.ndim == 2 else image.mean(axis=2)
-        blocks = grey[: h * BLACK_BLOCK, : w * BLACK_BLOCK].reshape(h, BLACK_BLOCK, w, BLACK_BLOCK)
-        mean[k], std[k] = blocks.mean(axis=(1, 3)), blocks.std(axis=(1, 3))
+        mean[k] = middle = raster.block_means(grey, BLACK_BLOCK)
+        std[k] = np.sqrt(np.maximum(raster.block_means(np.square(grey, dtype=np.float64), BLACK_BLOCK) - middle**2, 0.0))
     return mean, std
 
 

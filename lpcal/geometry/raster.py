@@ -95,6 +95,13 @@ def _joined[T: np.floating](values: npt.NDArray[T], weights: Sequence[Array], bo
     return found
 
 
+def block_means(picture: npt.NDArray[np.floating], side: int) -> Array:
+    """Means (h, w) of blocks of side x side pixels of a picture (H, W); what is left over at its lower and right ends is in none."""
+    rows, columns = (length // side for length in picture.shape)
+    by_row = picture[: rows * side, : columns * side].reshape(rows, side, columns * side).sum(axis=1, dtype=float)
+    return np.asarray(by_row.reshape(rows, columns, side).sum(axis=2) / side**2)
+
+
 def grown(mask: Mask, by: int = 1) -> Mask:
     """A mask (H, W) with the pixels that touch it by a side, `by` times."""
     for _ in range(by):

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.surface.room_samples import RoomPrior
@@ -65,13 +65,6 @@ class Coarse:
 def factor_of(maps: Grey, most: int) -> int:
     """Pixels to be joined along a side, so that no more than `most` are left."""
     return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
-
-
-def joined(picture: Image, factor: int) -> Image:
-    """A picture (H, W) with blocks of factor x factor pixels joined."""
-    rows, columns = (side // factor for side in picture.shape)
-    blocks = picture[: rows * factor, : columns * factor].reshape(rows, factor, columns * factor)
-    return np.asarray(blocks.sum(axis=1, dtype=float).reshape(rows, columns, factor).sum(axis=2) / factor**2)
 
 
 def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:

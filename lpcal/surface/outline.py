@@ -18,7 +18,7 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.surface import cut, layers
-from lpcal.surface.coarse import Coarse, LightTable, coarse_of, joined
+from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.likeness import MOST, level, likeness
 from lpcal.surface.sight import Grey, Indices, strength
 
@@ -144,7 +144,7 @@ def levels_of(image: Coarse, room: Image | None) -> tuple[Image, Image | None]:
     bright = strength(image.maps)
     return (
         level(bright, DARKEST * float(np.percentile(bright, 99))),
-        None if room is None else level(np.asarray(joined(room, image.factor), np.float32), DIMMEST * float(np.median(room))),
+        None if room is None else level(np.asarray(raster.block_means(room, image.factor), np.float32), DIMMEST * float(np.median(room))),
     )
 
 

@@ -36,3 +36,10 @@ def test_nothing_is_near_where_a_mask_is_empty() -> None:
     empty = np.zeros((4, 5), bool)
     assert (raster.nearest(empty) == -1).all()
     assert np.isinf(raster.away(empty)).all()
+
+
+def test_blocks_are_means_of_their_pixels() -> None:
+    picture = np.random.default_rng(3).random((14, 17)).astype(np.float32)
+    expected = picture[:12, :16].astype(float).reshape(3, 4, 4, 4).mean(axis=(1, 3))
+    np.testing.assert_allclose(raster.block_means(picture, 4), expected, rtol=1e-12)
+    assert raster.block_means(picture, 20).size == 0
