@@ -27,6 +27,8 @@ FEWEST_POINTS = 30
 """Fewest points in common that say anything of a pair."""
 MOST_SIGMAS = 6.0
 """By how many sigmas, over all six parameters of a pose, a view may have moved in the alignment."""
+MOST_HEARD_SIGMAS = 3.0
+"""By how many of its sigmas the distance of a view that was left out may have to change to be taken in: 20 mm too far is not."""
 MOST_SCALE_SIGMAS = 5.0
 """By how many of its sigmas the distance of a view's largest piece may have grown."""
 

@@ -27,6 +27,8 @@ from lpcal.records.calibration import Light
 from lpcal.records.model import ModelFigures, ObjectModel, PieceInModel, ViewInModel
 from lpcal.records.outcome import Progress, silent
 
+REMARKABLE = 2.5
+"""By how many of its sigmas a view's distance must have been changed to be remarked: one right view in eighty is."""
 CONTRADICTION = 3.0
 """By how many sigmas of a vertex views must differ to be said to disagree there."""
 
@@ -81,6 +83,8 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
     warnings += [
         f"{view.name} has too few points in common with the others: placed by its pose alone" for view in said if view.agreement is None
     ]
+    for k in kept:
+        warnings += _stretched(views[k], places.pieces[k])
     for one in said:
         lost = [piece for piece in one.pieces if piece.why is not None]
         warnings += [f"{one.name}: a piece of {piece.pixels} pixels is left out: {piece.why}" for piece in lost]
@@ -101,6 +105,17 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
         tuple(warnings),
         missing(aligned, found),
     )
+
+
+def _stretched(view: PlacedView, pieces: Sequence[Piece]) -> list[str]:
+    """A remark where the distance of a view's largest piece was changed by many of its sigmas: it is used, and shown to have been wrong."""
+    placed = [piece for piece in pieces if piece.why is None]
+    largest = max(placed, key=lambda piece: piece.pixels)
+    sigmas = abs(largest.delta) / dict(view.pieces)[largest.label]
+    if sigmas < REMARKABLE:
+        return []
+    by_m = np.expm1(largest.delta) * view.distance_m
+    return [f"{view.name}: its distance was changed by {1e3 * by_m:+.1f} mm, {sigmas:.1f} of its sigmas, to fit the others"]
 
 
 def _pieces(view: PlacedView, pieces: Sequence[Piece]) -> tuple[PieceInModel, ...]:

@@ -17,7 +17,7 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view, showing
 from lpcal.fusion.bending import bending_of
-from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, Doubted, agreement, moved_too_far, outvoted
+from lpcal.fusion.consensus import MOST_HEARD_SIGMAS, Doubted, agreement, moved_too_far, outvoted
 from lpcal.fusion.pairs import Placed
 from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, confirmed_share, labels_by_size, only, seen_through
 from lpcal.fusion.views import PlacedView
@@ -178,7 +178,7 @@ class _Search:
                         continue
                     piece = among.look_for(k, label)
                     sigmas = abs(piece.delta) / std
-                    if piece.why is None and not placed and sigmas > MOST_SCALE_SIGMAS:
+                    if piece.why is None and not placed and sigmas > MOST_HEARD_SIGMAS:
                         by_m = piece.delta * view.distance_m
                         piece = replace(
                             piece, why=f"its distance differs by {1e3 * by_m:+.1f} mm from what fits the others, {sigmas:.0f} sigmas"

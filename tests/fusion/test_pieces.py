@@ -160,3 +160,18 @@ def test_normals_that_are_off_slowly_are_made_right_by_the_surface() -> None:
     assert before > 2.5
     assert after < 0.7
     assert np.degrees(np.median(np.linalg.norm(n - t, axis=1))) > 1.0  # the surface alone does not have the detail
+
+
+@pytest.mark.parametrize(("sigmas", "used"), [(2.8, True), (4.5, False)])
+def test_a_view_at_a_wrong_distance_is_named_whether_used_or_not(sigmas: float, used: bool) -> None:
+    """Moved by the others to where it belongs, and remarked; further than three of its sigmas it is left out."""
+    surfaces = list(scene().surfaces)
+    first, off = surfaces[4], 0.06
+    component = replace(first.components[0], scale_std=off / sigmas)
+    surfaces[4] = replace(first, depth=first.depth * np.float32(np.exp(off)), components=(component,))
+    model = lpcal.fuse(surfaces, step_m=0.0024)
+    assert [view.name for view in model.views if not view.used] == ([] if used else ["stop_04"])
+    assert len(model.warnings) == 1
+    assert model.warnings[0].startswith("stop_04")
+    assert "sigmas" in model.warnings[0]
+    assert rms_m(model) < 1.2 * rms_m(whole()[1])
