@@ -42,15 +42,13 @@ def unit_of(surface: Surface) -> str:
 def write_ply(content: ExchangeContent, folder: Path) -> list[str]:
     """mesh.ply: vertices, measured normals, colours, faces."""
     surface = surface_of(content)
-    write_meshes(folder, surface, {"ply"})
-    return []
+    return write_meshes(folder, surface, {"ply"})
 
 
 def write_glb(content: ExchangeContent, folder: Path) -> list[str]:
     """mesh.glb: the same in glTF's axes."""
     surface = surface_of(content)
-    write_meshes(folder, surface, {"glb"})
-    return []
+    return write_meshes(folder, surface, {"glb"})
 
 
 def write_obj(content: ExchangeContent, folder: Path) -> list[str]:

@@ -20,6 +20,8 @@ type Numbers = npt.NDArray[np.number]
 
 GLB_MAGIC, GLB_VERSION = 0x46546C67, 2
 """What a GLB begins with, by the format: its sign and its version."""
+GLB_MOST = 2**32 - 2**20
+"""Bytes of numbers that a GLB can hold: its length is written in 32 bits, of which a megabyte is left to its document."""
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 """Signs of the two parts of a GLB, by the format."""
 ARRAY_BUFFER, ELEMENT_BUFFER = 34962, 34963
@@ -111,6 +113,11 @@ def glb(
     for _, _, stored, _, of in parts:
         for band in of():
             yield np.asarray(band, stored).tobytes()
+
+
+def glb_holds(sizes: tuple[int, int]) -> bool:
+    """Whether a GLB can hold so many vertices, with normals and colours, and triangles."""
+    return 36 * sizes[0] + 12 * sizes[1] <= GLB_MOST
 
 
 def _ends(bands: Bands, columns: int, stored: str) -> dict[str, list[float]]:

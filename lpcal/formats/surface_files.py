@@ -26,7 +26,7 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.document_numbers import number
 from lpcal.formats.documents import plain
-from lpcal.formats.mesh_files import Numbers, glb, ply
+from lpcal.formats.mesh_files import Numbers, glb, glb_holds, ply
 from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.placement_document import placement_document, placement_from_document
 from lpcal.formats.reading import reading
@@ -90,11 +90,12 @@ def write_surface(
             layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
             _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "rays": surface.rays_C, "breaks": surface.breaks})
         _write_images(draft, surface, outputs)
-        write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)
+        said = write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)
         if page is not None and "page" in outputs:
             (draft / PAGE).write_text(page, encoding="utf-8")
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
-        (draft / SUMMARY).write_text(json.dumps(plain({**summary, "files": files}), indent=1) + "\n", encoding="utf-8")
+        notes = {"notes": [*summary["notes"], *said]} if said else {}
+        (draft / SUMMARY).write_text(json.dumps(plain({**summary, **notes, "files": files}), indent=1) + "\n", encoding="utf-8")
 
 
 def _write_arrays(path: Path, arrays: Mapping[str, npt.NDArray[np.generic]]) -> None:
@@ -238,13 +239,13 @@ def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
     path.write_bytes(data.tobytes())
 
 
-def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placement: Placement | None = None) -> None:
+def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placement: Placement | None = None) -> list[str]:
     """mesh.ply in C with display colours, as its viewers take them; mesh.glb in glTF's axes, matte, with linear colours, as glTF asks.
 
-    With a placement both are in its frame.
+    With a placement both are in its frame. Notes on what is left out.
     """
     if not {"ply", "glb"} & set(outputs):
-        return
+        return []
     made, unit = MeshBands.of(surface), "metres" if surface.metric else "pixels"
     frame, origin = "glTF's axes of C: x right, y up, z to the camera", "the camera"
     ply_frame, turn = "C: x right, y down, z forward", GLTF_FROM_C
@@ -266,6 +267,8 @@ def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placem
         opaque = (np.pad(band, [(0, 0), (0, 1)], constant_values=255) for band in made.colours())
         with (draft / OUTPUTS["ply"]).open("wb") as stream:
             stream.writelines(ply(sizes, zip(points(), normals(), opaque, strict=True), made.faces(), [f"frame {ply_frame}, {unit}"]))
+    if "glb" in outputs and not glb_holds(sizes):
+        return [f"mesh.glb is left out: a GLB holds no more than 4 GB, and {sizes[0]} vertices take more; mesh.ply has them"]
     if "glb" in outputs:
         attributes = {
             "POSITION": lambda: (band * turn for band in points()),
@@ -274,6 +277,7 @@ def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placem
         }
         with (draft / OUTPUTS["glb"]).open("wb") as stream:
             stream.writelines(glb(sizes, attributes, made.faces, {"frame": f"{frame}, {unit}", "origin": origin}))
+    return []
 
 
 def _plain_words(text: str) -> str:

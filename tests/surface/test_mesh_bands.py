@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import fields
@@ -13,6 +14,7 @@ import pytest
 import trimesh
 
 import lpcal
+from lpcal.formats import mesh_files
 from lpcal.formats.surface_files import write_meshes
 from lpcal.records.surface import Surface
 from lpcal.report import packing, pictures
@@ -91,6 +93,19 @@ def test_a_mesh_is_written_in_less_memory_than_a_fifth_of_it(tmp_path: Path, mon
     surface = broken(500, 700, None)
     taken = most_held(lambda: write_meshes(tmp_path, surface, {"ply", "glb"}))
     assert taken < 0.2 * sum(path.stat().st_size for path in tmp_path.iterdir())
+
+
+def test_a_mesh_that_no_glb_holds_is_left_out_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = broken()
+    made = mesh.build(surface)
+    monkeypatch.setattr(mesh_files, "GLB_MOST", 36 * len(made.vertices_C) + 12 * len(made.faces) - 1)
+    lpcal.write_surface(tmp_path / "large", surface)
+    assert {path.name for path in (tmp_path / "large").glob("mesh.*")} == {"mesh.ply"}
+    (said,) = (note for note in json.loads((tmp_path / "large/summary.json").read_text())["notes"] if "mesh.glb" in note)
+    assert f"{len(made.vertices_C)} vertices" in said
+    monkeypatch.setattr(mesh_files, "GLB_MOST", 36 * len(made.vertices_C) + 12 * len(made.faces))
+    lpcal.write_surface(tmp_path / "just", surface)
+    assert (tmp_path / "just/mesh.glb").is_file()
 
 
 @pytest.mark.parametrize("step", [1, 3])
