@@ -25,10 +25,11 @@ from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
-from lpcal.records.surface import Alternative, Component, Surface
+from lpcal.records.surface import Surface
 from lpcal.surface import (
     bands,
     basins,
+    components,
     gains,
     mask,
     normals,
@@ -54,10 +55,6 @@ from lpcal.surface.sight import Sight
 
 AGREE_DEG = 2.0
 """A measured normal and that of the depth are averaged where they agree this well."""
-STATED_DISTANCE = 0.003
-"""Relative standard deviation of a distance that the user states."""
-UNKNOWN_DISTANCE = 0.5
-"""Relative standard deviation of a distance that nothing determines."""
 DISTANCE_M = 0.35
 """Where nothing else says how far away the object is."""
 
@@ -198,7 +195,7 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
     """The state with pieces put where their shadows on the wall place them, and one more round of normals there."""
     shown = shadow_anchor.screen(whole.seen, wall, scene.lights, whole.hidden, whole.factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    model_std = {int(one): _model_std(state, label == one) for one in np.unique(label)}
+    model_std = {int(one): components.model_std(state, label == one) for one in np.unique(label)}
     anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)
     if not anchors:
         return state
@@ -291,38 +288,9 @@ def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, foun
         component=np.asarray(seen.map(label, 0)),
         rays_C=rays_C,
         breaks=pieces.break_map(grid, state.weight, seen.mask),
-        components=_components(scene, state, depth, label, found),
+        components=components.of(scene, state, depth, label, found),
         figures=_figures(state),
     )
-
-
-def _components(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
-    found: list[Component] = []
-    for one in np.unique(label):
-        inside = label == one
-        middle = float(depth[inside].mean())
-        curvature = float(state.own.curvature[inside].sum())
-        if scene.distance_m is not None and one == 1:
-            std = STATED_DISTANCE
-        elif scene.near:
-            fewer = uncertainty.fewer_regions(int(inside.sum()), found[0].pixels) if found else 1.0
-            model = state.anchors[int(one)].std if int(one) in state.anchors else fewer * _model_std(state, inside)
-            std = uncertainty.scale_std(scene.lights, curvature, middle, model)
-            std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
-            std = float(np.hypot(std, uncertainty.BROKEN_OFF * np.log(middle / found[0].mean_depth_m))) if found else std
-        else:
-            std = UNKNOWN_DISTANCE
-        others = basins_found.others() if basins_found is not None and one == 1 else []
-        alternatives = tuple(Alternative(ratio * middle, std, odds) for ratio, odds in others)
-        found.append(Component(int(one), int(inside.sum()), middle, std, alternatives))
-    return tuple(found)
-
-
-def _model_std(state: State, inside: Mask) -> float:
-    """What the model lacks in the distance of a piece (P,): see uncertainty.model_std."""
-    shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
-    shine = state.field.gloss
-    return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
