@@ -227,7 +227,8 @@ def test_every_control_does_something(browser: Any, tmp_path: Path, kind: str) -
         if kind == "mark":
             driver.drive("#done", found.page.query_selector("#done"))
         assert driver.left() == []
-        assert strange(found, at) == []
+        refused = "409 (Conflict)" if kind == "mark" else "nothing"  # every light is given one and the same picture, which is refused
+        assert [line for line in strange(found, at) if refused not in line] == []
         if kind in REPORTS:
             assert len(driver.driven) > 4
         found.page.context.close()

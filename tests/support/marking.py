@@ -79,7 +79,7 @@ class Served:
     def end(self) -> None:
         """End the command where it is not over yet; its thread must be."""
         if self.thread.is_alive():
-            with suppress(urllib.error.URLError):
+            with suppress(OSError):
                 self.ask("/done", {})
         self.thread.join(10)
         assert not self.thread.is_alive()
