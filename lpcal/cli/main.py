@@ -77,7 +77,10 @@ def main(words: list[str] | None = None) -> int:
     words = sys.argv[1:] if words is None else words
     open_streams()
     try:
-        options, command = _parse(words)
+        try:
+            options, command = _parse(words)
+        except (SystemExit, BrokenPipeError) as end:  # help and versions end there
+            return _ended(end)
         with logged(options), progress_bars(quiet=options.quiet) as progress, ExitStack() as options.until_done:
             outcome = command.run(options, progress)
         return _said(outcome, as_json=options.json)
@@ -98,13 +101,30 @@ def main(words: list[str] | None = None) -> int:
         return BUG
 
 
+def _ended(end: SystemExit | BrokenPipeError) -> int:
+    """Leave as help, versions and wrong words do; quietly where whoever read them has left, as `| head` does."""
+    try:
+        if isinstance(end, BrokenPipeError):
+            raise end
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _into_nothing()
+        return 0
+    raise end
+
+
+def _into_nothing() -> None:
+    """Drop what is still to be printed, or the interpreter complains once more at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def _said(outcome: Outcome, *, as_json: bool) -> int:
     """Print the outcome; its exit code. Whoever read the summary may have left, as `| head` does; the work is done all the same."""
     try:
         show(outcome, as_json=as_json)
         sys.stdout.flush()
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains once more at its end
+        _into_nothing()
         if not isinstance(error, BrokenPipeError):
             complain(f"lpcal: the work is done, but its summary cannot be written to stdout: {error.strerror}")
             return outcome.exit_code or InputError.exit_code

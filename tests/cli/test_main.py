@@ -242,3 +242,15 @@ def test_a_signal_that_comes_out_as_another_exception_is_a_stop_all_the_same() -
     )
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (found.returncode, found.stderr) == (143, "lpcal: ended by SIGTERM; nothing half-written was kept\n")
+
+
+@pytest.mark.parametrize("words", [["--version"], ["--help"], ["reconstruct", "--help"]])
+def test_help_and_versions_end_quietly_where_their_reader_has_left(words: list[str]) -> None:
+    """As in ``lpcal --help | head -1``: the pipe is closed before anything is written."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        done = subprocess.run([sys.executable, "-m", "lpcal", *words], stdout=writer, stderr=subprocess.PIPE, text=True, check=False)
+    finally:
+        os.close(writer)
+    assert (done.returncode, done.stderr) == (0, "")
