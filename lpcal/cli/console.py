@@ -10,9 +10,10 @@ import sys
 import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-from lpcal.records.outcome import Outcome, Progress, silent
+if TYPE_CHECKING:  # as in lpcal.cli.main
+    from lpcal.records.outcome import Outcome, Progress
 
 
 def show(outcome: Outcome, *, as_json: bool) -> None:
@@ -67,6 +68,8 @@ def open_streams() -> None:
 def progress_bars(*, quiet: bool = False) -> Iterator[Progress]:
     """Progress on stderr: live bars on a terminal, a line each time a tenth is done elsewhere; nothing where that is wished."""
     if quiet:
+        from lpcal.records.outcome import silent
+
         yield silent
         return
     if not sys.stderr.isatty():

@@ -8,9 +8,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
-import shlex
 import sys
-import traceback
 from collections.abc import Container, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -20,10 +18,11 @@ from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
 from lpcal.cli.stops import Stopped, received, say_stopped
 from lpcal.errors import InputError, LpcalError, UsageError
-from lpcal.records.outcome import Outcome, Progress
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # records are dataclasses, whose import costs as much as all the rest of `lpcal --help`
     import logging
+
+    from lpcal.records.outcome import Outcome, Progress
 
 COMMANDS = {
     "demo": "run the whole chain on the bundled rig: calibration, report, reconstruction, mesh, relighting page",
@@ -96,6 +95,9 @@ def main(words: list[str] | None = None) -> int:
             return say_stopped(Stopped(received[0]))
         if type(error).__name__ == "LinAlgError":  # numpy's, which is not imported here
             return _refused_singular(error)
+        import shlex
+        import traceback
+
         traceback.print_exc()
         complain(f"lpcal {__version__}: this is a bug of lpcal; please report the lines above and the command: lpcal {shlex.join(words)}")
         return BUG
