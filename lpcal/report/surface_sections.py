@@ -12,7 +12,7 @@ from lpcal.report.rig_report import SurfaceReport
 from lpcal.report.wording import NOTHING, fixed, grouped, number, with_sigma
 
 TRACE = 1e-3
-"""Share under which only that is told, and so for what is lacking from all: more digits would promise what no odds hold."""
+"""Least share, of 1, that the page states: below it stands "under 0.1%", nearer to 1 "over 99.9%", as odds are not known more finely."""
 
 
 @dataclass(frozen=True)

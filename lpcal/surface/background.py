@@ -63,8 +63,6 @@ LIKE_PX = (3.0, 5.0, 12.0)
 widely by the image without lights."""
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
-SMALLEST_PIECE = 0.08
-"""Share of the largest piece under which a piece is dropped."""
 HOLE = 0.005
 """Share of the object's area under which a hole in it is filled."""
 LIKELY = (0.01, 0.99)
@@ -182,7 +180,7 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
         return np.zeros(mask.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
     size[0] = 0
-    kept = np.isin(np.arange(count + 1), [piece[at] for at in points]) if points else size >= SMALLEST_PIECE * size.max()
+    kept = np.isin(np.arange(count + 1), [piece[at] for at in points]) if points else size >= regions.SMALLEST_PIECE * size.max()
     kept[0] = False
     found = kept[piece]
     hole, _ = raster.labelled(~found)

@@ -7,6 +7,8 @@ parts of one object mostly hang together.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
@@ -50,9 +52,10 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
             std = UNKNOWN_DISTANCE
         others = basins_found.others() if basins_found is not None and one == 1 else []
         alternatives = tuple(Alternative(ratio * middle, std, odds) for ratio, odds in others)
-        if scene.near and found and inside.sum() < SMALL * len(label):
-            alternatives = _touching(scene.grid, np.log(depth), label, Component(int(one), int(inside.sum()), middle, std), found)
-        found.append(Component(int(one), int(inside.sum()), middle, std, alternatives))
+        piece = Component(int(one), int(inside.sum()), middle, std, alternatives)
+        if scene.near and found and piece.pixels < SMALL * len(label):
+            piece = replace(piece, alternatives=_touching(scene.grid, np.log(depth), label, piece, found))
+        found.append(piece)
     return tuple(found)
 
 

@@ -33,8 +33,8 @@ PART = 20
 """Coarse pixels without such an edge that make a region of their own: 12 to 40 do the same."""
 JUMP = 0.03
 """Natural logarithm of a ratio of depths across an outline at which the surface's chance of going on there falls to 1/e."""
-PIECE = 0.08
-"""Share of the largest piece of the likely object from which a piece belongs to its hull."""
+SMALLEST_PIECE = 0.08
+"""Share of the object's largest piece under which a piece is dropped from it, and from its hull."""
 
 
 @dataclass(frozen=True)
@@ -248,7 +248,7 @@ def _in_hull(regions: Regions, odds: Array) -> Array:
     piece, _ = raster.labelled(odds[regions.number] > 0.5)
     size = np.bincount(piece.ravel())
     size[0] = 0
-    held = np.isin(piece, np.flatnonzero(size >= PIECE * max(int(size.max()), 1)))
+    held = np.isin(piece, np.flatnonzero(size >= SMALLEST_PIECE * max(int(size.max()), 1)))
     places = np.indices(piece.shape).reshape(2, -1).T.astype(float)
     return regions.mean(inside_hull(places, places[held.ravel()]).astype(float).reshape(piece.shape))
 
