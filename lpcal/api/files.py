@@ -173,7 +173,8 @@ def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: 
     ----------
     path : str or path
         calibration.yaml; an .lp file; a folder of DiLiGenT; led_params of LUCES; light.mat of near_ps; a table of directions; RelightLab's
-        dome; Meshroom's lights or SfMData; a camera file of OpenCV, ROS, Kalibr, COLMAP, mrcal, Metashape; tf, URDF, easy_handeye.
+        dome; Meshroom's lights or SfMData; a glTF scene with lights; a camera file of OpenCV, ROS, Kalibr, COLMAP, mrcal, Metashape; tf,
+        URDF, easy_handeye.
     vectors : str, optional
         What the vectors of an .lp file or a table are, "directions" or "positions", where their lengths do not show it.
     images : str or path, optional
@@ -204,7 +205,7 @@ def read_calibration(path: PathLike, *, vectors: Vectors | None = None, images: 
         return calibration_yaml.read_calibration(place)
     found = import_other(place, vectors)
     calibration = named_after(found.calibration, Path(images)) if images is not None else found.calibration
-    return replace(calibration, origin=found.format, warnings=(*found.notes, *_lacking(calibration)))
+    return replace(calibration, origin=found.format, warnings=(*found.notes, *calibration.warnings, *_lacking(calibration)))
 
 
 def _lacking(calibration: Calibration) -> list[str]:

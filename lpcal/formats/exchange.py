@@ -23,6 +23,7 @@ from lpcal.formats import (
     import_directions,
     import_luces,
     import_near_ps,
+    import_rig_glb,
 )
 from lpcal.records.calibration import Calibration
 from lpcal.records.exchange import ExchangeContent, Part
@@ -198,8 +199,8 @@ LIGHTS = (
         "lp-positions",
         "RTI light file, lights_positions.lp: mm",
         ("near lights",),
-        "places about the working point",
-        f"where that point is, lobes, intensities, camera, {SENSOR}, standard deviations",
+        "places about the working point, and that point in a comment",
+        f"axes, lobes, intensities, camera, {SENSOR}, standard deviations",
         export_lights.write_lp_positions,
         lambda path: import_directions.read_lp(path, "positions")[0],
     ),
@@ -207,8 +208,8 @@ LIGHTS = (
         "dome",
         "RelightLab rig.dome",
         ("lights",),
-        "places about the working point, directions, colours",
-        f"lobes, camera, {SENSOR}, standard deviations",
+        "places about the working point, that point in the notes; directions, colours",
+        f"axes, lobes, camera, {SENSOR}, standard deviations",
         export_lights.write_dome,
         export_lights.read_dome,
         export_lights.is_dome,
@@ -269,9 +270,11 @@ WHOLE = (
         "rig-glb",
         "glTF scene of the rig, rig.glb",
         ("camera",),
-        "camera, H_PC, lights as spots (KHR_lights_punctual) with place, axis, colour; the lens whole, in extras",
-        f"principal point and distortion in the view, lobes (a soft cone fitted), {SENSOR}, standard deviations",
+        "camera, H_PC, lights as spots (KHR_lights_punctual) with frame, place, axis, colour; lens and lobes whole, in extras",
+        "in a viewer principal point, distortion and the lobe's form (a soft cone fitted); standard deviations",
         export_rig_glb.write_rig_glb,
+        import_rig_glb.read_rig_glb,
+        import_rig_glb.is_rig_glb,
     ),
 )
 RTI = "the images themselves, places and lobes, camera, normals, depth"

@@ -19,8 +19,9 @@ from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.export_cameras import camera_of, file_names, number
 from lpcal.formats.export_lobe import CosineLobe, cosine_of
+from lpcal.formats.import_directions import COUNTED_FROM, counted_from
 from lpcal.formats.import_near_ps import nominal_point
-from lpcal.formats.light_tables import C_FROM_UP, distant, of_light
+from lpcal.formats.light_tables import C_FROM_UP, distant, near_lights, of_light
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration, Light
@@ -79,6 +80,8 @@ def write_lp_positions(content: ExchangeContent, folder: Path) -> list[str]:
     point_C, said = reference_C(content)
     sources = np.array([light.source_C for light in content.calibration.lights], dtype=float)
     _write_lp(folder / "lights_positions.lp", file_names(content), MM * (sources - point_C) * C_FROM_UP)
+    with (folder / "lights_positions.lp").open("a", encoding="utf-8") as file:
+        file.write(COUNTED_FROM + " ".join(number(MM * value) for value in point_C) + "\n")
     where = ", ".join(f"{MM * value:.3f}" for value in point_C)
     return [*said, f"positions are counted from the point {where} mm of the camera's frame"]
 
@@ -97,6 +100,7 @@ def write_dome(content: ExchangeContent, folder: Path) -> list[str]:
     point_C, _ = reference_C(content)
     places = np.array([light.source_C - point_C if light.source_C is not None else light.direction_C for light in calibration.lights])
     places = places * C_FROM_UP * (MM if near else 1.0)
+    at = " ".join(number(MM * value) for value in point_C)
     diameter = 2 * float(np.linalg.norm(places, axis=1).mean()) if near else 0.0
 
     def points(values: Array) -> list[dict[str, float]]:
@@ -104,7 +108,7 @@ def write_dome(content: ExchangeContent, folder: Path) -> list[str]:
 
     document = {
         "label": calibration.name,
-        "notes": f"written by lpcal {__version__}; millimetres; x right, y up, z to the camera",
+        "notes": f"written by lpcal {__version__}; millimetres; x right, y up, z to the camera" + (f"\n{COUNTED_FROM}{at}" if near else ""),
         "imageWidth": _width_mm(calibration, point_C) if near else 0.0,
         "domeDiameter": diameter,
         "verticalOffset": 0.0,
@@ -133,7 +137,7 @@ def is_dome(path: Path) -> bool:
 
 @reader("a dome of RelightLab's")
 def read_dome(path: Path) -> Calibration:
-    """Read a dome as distant lights: where its camera stands, no dome says."""
+    """Read a dome: near lights, where lpcal wrote in its notes where its camera stands; else distant ones, for no dome says that."""
     document: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     stored = document.get("directions") or document.get("positions3d") or []
     vectors = np.array([[float(one[axis]) for axis in "xyz"] for one in stored]).reshape(-1, 3)
@@ -142,7 +146,13 @@ def read_dome(path: Path) -> Calibration:
         raise InputError("holds no directions", where=str(path), needed="directions, or positions3d")
     power = [[float(one[channel]) for channel in "rgb"] for one in document.get("ledAdjust") or []]
     intensity = np.array(power) if len(power) == len(vectors) else None
-    return distant(document.get("label") or path.stem, [f"L{k}" for k in range(len(vectors))], vectors / length * C_FROM_UP, intensity)
+    name, names = document.get("label") or path.stem, [f"L{k}" for k in range(len(vectors))]
+    point_C = counted_from(str(document.get("notes") or ""), str(path))
+    places = document.get("positions3d") or []
+    if point_C is not None and len(places) == len(vectors):
+        at = np.array([[float(one[axis]) for axis in "xyz"] for one in places])
+        return near_lights(name, names, point_C + at * C_FROM_UP / MM, point_C, intensity)
+    return distant(name, names, vectors / length * C_FROM_UP, intensity)
 
 
 def write_diligent(content: ExchangeContent, folder: Path) -> list[str]:

@@ -7,6 +7,7 @@ as quaternion x y z w (tf) or as roll, pitch, yaw about fixed axes (URDF). Where
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -16,17 +17,20 @@ import yaml
 
 from lpcal.formats.documents import plain
 from lpcal.formats.guarded_yaml import load_yaml
+from lpcal.formats.light_tables import sane_lights
 from lpcal.formats.pasted_transforms import ROOM, rpy, write_easy_handeye
 from lpcal.formats.reading import reader
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.records.calibration import Calibration, Carries
+from lpcal.records.calibration import Calibration, Carries, Light
 from lpcal.records.exchange import ExchangeContent
 
 OPTICAL = "camera_optical_frame"
 """ROS's name for a frame with x right, y down, z forward (REP 103)."""
 SENSOR = "distance_sensor"
 """The distance sensor's link: x along its beam, as ROS has it for a sensor_msgs/Range."""
+LIGHT = "light_"
+"""How the names of the lights' links begin."""
 MARK = "written by lpcal"
 
 
@@ -84,7 +88,7 @@ def write_urdf(content: ExchangeContent, folder: Path) -> list[str]:
     left = [light.name for light in content.calibration.lights if light.H_CL is None]
     for light in content.calibration.lights:
         if light.H_CL is not None:
-            _joint(root, OPTICAL, f"light_{re.sub(r'[^0-9A-Za-z_]', '_', light.name)}", light.H_CL)
+            _joint(root, OPTICAL, f"{LIGHT}{re.sub(r'[^0-9A-Za-z_]', '_', light.name)}", light.H_CL)
     if content.calibration.distance_sensor is not None:
         _joint(root, OPTICAL, SENSOR, content.calibration.distance_sensor.H_CR)
     ET.indent(root)
@@ -109,18 +113,36 @@ def is_urdf(path: Path) -> bool:
 
 @reader("a URDF with a fixed joint to the camera's optical frame")
 def read_urdf(path: Path) -> Calibration:
-    """H_PC of the fixed joint whose child's name ends in ``optical_frame``."""
-    root = ET.fromstring(path.read_text(encoding="utf-8"))
-    for joint in root.iter("joint"):
-        child, parent = joint.find("child"), joint.find("parent")
-        if child is None or parent is None or not child.get("link", "").endswith("optical_frame"):
-            continue
-        origin = joint.find("origin")
-        stated = ["0 0 0" if origin is None else origin.get(key) or "0 0 0" for key in ("xyz", "rpy")]
-        x, turn = (np.array([float(value) for value in words.split()]) for words in stated)
-        H = se3.transform(se3.rotation_about_axes(turn[None, ::-1], "zyx")[0], x)
-        return Calibration(path.stem, (), H_PC=H, carries=_carries(parent.get("link", "")))
-    raise ValueError("no joint leads to a link called ...optical_frame")
+    """H_PC of the fixed joint whose child's name ends in ``optical_frame``, and the lights below it, each taken to shine from its frame."""
+    joints = [_held(joint) for joint in ET.fromstring(path.read_text(encoding="utf-8")).iter("joint")]
+    camera = next((one for one in joints if one.child.endswith("optical_frame")), None)
+    if camera is None:
+        raise ValueError("no joint leads to a link called ...optical_frame")
+    frames = {one.child.removeprefix(LIGHT): one.H for one in joints if one.parent == camera.child and one.child.startswith(LIGHT)}
+    lights = tuple(Light(name, -H[:3, 2], np.ones(1), H, H[:3, 3], H[:3, 2]) for name, H in frames.items())
+    said = ("each light is taken to shine from its frame's origin, alike on all sides: a URDF holds neither source nor lobe",)
+    found = Calibration(path.stem, lights, H_PC=camera.H, carries=_carries(camera.parent), warnings=said if lights else ())
+    return sane_lights(found, str(path)) if lights else found
+
+
+@dataclass(frozen=True)
+class _Joint:
+    """A joint: the links that it joins, and the child's frame (4, 4) in the parent's."""
+
+    parent: str
+    child: str
+    H: Array
+
+
+def _held(joint: ET.Element) -> _Joint:
+    """A joint as it is written; one of a transmission has neither parent nor child."""
+    origin = joint.find("origin")
+    stated = ["0 0 0" if origin is None else origin.get(key) or "0 0 0" for key in ("xyz", "rpy")]
+    x, turn = (np.array([float(value) for value in words.split()]).reshape(3) for words in stated)
+    if not np.isfinite([x, turn]).all():
+        raise ValueError(f"joint {joint.get('name')}: an origin that is not finite")
+    ends = [found.get("link", "") if (found := joint.find(end)) is not None else "" for end in ("parent", "child")]
+    return _Joint(ends[0], ends[1], se3.transform(se3.rotation_about_axes(turn[None, ::-1], "zyx")[0], x))
 
 
 def write_handeye_yaml(content: ExchangeContent, folder: Path) -> list[str]:

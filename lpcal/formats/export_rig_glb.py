@@ -3,7 +3,8 @@
 glTF has x right, y up, z to the viewer; its cameras look along their -z, its spots shine along their -z; so C is turned half about x at the
 root, and half about x again in each camera and spot. A spot's light falls from the inner to the outer angle of its cone as
 ``((cos t - cos outer) / (cos inner - cos outer))^2``, cut to 0..1; both angles are fitted to the lobe. Metres; candela are relative: 1 is
-the mean of all lights. The lens, whole, stands in the camera's extras. Source: glTF 2.0, and its extension KHR_lights_punctual.
+the mean of all lights. A light's mechanical frame is a node below it. The lens, lobes and the working point, whole, stand in extras, from
+which lpcal reads them back (`import_rig_glb`). Source: glTF 2.0, and its extension KHR_lights_punctual.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from lpcal import __version__
+from lpcal.formats.calibration_yaml import lobe_document
+from lpcal.formats.camera_yaml import camera_document
+from lpcal.formats.distance_files import beam_document
 from lpcal.formats.documents import plain
 from lpcal.formats.export_cameras import camera_of
 from lpcal.formats.export_lights import rgb
@@ -28,6 +32,8 @@ from lpcal.records.exchange import ExchangeContent
 HALF_TURN = se3.transform(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
 """Half a turn about x: C to glTF's axes, and a light's or camera's z forward to z backward."""
 LIGHTS = "KHR_lights_punctual"
+BODY, ROOM, SENSOR, FRAME = "P: the tracked body", "O: the room", "distance sensor: x along its beam", "mechanical frame"
+"""Names of the nodes of the rig's other frames; a light's begins with the light's name."""
 WIDEST = np.pi / 2
 """Largest outer angle of a spot, by the format."""
 
@@ -42,24 +48,27 @@ def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
     inside = nodes[0]["children"]
     inside.append(1)
     if calibration.H_PC is not None:
-        name = "P: the tracked body" if calibration.carries == "camera" else "O: the room"
+        name = BODY if calibration.carries == "camera" else ROOM
         inside.append(len(nodes))
         nodes.append({"name": name, **_placed(se3.inv(calibration.H_PC))})
     beam = calibration.distance_sensor
     if beam is not None:
         inside.append(len(nodes))
-        sensor = {"bias_m": beam.bias_m, "scale": beam.scale, "noise_m": beam.noise_m}
-        nodes.append({"name": "distance sensor: x along its beam", **_placed(beam.H_CR), "extras": plain(sensor)})
+        nodes.append({"name": SENSOR, **_placed(beam.H_CR), "extras": plain(beam_document(beam))})
     spots: list[dict[str, Any]] = []
     worst = 0.0
     for light in calibration.lights:
         cone, off = spot_of(light)
         worst = max(worst, off)
         inside.append(len(nodes))
-        nodes.append({"name": light.name, **_placed(_of_light(light) @ HALF_TURN), "extensions": {LIGHTS: {"light": len(spots)}}})
+        H_CS = _of_light(light) @ HALF_TURN
+        nodes.append({"name": light.name, **_placed(H_CS), "extensions": {LIGHTS: {"light": len(spots)}}})
         spots.append(_light(light, cone))
+        if light.H_CL is not None:
+            nodes[-1]["children"] = [len(nodes)]
+            nodes.append({"name": f"{light.name}: {FRAME}", **_placed(se3.inv(H_CS) @ light.H_CL)})
     document: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": f"lpcal {__version__}", "extras": {"unit": "metre", "name": calibration.name}},
+        "asset": {"version": "2.0", "generator": f"lpcal {__version__}", "extras": _said(content)},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": nodes,
@@ -71,6 +80,12 @@ def write_rig_glb(content: ExchangeContent, folder: Path) -> list[str]:
     said = ["the principal point and the distortion stand in the camera's extras: glTF's cameras have neither"]
     said += [f"lobes become cones with a soft edge: up to {100 * worst:.2g} % of the axis's light off"] * (worst > 1e-6)
     return said
+
+
+def _said(content: ExchangeContent) -> dict[str, Any]:
+    """What the scene says of itself besides."""
+    calibration = content.calibration
+    return {"unit": "metre", "name": calibration.name, "d_object_m": calibration.d_object_m, "focus_m": calibration.focus_C}
 
 
 def _placed(H: Array) -> dict[str, Any]:
@@ -114,6 +129,7 @@ def _light(light: Light, cone: tuple[float, float] | None) -> dict[str, Any]:
     stored: dict[str, Any] = {"name": light.name, "color": plain(colour / strongest), "intensity": strongest}
     if light.source_C is None:
         return stored | {"type": "directional"}
+    stored["extras"] = {"lobe": plain(lobe_document(light.lobe))}
     if cone is None:
         return stored | {"type": "point"}
     return stored | {"type": "spot", "spot": {"innerConeAngle": cone[0], "outerConeAngle": cone[1]}}
@@ -122,7 +138,6 @@ def _light(light: Light, cone: tuple[float, float] | None) -> dict[str, Any]:
 def _camera(content: ExchangeContent) -> dict[str, Any]:
     camera = camera_of(content)
     (width, height), K = camera.image_size, camera.K
-    lens = {"image_size": camera.image_size, "model": camera.model, "K": K, "distortion": camera.distortion}
     return {
         "type": "perspective",
         "name": "camera",
@@ -132,5 +147,5 @@ def _camera(content: ExchangeContent) -> dict[str, Any]:
             "znear": 0.01,
             "zfar": 100.0,
         },
-        "extras": plain({**lens, "pixel centres": "whole numbers"}),
+        "extras": plain({**camera_document(camera), "pixel centres": "whole numbers"}),
     }

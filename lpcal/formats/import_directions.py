@@ -3,8 +3,10 @@
 ``.lp``: the count, then ``file name x y z`` a line; the name may hold spaces, with or without quotes. A light is named after its image's
 file, without its ending. A table has a row x y z a light, or three rows of N; a first row with the count alone is left out; lights are
 named L0, L1, ... Vectors are apart by blanks, tabs, semicolons or commas. Vectors of one length that is not 1 are places on a dome about
-the object: their directions are taken and that is said. Of unlike lengths they are positions, or damaged: refused, unless they are stated
-to be one or the other. Source of .lp: RTIBuilder's and RelightLab's documentation.
+the object: their directions are taken and that is said; so are those of unlike lengths, where most are not 1. Where most are 1 and some are
+not, the file is damaged: refused, unless they are stated to be one or the other. A comment of lpcal's after the last light says from which
+point of C positions are counted, and makes them near lights again. Source of .lp: RTIBuilder's documentation, RelightLab's reader, which
+takes as many lines as the first one says.
 """
 
 from __future__ import annotations
@@ -15,15 +17,20 @@ from pathlib import Path, PureWindowsPath
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.light_tables import C_FROM_UP, distant, lines_of, numbers, unit_rows, whole_number, words_of
+from lpcal.formats.light_tables import C_FROM_UP, distant, lines_of, near_lights, numbers, text_of, unit_rows, whole_number, words_of
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 
 UNLIKE_LENGTHS = 0.02
 """Share of their mean by which lengths of rounded unit vectors, two decimals each, may differ."""
+MOSTLY = 0.5
+"""Share of vectors of length 1 from which the others are damaged directions, not positions."""
 STATED = ("directions", "positions")
 """What a user may state the vectors to be."""
 SPLIT = re.compile(r"[\s;]+")
+COUNTED_FROM = "# lpcal: positions in mm, counted from the point of the camera's frame (x right, y down, z forward) "
+"""How the comment begins after which the point stands, three numbers in mm."""
+M_FROM_MM = 1e-3
 
 
 def is_lp(path: Path) -> bool:
@@ -62,8 +69,30 @@ def read_lp(path: Path, stated: str | None = None) -> tuple[Calibration, list[st
         first[name] = at
         names.append(name)
         rows.append(vector)
+    point_C = counted_from(text_of(path), str(path)) if stated != "directions" else None
+    if point_C is not None:
+        found = near_lights(path.stem, names, point_C + np.stack(rows) * C_FROM_UP * M_FROM_MM, point_C)
+        where = ", ".join(f"{value:.1f}" for value in point_C / M_FROM_MM)
+        return found, [f"positions about the point {where} mm of the camera's frame, as its comment says: near lights, alike on all sides"]
     vectors, notes = _directions(np.stack(rows), path, stated)
     return distant(path.stem, names, vectors * C_FROM_UP), notes
+
+
+def counted_from(text: str, where: str) -> Array | None:
+    """The point (3,) in C from which positions are counted, where a line of lpcal's in a text says it, metres.
+
+    Raises
+    ------
+    InputError
+        The line holds no such point.
+    """
+    said = [line for line in text.splitlines() if line.startswith(COUNTED_FROM)]
+    if not said:
+        return None
+    point = numbers(said[-1].removeprefix(COUNTED_FROM).split(), where)
+    if point.size != 3 or not point[2] > 0:
+        raise InputError(f"{said[-1][:160]!r}", where=where, needed="three numbers in mm, the last above 0")
+    return point * M_FROM_MM
 
 
 def _light(line: str, where: str) -> tuple[str, Array]:
@@ -117,15 +146,16 @@ def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, 
     length = np.linalg.norm(vectors, axis=1)
     mean, notes = float(length.mean()), []
     alike = np.ptp(length) <= UNLIKE_LENGTHS * mean
-    if not alike and stated is None:
-        k = int(np.argmax(np.abs(length / np.median(length) - 1)))
+    ones = float(np.mean(np.abs(length - 1) <= UNLIKE_LENGTHS))
+    if not alike and stated is None and ones >= MOSTLY:
+        k = int(np.argmax(np.abs(length - 1)))
         raise DisagreementError(
-            f"vectors of unlike lengths, {length.min():.4g} to {length.max():.4g}: positions, not directions",
+            f"vectors of unlike lengths, {length.min():.4g} to {length.max():.4g}, though {100 * ones:.0f} % of them are of length 1",
             where=f"{path}, light {k + 1}",
             needed="unit vectors from the object to the lights",
             todo="state --vectors positions (from the object's middle; distant lights are made of them) or --vectors directions",
         )
-    if stated == "positions" or (alike and stated is None and abs(mean - 1) > UNLIKE_LENGTHS):
+    if stated == "positions" or (stated is None and (not alike or abs(mean - 1) > UNLIKE_LENGTHS)):
         which = f"{mean:.4g}" if alike else f"{length.min():.4g} to {length.max():.4g}"
         notes.append(f"vectors of length {which} are taken as positions about the object's middle: distant lights in their directions")
     elif not alike:

@@ -218,3 +218,13 @@ def distant(name: str, names: Sequence[str], directions_C: Array, intensity: Arr
     """A calibration of distant lights without a camera, intensities (N, 1) or (N, 3) scaled to a mean of 1."""
     intensity = np.ones((len(names), 1)) if intensity is None else scaled(intensity)
     return Calibration(name, tuple(Light(one, d, value) for one, d, value in zip(names, directions_C, intensity, strict=True)))
+
+
+def near_lights(name: str, names: Sequence[str], sources_C: Array, point_C: Array, intensity: Array | None = None) -> Calibration:
+    """A calibration of near lights (N, 3) without a camera that shine alike to all sides, aimed at the working point (3,) in C."""
+    intensity = np.ones((len(names), 1)) if intensity is None else scaled(intensity)
+    lights = []
+    for one, source_C, value in zip(names, sources_C, intensity, strict=True):
+        towards = of_light(source_C - point_C, f"{name}, light {one}")
+        lights.append(Light(one, towards, value, None, source_C, -towards))
+    return Calibration(name, tuple(lights), d_object_m=float(np.linalg.norm(point_C)), focus_C=point_C)

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+import exchange_readers
 from lit_scene import EXPONENT, K, Scene, calibration, draw, truth
+from lpcal import write_calibration
 from lpcal.errors import DisagreementError, InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.import_lights import read_lights
@@ -216,7 +218,7 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     [
         ("3\none.jpg 0 0 1\n", "1 lights, but the first line says 3"),
         ("2\na/one.jpg 0 0 1\nb/one.jpg 0 1 1\n", "two lights are called one"),
-        ("2\none.jpg 100 20 300\ntwo.jpg 0 10 400\n", "positions, not directions"),
+        ("3\none.jpg 0 0 1\ntwo.jpg 0 0.6 0.8\nthree.jpg 0 0.6 8\n", "though 67 % of them are of length 1"),
         ("2\none.jpg 0 0 -1\ntwo.jpg 0 0.6 -0.8\n", "every light stands behind the object"),
     ],
 )
@@ -254,7 +256,9 @@ def test_vectors_that_are_positions_are_said(tmp_path: Path, lpcal: Callable[...
     assert code == 0
     assert "length 400 are taken as positions" in told
     path.write_text("2\none.jpg 120 0 160\ntwo.jpg 0 240 320\n")
-    assert lpcal("import", path, "-o", tmp_path / "c.yaml")[0] == 6
+    code, _, told = lpcal("import", path, "-o", tmp_path / "c.yaml")
+    assert code == 0
+    assert "length 200 to 400 are taken as positions" in told
     for stated in ("positions", "directions"):
         code, _, told = lpcal("import", path, "--vectors", stated, "-o", tmp_path / "c.yaml")
         assert code == 0
@@ -340,3 +344,24 @@ def test_a_mat_of_version_7_3_is_named(tmp_path: Path) -> None:
     (tmp_path / "light.mat").write_bytes(b"MATLAB 7.3 MAT-file".ljust(512) + b"\x89HDF\r\n\x1a\n")
     with pytest.raises(InputError, match="save it with -v7"):
         read_lights(tmp_path / "light.mat")
+
+
+def test_positions_whose_point_is_said_are_near_lights_again(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
+    write_calibration(tmp_path / "calibration.yaml", exchange_readers.calibration())
+    assert lpcal("export", "calibration.yaml", "--format", "lp-positions,dome", "-o", "out", cwd=tmp_path)[0] == 0
+    places = {light.name: light.source_C for light in exchange_readers.calibration().lights}
+    for name in ("lights_positions.lp", "rig.dome"):
+        code, said, told = lpcal("import", f"out/{name}", "-o", "back.yaml", cwd=tmp_path)
+        assert code == 0, told
+        assert "6 near lights" in said, name
+        back = read_calibration(tmp_path / "back.yaml")
+        assert np.abs(back.focus_C - exchange_readers.FOCUS_C).max() < 1e-9
+        for light in back.lights:
+            assert np.abs(light.source_C - places[light.name]).max() < 1e-9, name
+    path = tmp_path / "out" / "lights_positions.lp"
+    assert lpcal("import", path, "--vectors", "directions", "-o", tmp_path / "far.yaml")[0] == 0
+    assert read_calibration(tmp_path / "far.yaml").lights[0].source_C is None
+    path.write_text(path.read_text().rpartition(" ")[0] + " far\n")
+    code, _, told = lpcal("import", path, "-o", tmp_path / "back.yaml")
+    assert code == 3, told
+    assert "no number" in told

@@ -261,7 +261,7 @@ def test_lp_directions_are_those_at_the_working_point(tmp_path: Path) -> None:
 
 def test_lp_positions_are_millimetres_about_the_working_point(tmp_path: Path) -> None:
     export(tmp_path, "lp-positions")
-    rows = np.array([line.split()[1:] for line in (tmp_path / "lights_positions.lp").read_text().splitlines()[1:]], float)
+    rows = np.array([line.split()[1:] for line in (tmp_path / "lights_positions.lp").read_text().splitlines()[1:-1]], float)
     wanted = 1e3 * (np.array([light.source_C for light in lights()]) - FOCUS_C) * [1, -1, -1]
     assert np.abs(rows - wanted).max() < EXACT
 
