@@ -2,8 +2,8 @@
 
 ``python tools/bench_many_views.py [VIEWS] [--size WxH] [--jobs N] [--on ENGINE]``. A carved wall, some metres long, under views that each
 see a third of a metre of it: surfaces are made directly, with the errors of reconstructions (a scale of each, a slow bending, normals
-off by a degree, poses off by a tracker's noise, one H_PC error for all). Prints processor time and peak memory of the fusion, and how far
-the model is from the wall, compared with the single surfaces.
+off by a degree, poses off by a tracker's noise, one H_PC error and one scale for all). Prints processor time and peak memory of the
+fusion, and how far the model is from the wall, compared with the single surfaces.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from scipy.ndimage import gaussian_filter
 
 import lpcal
 from lpcal.api.engines import engine_of
+from lpcal.fusion.align import SHARED_SCALE_STD
 from lpcal.geometry import se3
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface
@@ -42,19 +43,19 @@ def height(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.sin(phase) @ HEIGHTS_M, (np.cos(phase) * HEIGHTS_M) @ WAVES
 
 
-def views(count: int, size: tuple[int, int]) -> Iterator[Surface]:
+def views(count: int, size: tuple[int, int], seed: int = 2) -> Iterator[Surface]:
     """The surfaces of views in rows along the wall, turned by some degrees each."""
-    rng = np.random.default_rng(2)
+    rng = np.random.default_rng(seed)
     step = DISTANCE_M / FOCAL_SHARE * (1 - OVERLAP) * np.array([1, size[1] / size[0]])
     rows = max(int(np.sqrt(count / 4)), 1)
     columns = -(-count // rows)
-    off = H_PC_STD * rng.standard_normal(6)
+    off, grown = H_PC_STD * rng.standard_normal(6), rng.normal(0, SHARED_SCALE_STD)
     for k in range(count):
         at = np.array([k % columns, k // columns]) * step
         turn = np.array([*rng.normal(0, 0.18, 2), rng.normal(0, 0.05)])
         R = se3.rotation(turn)
         H_OC = se3.transform(R, np.array([*at, 0.0]) - DISTANCE_M * R[:, 2])
-        yield seen(f"view_{k:03d}", H_OC, placed(H_OC, off, rng), size, np.random.default_rng([3, k]))
+        yield seen(f"view_{k:03d}", H_OC, placed(H_OC, off, rng), size, grown, np.random.default_rng([seed + 1, k]))
 
 
 def placed(H_OC: np.ndarray, off: np.ndarray, rng: np.random.Generator) -> Placement:
@@ -66,7 +67,7 @@ def placed(H_OC: np.ndarray, off: np.ndarray, rng: np.random.Generator) -> Place
     return Placement(se3.exp(-xi) @ H_OC, noise + by @ np.diag(H_PC_STD**2) @ by.T, noise_covariance=noise, by_handeye=by)
 
 
-def seen(name: str, H_OC: np.ndarray, placement: Placement, size: tuple[int, int], rng: np.random.Generator) -> Surface:
+def seen(name: str, H_OC: np.ndarray, placement: Placement, size: tuple[int, int], grown: float, rng: np.random.Generator) -> Surface:
     """What a view shows of the wall."""
     width, rows = size
     row, column = np.indices((rows, width), dtype=float)
@@ -83,28 +84,39 @@ def seen(name: str, H_OC: np.ndarray, placement: Placement, size: tuple[int, int
     n_O = np.column_stack([slope, -np.ones(len(slope))])
     n_C = se3.rotate(se3.inv(H_OC), n_O / np.linalg.norm(n_O, axis=1, keepdims=True))
     mask = (np.abs(x_O[:, 2] - z) < 1e-5).reshape(rows, width)
-    smooth = [gaussian_filter(rng.standard_normal((rows, width)), s, mode="wrap") for s in (width / 8, 4, 4, 4)]
-    smooth = [one / one.std() for one in smooth]
-    grown = np.exp(rng.normal(0, SCALE_STD) + BEND_STD * smooth[0] + 5e-5 * rng.standard_normal(mask.shape))
-    normals = n_C.reshape(rows, width, 3) + np.radians(0.8) * np.stack(smooth[1:], axis=-1)
-    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
-    single, nan = np.float32, np.float32(np.nan)
-    where = lambda values: np.where(mask, values, nan).astype(single)  # noqa: E731
     breaks = np.zeros((2, rows, width), bool)
     breaks[0, :, :-1], breaks[1, :-1] = mask[:, :-1] != mask[:, 1:], mask[:-1] != mask[1:]
     breaks[0, :, -1], breaks[1, -1] = True, True
+    albedo = 0.6 + 0.1 * np.sin(300 * x_O[:, 0]).reshape(mask.shape)
+    return reconstructed(name, rays, (depth.reshape(mask.shape), n_C.reshape(rays.shape), albedo, mask, breaks), placement, grown, rng)
+
+
+type Maps = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""True depth (H, W), normals in C (H, W, 3), albedo (H, W), mask (H, W) and breaks (2, H, W)."""
+
+
+def reconstructed(name: str, rays: np.ndarray, maps: Maps, placement: Placement, grown: float, rng: np.random.Generator) -> Surface:
+    """A surface with the errors of a reconstruction; `grown` is the log of a scale that all views share."""
+    depth, n_C, albedo, mask, breaks = maps
+    smooth = [gaussian_filter(rng.standard_normal(mask.shape), s, mode="wrap") for s in (mask.shape[1] / 8, 4, 4, 4)]
+    smooth = [one / one.std() for one in smooth]
+    scale = np.exp(grown + rng.normal(0, SCALE_STD) + BEND_STD * smooth[0] + 5e-5 * rng.standard_normal(mask.shape))
+    normals = n_C + np.radians(0.8) * np.stack(smooth[1:], axis=-1)
+    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
+    single, nan = np.float32, np.float32(np.nan)
+    where = lambda values: np.where(mask, values, nan).astype(single)  # noqa: E731
     return Surface(
         name=name,
         normals=np.where(mask[..., None], normals, nan).astype(single),
-        depth=where(depth.reshape(mask.shape) * grown),
-        albedo=where(0.6 + 0.1 * np.sin(300 * x_O[:, 0]).reshape(mask.shape)),
+        depth=where(depth * scale),
+        albedo=where(albedo),
         mask=mask,
         normal_std_deg=where(np.ones(mask.shape)),
         depth_std=where(np.full(mask.shape, BEND_STD * DISTANCE_M)),
         lights_used=np.where(mask, 6, 0).astype(np.uint8),
         component=mask.astype(np.uint8),
         rays_C=rays,
-        components=(Component(1, int(mask.sum()), float(np.median(depth)), SCALE_STD),),
+        components=(Component(1, int(mask.sum()), float(np.median(depth[mask])), SCALE_STD),),
         breaks=breaks,
         placement=placement,
     )
@@ -120,6 +132,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("count", type=int, nargs="?", default=200)
     parser.add_argument("--size", default="376x240")
+    parser.add_argument("--seed", type=int, default=2)
     parser.add_argument("--jobs", type=int)
     parser.add_argument("--on")
     options = parser.parse_args()
@@ -127,7 +140,7 @@ def main() -> None:
     single: list[float] = []
 
     def made() -> Iterator[Surface]:
-        for surface in views(options.count, (width, rows)):
+        for surface in views(options.count, (width, rows), options.seed):
             points = (surface.rays_C * surface.depth[..., None])[surface.mask].astype(float)
             single.append(float(np.sqrt(np.mean(off_m(se3.apply(surface.placement.H_AC, points)) ** 2))))
             yield surface

@@ -264,16 +264,31 @@ def _places(aligned: Aligned, v: Array, n: Array, some: Index, footprint_m: floa
     """Variance, along the normal, of the views' places at some vertices; those that no view sees are left out where any is seen."""
     variance, seen = np.zeros(len(some)), np.zeros(len(some), bool)
     for part in blocks(len(aligned.placed), len(some)):
-        at = some[part]
-        found = evidence(aligned.placed, v[at], n[at], GATE_PX * footprint_m)
-        share = _robust(found, SCALE_PX * footprint_m)
+        found, rows = _rows(aligned, v[some[part]], n[some[part]], footprint_m)
         seen[part] = found.weight.any(axis=0)
-        for k, vertex in enumerate(at):
-            columns, values = _row(aligned, found, share, k, v[vertex], n[vertex])
-            used, local = np.unique(columns, return_inverse=True)
-            row = np.bincount(local, values, len(used))
+        for k, (used, row) in enumerate(rows):
             variance[part.start + k] = row @ aligned.covariance[np.ix_(used, used)] @ row
     return (some[seen], variance[seen]) if seen.any() else (some, variance)
+
+
+def carried(aligned: Aligned, v: Array, n: Array) -> Array:
+    """Covariance (V, V), along their normals, of vertices (V, 3) by the places of the views that see them."""
+    _, rows = _rows(aligned, v, n, float(np.median([one.view.footprint_m for one in aligned.placed])))
+    J = np.zeros((len(v), len(aligned.parameters)))
+    for k, (used, row) in enumerate(rows):
+        J[k, used] = row
+    return np.asarray(J @ aligned.covariance @ J.T)
+
+
+def _rows(aligned: Aligned, v: Array, n: Array, footprint_m: float) -> tuple[Evidence, list[tuple[Index, Array]]]:
+    """What views say of vertices, and which parameters of the alignment move each, by how much."""
+    found = evidence(aligned.placed, v, n, GATE_PX * footprint_m)
+    share, rows = _robust(found, SCALE_PX * footprint_m), []
+    for k in range(len(v)):
+        columns, values = _row(aligned, found, share, k, v[k], n[k])
+        used, local = np.unique(columns, return_inverse=True)
+        rows.append((used, np.bincount(local, values, len(used))))
+    return found, rows
 
 
 def _row(aligned: Aligned, found: Evidence, share: Array, vertex: int, v: Array, n: Array) -> tuple[Index, Array]:

@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
+from lpcal.fusion.parts import ends_of_parts, inner_breaks, near, parted, stds
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Labels, Mask
 from lpcal.records.placement import Placement
@@ -228,7 +229,7 @@ def _between(pixel: Array, first: tuple[int, int], last: tuple[int, int]) -> Mas
 
 def view_of(surface: Surface, placement: Placement) -> PlacedView:
     """A placed surface as a view: what of it lies about the object, in single precision."""
-    from scipy.ndimage import binary_dilation, binary_erosion
+    from scipy.ndimage import binary_erosion
 
     whole_mask = surface.mask & np.isfinite(surface.depth) & np.isfinite(surface.normals).all(axis=-1)
     rows, columns = _window(whole_mask)
@@ -237,14 +238,9 @@ def view_of(surface: Surface, placement: Placement) -> PlacedView:
     rays = surface.rays_C[..., :2]
     sight = np.concatenate([rays[at], np.ones((*mask.shape, 1))], axis=-1)
     cosine = -np.einsum("ijk,ijk->ij", np.where(mask[..., None], normals, 0.0), sight) / np.linalg.norm(sight, axis=-1)
-    broken = np.zeros(mask.shape, bool)
-    right, below = surface.breaks[:, rows, columns]
-    inner_right, inner_below = right[:, :-1] & mask[:, :-1] & mask[:, 1:], below[:-1] & mask[:-1] & mask[1:]
-    broken[:, :-1] |= inner_right
-    broken[:, 1:] |= inner_right
-    broken[:-1] |= inner_below
-    broken[1:] |= inner_below
-    away = binary_erosion(mask, iterations=MARGIN_PX) & ~binary_dilation(broken, iterations=MARGIN_PX - 1)
+    component, of = parted(surface.component[at], surface.breaks[:, rows, columns], normals, surface.normal_std_deg[at])
+    right, below = ends_of_parts(component, surface.breaks[:, rows, columns])
+    away = binary_erosion(mask, iterations=MARGIN_PX) & ~near(*inner_breaks(mask, np.stack([right, below])), MARGIN_PX)
     whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
     whole &= ~(right[:-1, :-1] | right[1:, :-1] | below[:-1, :-1] | below[:-1, 1:])
     albedo = surface.albedo[at] if surface.albedo.ndim == 3 else np.repeat(surface.albedo[at][..., None], 3, axis=2)
@@ -258,12 +254,12 @@ def view_of(surface: Surface, placement: Placement) -> PlacedView:
         rays[at].astype(float),
         normals.astype(single),
         albedo.astype(single),
-        surface.component[at].copy(),
+        component,
         away & (cosine > STEEP) & (std_deg < UNSURE_DEG),
         whole,
         np.radians(std_deg.astype(single)),
         surface.depth_std[at].astype(single),
-        tuple((piece.label, max(piece.scale_std, 1e-4)) for piece in surface.components),
+        stds(tuple((piece.label, max(piece.scale_std, 1e-4)) for piece in surface.components), of),
         fitted(rays, (columns.start, rows.start)),
         np.stack([rays[0, 0], rays[-1, -1]]).astype(float),
         (-columns.start, -rows.start, width - columns.start, height - rows.start),

@@ -49,7 +49,7 @@ class ViewInModel:
     H_AC: Array | None = None
     """(4, 4) the camera in the model's frame, as aligned."""
     pieces: tuple[PieceInModel, ...] = ()
-    """Its connected pieces; none of a surface that was left out."""
+    """Its connected pieces, and parts of them that breaks and seams cut off, which count on; none of a surface that was left out."""
 
 
 @dataclass(frozen=True)

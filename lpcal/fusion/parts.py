@@ -1,0 +1,163 @@
+r"""Parts of a view's pieces that breaks of its surface and seams of unsure normals cut off together.
+
+A piece hangs together wherever a few pixels do, and where it was cut is where cutting was cheapest: a leg seen before another leg may be
+cut straight across, and hang on to the wrong one along the dark seam between the two. What lies behind such a cut may be tens of
+millimetres off, though the rest of the piece is right. Each part is therefore a piece of its own here, placed where the other views confirm
+it (`pieces`).
+
+Pixels at a break or on a seam belong to no core; connected cores of some size are the parts, and grow back to the breaks. A part whose
+border is nowhere broken stays with the neighbour that it touches most: nothing says that it is not in its place.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.geometry.arrays import Image, Index, Labels, Mask
+
+BRIDGE_PX = 2
+"""Pixels beside a break that hold no two parts together: bridges of twice as many pixels between the ends of breaks do not."""
+SEAM_DEG = 5.0
+"""Standard deviation of a normal from which on its pixel holds no two parts together: sure ones have 1 to 2, seams 5 to 40."""
+SHARP = np.cos(np.radians(35.0))
+"""Cosine between neighbouring normals below which they lie on two sides of a seam or an edge."""
+LEAST_SHARE = 0.01
+"""Least share of a view's pixels that a part must have: of smaller ones too few points tell where they lie."""
+LEAST_PIXELS = 60
+"""Least number of its pixels: some five times the points that a piece must show to be looked for."""
+BROKEN_SHARE = 0.1
+"""Least share of a part's border with others of its piece that is broken: the ends of breaks fray."""
+BROKEN_PX = 4
+"""Least number of broken edges of that border."""
+
+
+def parted(component: Labels, breaks: Mask, normals: Image, std_deg: Image) -> tuple[Labels, dict[int, int]]:
+    """Labels (H, W) of parts, and of each the piece it is of: a piece's largest part keeps its label, others count on from the last.
+
+    `component` (H, W), 0 outside; `breaks` (2, H, W) towards the right [0] and below [1]; `normals` (H, W, 3) with `std_deg` (H, W).
+    """
+    from scipy.ndimage import label as connected
+
+    right, below = inner_breaks(component > 0, breaks)
+    core = (component > 0) & ~near(right, below, BRIDGE_PX) & ~near(*turns(normals), 1) & (std_deg < SEAM_DEG)
+    least = max(LEAST_PIXELS, LEAST_SHARE * float((component > 0).sum()))
+    found = np.zeros(component.shape, np.intp)
+    of: list[int] = [0]
+    for label in (int(label) for label in np.unique(component[component > 0])):
+        numbers, _ = connected(core & (component == label))
+        size = np.bincount(numbers.ravel())
+        size[0] = 0
+        large = [int(number) for number in np.argsort(-size) if size[number] >= least] or [-1]
+        for number in large:
+            found[(numbers == number) if number > 0 else (component == label)] = len(of)
+            of.append(label)
+    found = together(grown(found, component, right, below), np.array(of), right, below)
+    return numbered(found, np.array(of), component)
+
+
+def inner_breaks(mask: Mask, breaks: Mask) -> tuple[Mask, Mask]:
+    """Breaks (H, W-1) and (H-1, W) between two pixels of a mask."""
+    return breaks[0, :, :-1] & mask[:, :-1] & mask[:, 1:], breaks[1, :-1] & mask[:-1] & mask[1:]
+
+
+def ends_of_parts(component: Labels, breaks: Mask) -> tuple[Mask, Mask]:
+    """Breaks (H, W) towards the right and below, those between two parts among them."""
+    right, below = breaks[0].copy(), breaks[1].copy()
+    right[:, :-1] |= component[:, :-1] != component[:, 1:]
+    below[:-1] |= component[:-1] != component[1:]
+    return right, below
+
+
+def turns(normals: Image) -> tuple[Mask, Mask]:
+    """Edges (H, W-1) and (H-1, W) at which normals (H, W, 3) turn sharply."""
+    right = np.einsum("ijk,ijk->ij", normals[:, :-1], normals[:, 1:])
+    below = np.einsum("ijk,ijk->ij", normals[:-1], normals[1:])
+    return right < SHARP, below < SHARP
+
+
+def near(right: Mask, below: Mask, reach_px: int) -> Mask:
+    """Pixels (H, W) at a break, or so many less one beside one that is."""
+    from scipy.ndimage import binary_dilation
+
+    broken = np.zeros((right.shape[0], below.shape[1]), bool)
+    broken[:, :-1] |= right
+    broken[:, 1:] |= right
+    broken[:-1] |= below
+    broken[1:] |= below
+    return np.asarray(binary_dilation(broken, iterations=reach_px - 1)) if reach_px > 1 else broken
+
+
+def grown(found: Index, component: Labels, right: Mask, below: Mask) -> Index:
+    """Parts grown over the rest of their pieces, up to breaks; what no part reaches so goes to the nearest of its piece."""
+    from scipy.ndimage import distance_transform_edt
+
+    found = found.copy()
+    joined = ~right & (component[:, :-1] == component[:, 1:]), ~below & (component[:-1] == component[1:])
+    changed = True
+    while changed:
+        before, changed = found.copy(), False
+        for first, second, open_edge in ((np.s_[:, :-1], np.s_[:, 1:], joined[0]), (np.s_[:-1], np.s_[1:], joined[1])):
+            for target, source in ((first, second), (second, first)):
+                take = (found[target] == 0) & (before[source] > 0) & open_edge
+                found[target] = np.where(take, before[source], found[target])
+                changed |= bool(take.any())
+    for label in np.unique(component[(component > 0) & (found == 0)]):
+        inside = component == label
+        _, nearest = distance_transform_edt(~(inside & (found > 0)), return_indices=True)
+        rest = inside & (found == 0)
+        found[rest] = found[tuple(nearest)][rest]
+    return found
+
+
+def together(found: Index, of: Index, right: Mask, below: Mask) -> Index:
+    """Parts of which too little of the border is broken, each with the neighbour of its piece that it touches most; the smallest first."""
+    pairs = [
+        np.stack([found[:, :-1].ravel(), found[:, 1:].ravel(), right.ravel()]),
+        np.stack([found[:-1].ravel(), found[1:].ravel(), below.ravel()]),
+    ]
+    a, b, broken = np.concatenate(pairs, axis=1)
+    meets = (a != b) & (a > 0) & (b > 0) & (of[a] == of[b])
+    count = int(found.max(initial=0)) + 1
+    held, cut = np.zeros((2, count, count), np.intp)
+    for total, some in ((held, meets & (broken == 0)), (cut, meets & (broken > 0))):
+        np.add.at(total, (a[some], b[some]), 1)
+        np.add.at(total, (b[some], a[some]), 1)
+    size, into = np.bincount(found.ravel(), minlength=count), np.arange(count)
+    size[0] = 0
+    waiting = [part for part in np.argsort(size) if size[part]]
+    while waiting:
+        part = waiting.pop(0)
+        border, split = held[part].sum() + cut[part].sum(), cut[part].sum()
+        if not held[part].any() or split >= max(BROKEN_PX, BROKEN_SHARE * border):
+            continue
+        other = int(np.argmax(held[part]))
+        into[into == part] = other
+        for total in (held, cut):
+            total[other] += total[part]
+            total[:, other] += total[:, part]
+            total[other, other] = total[part] = total[:, part] = 0
+        size[other] += size[part]
+        waiting = sorted((left for left in waiting if left != part), key=lambda left: size[left])
+    return np.asarray(into[found])
+
+
+def numbered(found: Index, of: Index, component: Labels) -> tuple[Labels, dict[int, int]]:
+    """Parts by labels: the largest of a piece has the piece's, others count on from the last."""
+    size = np.bincount(found.ravel(), minlength=len(of))
+    size[0] = 0
+    labels, last, pieces = np.zeros(len(of), component.dtype), int(component.max(initial=0)), {}
+    for part in np.argsort(-size):
+        if not size[part]:
+            break
+        label = int(of[part])
+        if label in pieces:
+            label = last + 1 if last < np.iinfo(component.dtype).max else label
+            last = max(last, label)
+        labels[part], pieces[label] = label, int(of[part])
+    return labels[found], pieces
+
+
+def stds(pieces: tuple[tuple[int, float], ...], of: dict[int, int]) -> tuple[tuple[int, float], ...]:
+    """Label and relative standard deviation of the distance of each part: that of its piece."""
+    std = dict(pieces)
+    return tuple((part, std[label]) for part, label in sorted(of.items()) if label in std)
