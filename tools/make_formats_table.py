@@ -88,7 +88,7 @@ READ_BACK = {
         (),
         "the same",
         "see [below](#what-an-rti-is-worth)",
-        "OpenLIME's shader, in numpy",
+        "OpenLIME's ShaderRTI (its source), and its equations",
     ),
     "ply": ReadBack("test_trimesh_reads_the_meshes", ("trimesh",), "vertices' bounds, faces", "1e-6 of a unit"),
     "glb": ReadBack(

@@ -299,7 +299,7 @@ RELIGHTABLE = (
         "openlime",
         "RelightLab and OpenLIME folder, relight/info.json",
         ("lights", "capture"),
-        "images interpolated over the light's direction, in 42 components, as JPEGs (under 12 lights 4 or 9 harmonics)",
+        "images interpolated over the light's direction, in 45 components, as JPEGs (under 12 lights 4 or 9 harmonics)",
         RTI,
         export_rti.write_openlime,
     ),

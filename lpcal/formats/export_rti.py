@@ -39,8 +39,8 @@ WHITE_PERCENTILE = 99.8
 """Percentile of the brightest image that becomes white."""
 SPARE_LIGHTS = 2
 """Lights beyond the number of terms that a fit needs, lest it only repeats its images."""
-COMPONENTS = 42
-"""Components of a table, a multiple of three: fourteen pictures of the sixteen that every WebGL takes, and the uniforms of a shader."""
+COMPONENTS = 45
+"""Components of a table, a multiple of three: fifteen pictures of the sixteen that every WebGL takes, one left for a viewer's normals."""
 JPEG_QUALITY = 97
 """At which a plane's errors stay below one step of 8 bit on the mean."""
 

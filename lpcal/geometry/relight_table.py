@@ -10,7 +10,8 @@ The law carries the edge of the attached shadow, which no smooth function of d f
 thin-plate splines in (u, v) with a polynomial of second order.
 
 Nodes: R x R places of the octahedral map of the hemisphere, turned by 45 degrees so that they fill the square; between nodes S is
-bilinear. A pixel's 3 R^2 values are then a mean and few principal components over the pixels. Sources: Duchon 1977 (splines); Engelhardt
+bilinear. A pixel's 3 R^2 values are then a mean and few principal components over the pixels, nodes far from all lights counting less.
+Sources: Duchon 1977 (splines); Engelhardt
 and Dachsbacher 2008 (octahedral maps); Ponchio et al. 2018, A compact representation of relightable images (table and components).
 """
 
@@ -22,8 +23,8 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Mask
 
-RESOLUTION = 16
-"""Nodes along a side: some ten degrees apart, as the lights of a good dome."""
+RESOLUTION = 24
+"""Nodes along a side: some six degrees apart, finer than the lights of a good dome, so that bilinear lines follow what is between them."""
 FEWEST_LIGHTS = 12
 """Lights from which a table is worth more than harmonics: twice the terms of its polynomial."""
 SAMPLED, HELD_OUT = 6000, 1500
@@ -34,7 +35,9 @@ ROUNDS = 6
 """Fits of b, each to the samples that the one before calls lit: the set stands after four."""
 DARK = 1e-3
 """Linear value under which a sample is in shadow."""
-BLOCK = 20_000
+AFAR = 0.1
+"""Weight of a node that is farther from all lights than they are from one another: what is extrapolated there earns few components."""
+BLOCK = 6_000
 """Pixels at a time."""
 
 
@@ -68,15 +71,17 @@ def table(directions: Array, images: Image, gamma: float, components: int, insid
     law = _Law(directions, nodes(RESOLUTION), gamma)
     sample = rows[np.linspace(0, len(rows) - 1, min(SAMPLED, len(rows))).astype(int)]
     at_nodes = law.at_nodes(flat[:, sample])
+    weight = np.repeat(_nearness(nodes(RESOLUTION), directions), 3)
     mean = at_nodes.mean(axis=0)
-    _, V = np.linalg.eigh((at_nodes - mean).T @ (at_nodes - mean))
+    apart = weight * (at_nodes - mean)
+    _, V = np.linalg.eigh(apart.T @ apart)
     V = V[:, ::-1][:, :components].T
     planes = np.zeros((components, height * width), np.float32)
     for first in range(0, height * width, BLOCK):
         part = slice(first, first + BLOCK)
-        planes[:, part] = V @ (law.at_nodes(flat[:, part]) - mean).T
-    left = at_nodes - mean - (at_nodes - mean) @ V.T @ V
-    basis = np.concatenate([mean[None], V]).reshape(components + 1, -1, 3)
+        planes[:, part] = V @ (weight * (law.at_nodes(flat[:, part]) - mean)).T
+    left = (apart - apart @ V.T @ V)[:, weight == 1]
+    basis = np.concatenate([mean[None], V / weight]).reshape(components + 1, -1, 3)
     held = rows[np.linspace(0, len(rows) - 1, min(HELD_OUT, len(rows))).astype(int)]
     return RelightTable(
         np.asarray(basis, float),
@@ -84,6 +89,13 @@ def table(directions: Array, images: Image, gamma: float, components: int, insid
         _held_out(directions, flat[:, held], gamma),
         float(np.sqrt(np.mean(left**2))),
     )
+
+
+def _nearness(asked: Array, directions: Array) -> Array:
+    """Weights (M,) of directions (M, 3): 1 where lights (L, 3) are as near as they are to one another, else less."""
+    between = np.sort(np.arccos(np.clip(directions @ directions.T, -1, 1)), axis=1)[:, 1]
+    apart = np.arccos(np.clip(asked @ directions.T, -1, 1)).min(axis=1)
+    return np.where(apart <= float(between.max()), 1.0, AFAR)
 
 
 class _Law:

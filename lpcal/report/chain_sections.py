@@ -58,7 +58,6 @@ class CameraPart:
     """What other programs and other boards make of the same corners, the views that matter, and the next one."""
     views: str
     left_out: list[Row]
-    warnings: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,6 @@ class HandEyePart:
     times: Drawing | None
     """Body, gaps, flips and views over the recording."""
     left_out: list[Row]
-    warnings: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,6 @@ def camera_section(report: RigReport) -> CameraPart | None:
         checks=[] if solution is None else _checks(solution.evidence),
         views=plural(len(views), "view"),
         left_out=_left_out(views),
-        warnings=() if solution is None else solution.warnings,
     )
 
 
@@ -157,7 +154,6 @@ def handeye_section(report: RigReport) -> HandEyePart | None:
         ],
         times=None if report.course is None else time_lines(report.course, found, report.image_times_s),
         left_out=_left_out(found.views),
-        warnings=found.warnings,
     )
 
 
@@ -169,8 +165,8 @@ def _evidence(found: HandEyeEvidence) -> list[Row]:
         ("mocap noise, position", fixed(1000 * found.mocap_sigma_m, 2, "mm")),
         ("corner noise", number(found.corner_sigma_px, 2, "px")),
         ("the board's size by the mocap", _board_size(found)),
-        ("moved from the closed form by", fixed(1000 * found.moved_from_closed_form_m, 2, "mm")),
-        ("turned from the closed form by", fixed(found.moved_from_closed_form_deg, 3, "°")),
+        ("moved from the closed-form solution by", fixed(1000 * found.moved_from_closed_form_m, 2, "mm")),
+        ("turned from the closed-form solution by", fixed(found.moved_from_closed_form_deg, 3, "°")),
     )
     return [(label, value) for label, value in named if value not in {"", NOTHING}]
 
@@ -206,12 +202,19 @@ def _intrinsics(camera: Camera, solution: CameraSolution | None) -> list[Row]:
     return rows + ([("solver", f"{solution.solver}{f' ({note})' if note else ''}")] if solution.solver else [])
 
 
+def _short(image: str) -> str:
+    """What of a view stands under its bar: the image's name without its folder and ending, or the time of a pose that has no image."""
+    name = image.rpartition("/")[2]
+    _, at, time = name.rpartition(" at ")
+    return time if at else name.rpartition(".")[0] or name
+
+
 def _view_bars(views: Sequence[ViewVerdict], measure: Measure) -> str:
     drawn = []
     for view in views:
         value = measure.of(view)
         label = f"{view.image}: {number(value, 3, measure.unit)}" + ("" if view.used else f" left out, {view.why or 'no reason given'}")
-        drawn.append(charts.Bar(value, label, "accent" if view.used else "fair", name=view.image.rpartition("/")[2].rpartition(".")[0]))
+        drawn.append(charts.Bar(value, label, "accent" if view.used else "fair", name=_short(view.image)))
     return charts.bars(drawn, unit=measure.unit, across="views in order; amber: left out")
 
 

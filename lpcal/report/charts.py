@@ -14,6 +14,7 @@ from html import escape
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.report.wording import shown
 
 WIDTH = 480
 LEFT, RIGHT, TOP, BOTTOM = 42, 10, 22, 32
@@ -21,6 +22,8 @@ NAME_ROOM = 12
 """Units of the drawing that a name under the axis takes across, turned by 60 degrees."""
 LONGEST_NAME, MOST_BELOW = 14, 68
 """Letters of a name, and units under the axis that names may take."""
+LEAST_SPAN = 1e-3
+"""Length of the axis of dots that all lie at zero: nothing that a page shows, degrees or pixels, is known more finely."""
 LETTER = 7.0
 """Units of the drawing that a letter takes across, at most, in the charts' type."""
 LINE = 13.0
@@ -101,7 +104,7 @@ def histogram(values: Array, *, unit: str, sigma: float, height: int = 190) -> s
     for low, tall in zip(edges[:-1], heights.tolist(), strict=True):
         u, v = plot.u(low), plot.v(tall)
         shape = f'x="{u + 0.4:.1f}" y="{v:.1f}" width="{plot.u(low + width) - u - 0.8:.2f}" height="{plot.v(0) - v:.1f}"'
-        parts.append(f'<rect {shape} class="fill-accent"><title>{tall} about {low + width / 2:.3g} {escape(unit)}</title></rect>')
+        parts.append(f'<rect {shape} class="fill-accent"><title>{tall} about {shown(low + width / 2)} {escape(unit)}</title></rect>')
     path = "L".join(f"{plot.u(u):.1f} {plot.v(v):.1f}" for u, v in zip(x, normal, strict=True))
     parts.append(f'<path d="M{path}" class="gate"/>')
     return plot.svg([*parts, plot.x_line(), *plot.x_ticks(unit)], f"histogram, {unit}")
@@ -174,7 +177,7 @@ def signed_grid(points: Array, value: Array, *, unit: str) -> str:
         tone = "warm" if z >= 0 else "cool"
         where = f'cx="{shift + (x - low[0]) * scale:.1f}" cy="{(y - low[1]) * scale:.1f}" r="{0.42 * pitch * scale:.1f}"'
         shade = f'class="fill-{tone}" opacity="{0.08 + 0.92 * abs(z) / strongest:.2f}"'
-        parts.append(f"<circle {where} {shade}><title>{z:.3f} {escape(unit)}</title></circle>")
+        parts.append(f"<circle {where} {shade}><title>{shown(z)} {escape(unit)}</title></circle>")
     height = round((high[1] - low[1]) * scale)
     parts += _colour_bar(height + 8, (-strongest, strongest), unit, signed=True)
     return framed(height + 8 + BAR + 18, parts, f"map of a grid, {unit}, from {-strongest:.2g} to {strongest:.2g}")
@@ -189,12 +192,13 @@ def heat_map(value: Array, *, unit: str, aspect: float, outline: Mask | None = N
     high = float(np.nanmax(value, initial=low + 1e-12))
     across, frame = (WIDTH - 4) / columns, (WIDTH - 4) / aspect
     down = frame / rows
-    parts = [f'<rect x="2" y="2" width="{WIDTH - 4}" height="{frame:.1f}" class="plate"/>']
+    parts = [f'<rect x="2" y="2" width="{WIDTH - 4}" height="{frame:.1f}" class="plate"/><g class="cells">']
     for (r, c), one in np.ndenumerate(value):
         if np.isfinite(one):
             shade = 0.04 + 0.96 * min(max((one - low) / max(high - low, 1e-12), 0.0), 1.0)
-            where = f'x="{2 + c * across:.1f}" y="{2 + r * down:.1f}" width="{across + 0.3:.1f}" height="{down + 0.3:.1f}"'
-            parts.append(f'<rect {where} class="fill-accent" opacity="{shade:.2f}"><title>{one:.3g} {escape(unit)}</title></rect>')
+            where = f'x="{2 + c * across:.1f}" y="{2 + r * down:.1f}" width="{across:.1f}" height="{down:.1f}"'
+            parts.append(f'<rect {where} class="fill-accent" opacity="{shade:.2f}"><title>{shown(one)} {escape(unit)}</title></rect>')
+    parts.append("</g>")
     if outline is not None:
         parts.append(f'<path class="border" d="{_border(outline, across, down)}"/>')
     parts += _colour_bar(round(frame) + 12, (low, high), unit, signed=False)
@@ -213,16 +217,17 @@ def _border(inside: Mask, across: float, down: float) -> str:
 def _colour_bar(top: float, span: tuple[float, float], unit: str, *, signed: bool) -> list[str]:
     """A bar from the least to the largest value with its numbers under it."""
     left, width, steps = 60, WIDTH - 120, 24
-    parts = []
+    parts = ['<g class="cells">']
     for k in range(steps):
         share = (k + 0.5) / steps
         tone = "accent" if not signed else ("warm" if share > 0.5 else "cool")
         shade = 0.04 + 0.96 * share if not signed else 0.08 + 0.92 * abs(2 * share - 1)
-        where = f'x="{left + k * width / steps:.1f}" y="{top}" width="{width / steps + 0.3:.1f}" height="{BAR}"'
+        where = f'x="{left + k * width / steps:.1f}" y="{top}" width="{width / steps:.1f}" height="{BAR}"'
         parts.append(f'<rect {where} class="fill-{tone}" opacity="{shade:.2f}"/>')
+    parts.append("</g>")
     for share, value in ((0.0, span[0]), (0.5, sum(span) / 2), (1.0, span[1])):
         end = f" {escape(unit)}" if share == 1.0 else ""
-        parts.append(f'<text class="middle" x="{left + share * width:.1f}" y="{top + BAR + 14}">{value:.3g}{end}</text>')
+        parts.append(f'<text class="middle" x="{left + share * width:.1f}" y="{top + BAR + 14}">{shown(value)}{end}</text>')
     return parts
 
 
@@ -248,7 +253,7 @@ def _within(width: float, height: float, parts: Iterable[str]) -> str:
 def dot_rows(rows: Sequence[tuple[str, Sequence[tuple[float, str, str]]]], *, unit: str, gate: float | None = None) -> str:
     """One row a name; in it dots at values from zero, each with its label and tone."""
     height = TOP + BOTTOM + 24 * max(len(rows), 1)
-    furthest = max([value for _, dots in rows for value, _, _ in dots] + [gate or 0.0, 1e-9])
+    furthest = max([value for _, dots in rows for value, _, _ in dots] + [gate or 0.0, LEAST_SPAN])
     plot = _Plot(height, (0, furthest * 1.08), (len(rows), 0), left=64)
     parts = [] if gate is None else [f'<path d="M{plot.u(gate):.1f} {TOP}V{height - BOTTOM}" class="gate"/>']
     for k, (name, dots) in enumerate(rows):
@@ -299,13 +304,13 @@ class _Plot:
         marks = ticks(*self.y)
         for tick in marks:
             parts.append(f'<path d="M{self.left} {self.v(tick):.1f}h{self.width}" class="grid"/>')
-            parts.append(f'<text x="{self.left - 6}" y="{self.v(tick) + 4:.1f}" class="end">{tick:.4g}</text>')
-        parts.append(f'<text x="{self.left - 6}" y="{TOP - 10}" class="end unit">{escape(unit)}</text>')
+            parts.append(f'<text x="{self.left - 6}" y="{self.v(tick) + 4:.1f}" class="end">{shown(tick, 4)}</text>')
+        parts.append(f'<text x="2" y="{TOP - 10}" class="unit">{escape(unit)}</text>')
         return parts
 
     def x_ticks(self, unit: str) -> list[str]:
         v = self.height - BOTTOM + 14
-        parts = [f'<text x="{self.u(tick):.1f}" y="{v}" class="middle">{tick:.4g}</text>' for tick in ticks(*self.x, 5)]
+        parts = [f'<text x="{self.u(tick):.1f}" y="{v}" class="middle">{shown(tick, 4)}</text>' for tick in ticks(*self.x, 5)]
         return [*parts, f'<text x="{WIDTH - RIGHT}" y="{self.height - 4}" class="end unit">{escape(unit)}</text>']
 
     def x_line(self) -> str:

@@ -156,7 +156,6 @@ class LightsPart:
     lobe: str | None
     field: Drawing | None
     """The light of all lamps together over the working plane."""
-    warnings: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -184,6 +183,8 @@ class SpheresPart:
     predicted: list[tuple[str, str]]
     """How well a sphere that was held out is predicted by the others, and where one more would help most."""
     used: str
+    placed: bool
+    """Whether any sphere has a place: without a camera none has."""
 
 
 def lights_section(report: RigReport) -> LightsPart | None:
@@ -192,7 +193,7 @@ def lights_section(report: RigReport) -> LightsPart | None:
     if found is None or not found.lights:
         return None
     before = {} if report.wings is None else {light.name: light for light in designed(report.wings)}
-    focus = found.focus_C
+    focus = report.focus_C
     return LightsPart(
         rows=[_row(light, before.get(light.name), measured=measured) for light in found.lights],
         moved=any(light.name in before for light in found.lights),
@@ -203,8 +204,7 @@ def lights_section(report: RigReport) -> LightsPart | None:
         before="away" if report.left_out("wings") else "in front of the disc",
         intensities=charts.bars(_intensities(found.lights), unit="relative", across="lights") if measured else None,
         lobe=_lobe(found.lights),
-        field=_field(found.lights, report.lens, found.d_object_m, found.focus_C),
-        warnings=found.warnings,
+        field=_field(found.lights, report.lens, found.d_object_m, focus),
     )
 
 
@@ -230,6 +230,7 @@ def spheres_section(report: RigReport) -> SpheresPart | None:
         outlines=_outlines(spheres),
         predicted=_predicted(report.lights.evidence),
         used=f"{sum(sphere.used for sphere in spheres)} of {plural(len(spheres), 'sphere')}",
+        placed=any(sphere.centre_C is not None or sphere.radius_m is not None or np.isfinite(sphere.residual) for sphere in spheres),
     )
 
 

@@ -102,6 +102,13 @@ class RigReport:
         return self.lights or self.calibration
 
     @property
+    def focus_C(self) -> Array | None:
+        """Where the lights' axes meet; None where they are distant, as directions meet nowhere."""
+        found = self.placed
+        near = found is not None and any(light.source_C is not None for light in found.lights)
+        return found.focus_C if found is not None and near else None
+
+    @property
     def shown_lights(self) -> tuple[Light, ...]:
         """The lights as refined or imported, else as designed."""
         if self.placed is not None:

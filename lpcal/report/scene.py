@@ -36,10 +36,10 @@ MANY = 30
 
 def rig_scene(report: RigReport) -> LineScene | None:
     """The rig in C: camera, lights with axis and cone, where they were designed, panel frame, focus, the board's stations."""
-    lights, placed, camera = report.shown_lights, report.placed, report.lens
+    lights, camera = report.shown_lights, report.lens
     if not lights:
         return None
-    focus = None if placed is None else placed.focus_C
+    focus = report.focus_C
     drawn = _camera(np.eye(4), camera, 0.05, "camera", "camera") if camera is not None else []
     reach = [np.zeros(3)]
     for light in lights:
@@ -296,7 +296,7 @@ def _ellipsoid(centre: Array, covariance: Array) -> LineItem:
 
 def working_volume(report: RigReport) -> list[LineItem]:
     """What the camera sees from `DEPTHS` of the focus' depth; nothing without a camera or a focus before it."""
-    focus, camera = None if report.placed is None else report.placed.focus_C, report.lens
+    focus, camera = report.focus_C, report.lens
     if camera is None or focus is None or focus[2] <= 0:
         return []
     near, far = (_view(camera, depth * focus[2]) for depth in DEPTHS)
@@ -306,7 +306,7 @@ def working_volume(report: RigReport) -> list[LineItem]:
 
 def field_plane(report: RigReport) -> FieldPlane | None:
     """The lights' fields over the camera's view at the focus' depth; None without near lights, a camera or a focus before it."""
-    focus, camera = None if report.placed is None else report.placed.focus_C, report.lens
+    focus, camera = report.focus_C, report.lens
     near = [light for light in report.shown_lights if light.source_C is not None][:MOST_FIELDS]
     if camera is None or focus is None or focus[2] <= 0 or not near:
         return None

@@ -12,7 +12,7 @@ from lpcal.report.rig_report import SurfaceReport
 from lpcal.report.wording import NOTHING, fixed, grouped, number, with_sigma
 
 TRACE = 1e-3
-"""Least share, of 1, that the page states: below it stands "under 0.1%", nearer to 1 "over 99.9%", as odds are not known more finely."""
+"""Least share, of 1, that the page states: below it stands "under 0.1 %", nearer to 1 "over 99.9 %", as odds are not known more finely."""
 
 
 @dataclass(frozen=True)
@@ -82,5 +82,5 @@ def _share(share: float | None) -> str:
     if share is None or not math.isfinite(share):
         return NOTHING
     if 0 < share < TRACE or 1 - TRACE < share < 1:
-        return f"{'under' if share < TRACE else 'over'} {100 * (TRACE if share < TRACE else 1 - TRACE):g}%"
+        return f"{'under' if share < TRACE else 'over'} {100 * (TRACE if share < TRACE else 1 - TRACE):g} %"
     return number(100 * share, 2, "%")

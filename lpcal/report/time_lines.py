@@ -15,7 +15,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.calibration import HandEye
 from lpcal.report.charts import LEFT, RIGHT, WIDTH, Drawing, framed, ticks
-from lpcal.report.wording import fixed, number, plural
+from lpcal.report.wording import fixed, number, plural, shown
 
 STRIP, BETWEEN, HEAD, FOOT = 76, 20, 22, 32
 """Height of a strip, what is free between two, over the first and under the last, in the drawing's units."""
@@ -68,7 +68,9 @@ class _Axis:
 
     def marks(self) -> list[str]:
         v = HEIGHT - FOOT + 14
-        drawn = [f'<text x="{self.u(self.zero + tick):.1f}" y="{v}" class="middle">{tick:.4g}</text>' for tick in ticks(0, self.stop, 6)]
+        drawn = [
+            f'<text x="{self.u(self.zero + tick):.1f}" y="{v}" class="middle">{shown(tick, 4)}</text>' for tick in ticks(0, self.stop, 6)
+        ]
         return [*drawn, f'<text x="{WIDTH - RIGHT}" y="{HEIGHT - 4}" class="end unit">s of the recording</text>']
 
 
@@ -87,7 +89,7 @@ class _Scale:
         for tick in ticks(0, self.top, 3):
             line = "axis" if tick == 0 else "grid"
             drawn.append(f'<path d="M{LEFT} {self.v(tick):.1f}h{across}" class="{line}"/>')
-            drawn.append(f'<text x="{LEFT - 6}" y="{self.v(tick) + 4:.1f}" class="end">{tick:.4g}</text>')
+            drawn.append(f'<text x="{LEFT - 6}" y="{self.v(tick) + 4:.1f}" class="end">{shown(tick, 4)}</text>')
         return drawn
 
 

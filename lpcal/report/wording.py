@@ -26,6 +26,11 @@ def number(value: float | None, digits: int = 3, unit: str = "") -> str:
     return _signed(text) + _unit(unit)
 
 
+def shown(value: float, digits: int = 3) -> str:
+    """A number as a chart's marks have it: to some digits at most, without zeros at its end."""
+    return _signed(f"{value:.{digits}g}")
+
+
 def fixed(value: float | None, decimals: int, unit: str = "") -> str:
     """A number to some decimals; a dash for none."""
     return _signed(f"{float(value):z.{decimals}f}") + _unit(unit) if _finite(value) else NOTHING
@@ -72,4 +77,4 @@ def _signed(text: str) -> str:
 
 
 def _unit(unit: str) -> str:
-    return unit and (unit if unit in {"°", "%"} else f"\N{NO-BREAK SPACE}{unit}")
+    return unit and (unit if unit == "°" else f"\N{NO-BREAK SPACE}{unit}")

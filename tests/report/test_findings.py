@@ -61,7 +61,7 @@ def solved() -> RigReport:
 
 def test_where_the_camera_is_sure_and_the_next_view_stand_on_the_page() -> None:
     part = camera_section(solved())
-    assert "33% of the image, at most 0.050 px there" in plain(part.uncertainty.note)
+    assert "33 % of the image, at most 0.050 px there" in plain(part.uncertainty.note)
     assert part.uncertainty.svg.count('class="fill-accent"') == 24 + 24, "24 cells, and 24 steps of the colour bar"
     said = text_of(render(solved()))
     assert "the same corners by OpenCV calibrateCamera 0.012 px rms, 0.050 px at most apart" in said
@@ -112,8 +112,8 @@ def test_views_have_their_names_on_the_axis() -> None:
 
 def test_the_boards_shape_has_a_colour_bar() -> None:
     svg = camera_section(report_of(documents())).warp
-    low, high = re.findall(r">(-?[\d.]+(?:e-?\d+)?)(?: mm)?</text>", svg)[0], re.search(r">([\d.]+) mm</text>", svg)[1]
-    assert float(low) == -float(high) == pytest.approx(-1.0)
+    low, high = re.findall(r">(−?[\d.]+(?:e−?\d+)?)(?: mm)?</text>", svg)[0], re.search(r">([\d.]+) mm</text>", svg)[1]
+    assert float(low.replace("−", "-")) == -float(high) == pytest.approx(-1.0)
 
 
 def test_the_light_field_over_the_working_plane() -> None:
@@ -136,7 +136,7 @@ def test_spheres_held_out_are_predicted() -> None:
     part = spheres_section(replace(report, lights=replace(report.lights, evidence=found)))
     rows = {label: plain(value) for label, value in part.predicted}
     assert rows["a chrome sphere held out: its highlights, predicted by the others"] == "0.031 px rms"
-    assert rows["a matte sphere held out: its shading, predicted by the others"] == "1.2% rms"
+    assert rows["a matte sphere held out: its shading, predicted by the others"] == "1.2 % rms"
     assert rows["one more chrome sphere helps most"] == "at the left (0.050 → 0.040°)"
     assert "the same, its albedo free" not in rows
     assert spheres_section(report).predicted == []
@@ -222,7 +222,7 @@ def test_a_piece_that_fails_the_gate_is_named() -> None:
     small = replace(whole.summary.components[0], label=3, pixels=1007, scale_std=0.085)
     odd = replace(whole, summary=replace(whole.summary, components=(*whole.summary.components, small)))
     line = next(one for one in verdicts(report_of({}, odd)) if one.title == "bust")
-    assert "its piece 3 of 1007 pixels is known to 8.5% only" in line.found.replace("\N{NARROW NO-BREAK SPACE}", "")
+    assert "its piece 3 of 1007 pixels is known to 8.5 % only" in plain(line.found).replace("\N{NARROW NO-BREAK SPACE}", "")
 
 
 def luminance(colour: str) -> float:

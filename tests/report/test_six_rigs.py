@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from lpcal.report.chain_sections import _short
 from lpcal.report.page import render
 from lpcal.report.rig_report import PARTS
 from lpcal.report.scene import room_scene
@@ -41,3 +44,24 @@ def test_the_board_stands_in_the_room_of_a_hand_eye_alone() -> None:
     board = [item for item in scene.items if item.layer == "board"]
     assert [item.text for item in board if item.kind == "label"] == ["B"]
     assert any(np.allclose(item.points[0], report.handeye.H_OB[:3, 3]) for item in board)
+
+
+def test_directions_meet_nowhere() -> None:
+    """Lights without places have no focus, whatever point stands in the file; spheres without places have no columns for them."""
+    report = rigs()["dome without camera"]
+    far = tuple(replace(light, source_C=None, axis_C=None, H_CL=None) for light in report.lights.lights)
+    unplaced = tuple(replace(one, centre_C=None, radius_m=None, residual=float("nan")) for one in report.lights.spheres)
+    found = read(render(replace(report, lights=replace(report.lights, lights=far, focus_C=np.zeros(3), d_object_m=None, spheres=unplaced))))
+    said = " ".join(found.words)
+    assert "axes meet" not in said
+    assert "focus, 0 mm" not in said
+    assert "centre, mm" not in said
+
+
+def test_what_is_wrong_is_said_once() -> None:
+    """A warning stands with the verdict alone, and a pose that has no image under its bar by its time."""
+    said = " ".join(read(render(rigs()["bad"])).words)
+    for warning in ("the panel turned about one axis only", "chrome_0: its outline is not round"):
+        assert said.count(warning) == 1
+    assert _short("H_CB.csv at 22.9951 s") == "22.9951 s"
+    assert _short("stations/07.png") == "07"
