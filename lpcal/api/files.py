@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -374,6 +375,6 @@ def write_surface(
     if Path(folder).suffix == ".zarr":
         write_surface_zarr(Path(folder), surface)
         return
-    page = None if calibration is None else render(surface, calibration)
+    page = None if calibration is None else partial(render, surface, calibration)
     summary, placed = surface_files.summary_of(surface), mesh_frame == "placed" and surface.placement is not None
     surface_files.write_surface(Path(folder), surface, summary, page, placed_mesh=placed)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import os
 import sys
@@ -59,6 +60,8 @@ for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 BUG = 1
 USAGE = 2
+YOUNG_OBJECTS = 100_000
+"""New objects after which unreachable cycles are looked for: Python's 2,000 have it look a hundred times while modules are imported."""
 
 
 class Command(Protocol):
@@ -74,6 +77,7 @@ class Command(Protocol):
 def main(words: list[str] | None = None) -> int:
     """Run one command; the exit code is that of the error (docs/errors.md)."""
     words = sys.argv[1:] if words is None else words
+    gc.set_threshold(YOUNG_OBJECTS)
     open_streams()
     try:
         try:

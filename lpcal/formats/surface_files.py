@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,7 @@ from lpcal.geometry.arrays import Image
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface, SurfaceSummary
+from lpcal.surface import bands
 from lpcal.surface.mesh import DISPLAY_GAMMA, MeshBands
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
@@ -69,14 +70,15 @@ def write_surface(
     folder: Path,
     surface: Surface,
     summary: Mapping[str, Any],
-    page: str | None = None,
+    page: Callable[[], str] | None = None,
     outputs: Collection[str] = frozenset(OUTPUTS),
     *,
     placed_mesh: bool = False,
 ) -> None:
-    """Write the files of a surface that `outputs` names, and summary.json; `page` is the relighting page.
+    """Write the files of a surface that `outputs` names, and summary.json; `page` makes the relighting page.
 
-    With `placed_mesh` the meshes of a surface that is placed are in the room, or in the body that the object rides on.
+    Cores share the files. With `placed_mesh` the meshes of a surface that is placed are in the room, or in the body that the object rides
+    on.
 
     Raises
     ------
@@ -85,17 +87,30 @@ def write_surface(
     """
     with whole(folder, SURFACE) as draft:
         draft.mkdir()
-        if "maps" in outputs:
-            maps = {name: getattr(surface, name) for name in MAPS}
-            layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
-            _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "rays": surface.rays_C, "breaks": surface.breaks})
-        _write_images(draft, surface, outputs)
-        said = write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)
-        if page is not None and "page" in outputs:
-            (draft / PAGE).write_text(page, encoding="utf-8")
+
+        def write_page() -> None:
+            if page is not None and "page" in outputs:
+                (draft / PAGE).write_text(page(), encoding="utf-8")
+
+        said: list[str] = []
+        works: list[Callable[[], None]] = [
+            write_page,
+            lambda: _write_maps(draft, surface, outputs),
+            lambda: said.extend(write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)),
+            lambda: _write_images(draft, surface, outputs),
+        ]
+        bands.shared(lambda work: work(), works)
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
         notes = {"notes": [*summary["notes"], *said]} if said else {}
         (draft / SUMMARY).write_text(json.dumps(plain({**summary, **notes, "files": files}), indent=1) + "\n", encoding="utf-8")
+
+
+def _write_maps(draft: Path, surface: Surface, outputs: Collection[str]) -> None:
+    if "maps" not in outputs:
+        return
+    maps = {name: getattr(surface, name) for name in MAPS}
+    layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
+    _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "rays": surface.rays_C, "breaks": surface.breaks})
 
 
 def _write_arrays(path: Path, arrays: Mapping[str, npt.NDArray[np.generic]]) -> None:

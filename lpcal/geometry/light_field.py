@@ -38,10 +38,39 @@ TABLED = ("table", "leds")
 
 def table_lobe(angle_rad: Array, knots_rad: Array, value: Array) -> Array:
     """Cubic through the table (monotone between knots, even about the axis), 0 beyond its last angle."""
-    from scipy.interpolate import PchipInterpolator
+    at = np.clip(np.abs(angle_rad), knots_rad[0], None)
+    k = np.clip(np.searchsorted(knots_rad, at, side="right") - 1, 0, len(knots_rad) - 2)
+    step = np.diff(knots_rad)
+    slope, chord, x = monotone_slopes(step, value), np.diff(value) / step, at - knots_rad[k]
+    bend = (slope[:-1] + slope[1:] - 2 * chord) / step
+    found = value[k] + x * (slope[k] + x * ((chord - slope[:-1]) / step - bend)[k] + x * x * (bend / step)[k])
+    return np.where(at <= knots_rad[-1], np.maximum(found, 0.0), 0.0)  # rounding falls below a last knot of 0
 
-    found = PchipInterpolator(knots_rad, value, extrapolate=False)(np.clip(np.abs(angle_rad), knots_rad[0], None))
-    return np.maximum(np.nan_to_num(np.asarray(found, dtype=float), nan=0.0), 0.0)  # rounding falls below a last knot of 0
+
+def monotone_slopes(step: Array, value: Array) -> Array:
+    """Slopes (N,) at knots `step` (N - 1,) apart of a cubic that is monotone wherever its values (N,) are.
+
+    Between knots the weighted harmonic mean of the chords on both sides, 0 where they differ in sign; at an end the parabola through
+    three knots, kept from turning. Source: Fritsch and Butland 1984, SIAM J. Scientific and Statistical Computing 5.
+    """
+    chord = np.diff(value) / step
+    if len(chord) == 1:
+        return np.repeat(chord, 2)
+    before, after = 2 * step[1:] + step[:-1], step[1:] + 2 * step[:-1]
+    same = np.sign(chord[:-1]) * np.sign(chord[1:]) > 0
+    left, right = (np.where(same, one, 1.0) for one in (chord[:-1], chord[1:]))
+    inner = np.where(same, (before + after) / (before / left + after / right), 0.0)
+    return np.array([_end_slope(step, chord), *inner, _end_slope(step[::-1], chord[::-1])])
+
+
+def _end_slope(step: Array, chord: Array) -> float:
+    """The slope at a first knot, by the first two chords."""
+    slope = float(((2 * step[0] + step[1]) * chord[0] - step[0] * chord[1]) / (step[0] + step[1]))
+    if np.sign(slope) != np.sign(chord[0]):
+        return 0.0
+    if np.sign(chord[0]) != np.sign(chord[1]) and abs(slope) > 3 * abs(chord[0]):
+        return 3 * float(chord[0])
+    return slope
 
 
 def near_light(x_C: Array, source_C: Array, axis_C: Array) -> tuple[Array, Array, Array]:

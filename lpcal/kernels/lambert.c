@@ -38,61 +38,191 @@ KERNEL void lpcal_weighted(int64_t L, int64_t P, const double *B, const double *
     }
 }
 
-/* Sorts values, and the indices beside them, upwards; of equals the lower index comes first (Shell 1959). */
-static void sort(int64_t count, double *value, int64_t *index) {
-    static const int64_t gaps[] = {1750, 701, 301, 132, 57, 23, 10, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
-        for (int64_t i = gaps[g]; i < count; i++) {
-            double v = value[i];
-            int64_t at = index[i], j = i;
-            for (; j >= gaps[g] && (value[j - gaps[g]] > v || (value[j - gaps[g]] == v && index[j - gaps[g]] > at)); j -= gaps[g]) {
-                value[j] = value[j - gaps[g]];
-                index[j] = index[j - gaps[g]];
+#define LANES 8
+
+/* A number of each of LANES pixels beside each other: what is done to all of them is done at once. */
+typedef double Lanes[LANES];
+
+static inline void exchanged(double *restrict low, double *restrict high) {
+    for (int w = 0; w < LANES; w++) {
+        double one = low[w], other = high[w];
+        low[w] = one < other ? one : other;
+        high[w] = one < other ? other : one;
+    }
+}
+
+/* Sorts rows of numbers upwards, in each lane by itself, by exchanges that are always the same (Batcher 1968, odd-even merging). */
+static void sort(int64_t rows, Lanes *value) {
+    for (int64_t p = 1; p < rows; p *= 2)
+        for (int64_t k = p; k >= 1; k /= 2)
+            for (int64_t j = k % p; j + k < rows; j += 2 * k)
+                for (int64_t i = j; i < j + k && i + k < rows; i++)
+                    if (((i ^ (i + k)) & -(2 * p)) == 0) exchanged(value[i], value[i + k]);
+}
+
+/* What many lights show LANES pixels: light vectors (rows, 3), signals, variances, shares of usable samples, two rows of work space. */
+typedef struct {
+    Lanes *light, *signal, *variance, *usable, *value, *sorted;
+} Many;
+
+/* b of least squares, as `solve` has it, by the products xx xy xz yy yz zz and the right side, and the inverse. */
+static void solved(const Lanes M[6], const Lanes right[3], double singular, Lanes b[3], Lanes inverse[6]) {
+    for (int w = 0; w < LANES; w++) {
+        double xx = M[0][w], xy = M[1][w], xz = M[2][w], yy = M[3][w], yz = M[4][w], zz = M[5][w], trace = xx + yy + zz;
+        double cofactor[6] = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy, xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+        double determinant = xx * cofactor[0] + xy * cofactor[1] + xz * cofactor[2];
+        double factor = determinant > singular * (trace * trace * trace) ? 1.0 / determinant : NAN;
+        for (int i = 0; i < 6; i++) inverse[i][w] = cofactor[i] * factor;
+        b[0][w] = inverse[0][w] * right[0][w] + inverse[1][w] * right[1][w] + inverse[2][w] * right[2][w];
+        b[1][w] = inverse[1][w] * right[0][w] + inverse[3][w] * right[1][w] + inverse[4][w] * right[2][w];
+        b[2][w] = inverse[2][w] * right[0][w] + inverse[4][w] * right[1][w] + inverse[5][w] * right[2][w];
+    }
+}
+
+/* Normal equations with weights (rows) of the samples, for half of the lanes at a time, so that the sums stay in registers. */
+static void summed(int64_t L, const Many *of, const Lanes *weight, Lanes M[6], Lanes right[3]) {
+    for (int half = 0; half < LANES; half += LANES / 2) {
+        double sum[9][LANES / 2] = {{0.0}};
+        for (int64_t k = 0; k < L; k++) {
+            const double *light_x = of->light[3 * k] + half, *light_y = of->light[3 * k + 1] + half, *light_z = of->light[3 * k + 2] + half;
+            const double *signal = of->signal[k] + half, *by = weight[k] + half;
+            for (int w = 0; w < LANES / 2; w++) {
+                double x = by[w] * light_x[w], y = by[w] * light_y[w], z = by[w] * light_z[w];
+                sum[0][w] += x * light_x[w];
+                sum[1][w] += x * light_y[w];
+                sum[2][w] += x * light_z[w];
+                sum[3][w] += y * light_y[w];
+                sum[4][w] += y * light_z[w];
+                sum[5][w] += z * light_z[w];
+                sum[6][w] += x * signal[w];
+                sum[7][w] += y * signal[w];
+                sum[8][w] += z * signal[w];
             }
-            value[j] = v;
-            index[j] = at;
+        }
+        for (int i = 0; i < 9; i++) memcpy((i < 6 ? M[i] : right[i - 6]) + half, sum[i], sizeof sum[i]);
+    }
+}
+
+/* Weights of 1 for the samples whose rank, of `count` (lanes) usable ones by value, is in the middle; of equals the first comes first. */
+static void middle_ranks(int64_t L, const Many *of, const Lanes count, double darkest, double brightest, Lanes *weight) {
+    Lanes first, last, low, high, below_low = {0.0}, below_high = {0.0};
+    for (int w = 0; w < LANES; w++) {
+        first[w] = floor(darkest * count[w]);
+        last[w] = ceil((1.0 - brightest) * count[w]);
+        low[w] = first[w] < last[w] ? of->sorted[(int64_t)first[w]][w] : INFINITY;
+        high[w] = first[w] < last[w] ? of->sorted[(int64_t)last[w] - 1][w] : -INFINITY;
+    }
+    for (int64_t k = 0; k < L; k++)
+        for (int w = 0; w < LANES; w++) {
+            below_low[w] += of->value[k][w] < low[w] ? 1.0 : 0.0;
+            below_high[w] += of->value[k][w] < high[w] ? 1.0 : 0.0;
+        }
+    for (int64_t k = 0; k < L; k++)
+        for (int w = 0; w < LANES; w++) {
+            double v = of->value[k][w], kept = v > low[w] && v < high[w] ? 1.0 : 0.0;
+            double rank = v == low[w] ? below_low[w] : v == high[w] ? below_high[w] : -1.0;
+            below_low[w] += v == low[w] ? 1.0 : 0.0;
+            below_high[w] += v == high[w] ? 1.0 : 0.0;
+            weight[k][w] = rank >= first[w] && rank < last[w] ? 1.0 : kept;
+            weight[k][w] *= of->usable[k][w];
         }
 }
 
-/* b (P, 3), the inverse (P, 3, 3) of its normal matrix and the spread (P) of the residuals of many lights: from the middle of their ranked
-   shadings, then by weights in rounds. `value` and `index` (L) are work space. */
+/* Residuals of b into `value` and, sorted, `sorted`, both infinite where a sample does not count; MAD times their median, 0 where b is unknown. */
+static void spread_of(int64_t L, const Many *of, const Lanes b[3], const Lanes count, double mad, Lanes spread) {
+    for (int64_t k = 0; k < L; k++) {
+        const Lanes *light = of->light + 3 * k;
+        for (int w = 0; w < LANES; w++) {
+            double predicted = light[0][w] * b[0][w] + light[1][w] * b[1][w] + light[2][w] * b[2][w];
+            double residual = fabs(of->signal[k][w] - (predicted < 0.0 ? 0.0 : predicted)); /* NaN stays NaN */
+            of->value[k][w] = of->usable[k][w] > 0.0 ? residual : INFINITY;
+        }
+    }
+    memcpy(of->sorted, of->value, (size_t)L * sizeof(Lanes));
+    sort(L, of->sorted);
+    for (int w = 0; w < LANES; w++) {
+        int64_t number = (int64_t)count[w], upper = number / 2 < L ? number / 2 : L - 1;
+        bool known = number && isfinite(b[0][w]) && isfinite(b[1][w]) && isfinite(b[2][w]);
+        spread[w] = known ? mad * ((of->sorted[(number - 1) / 2][w] + of->sorted[upper][w]) / 2.0) : 0.0;
+    }
+}
+
+/* Which samples (L, P) of some pixels from the first on agree with b, each by no less than the pixel's own spread; the squares of those (P), and
+   of all that count, each `most` at most (P); whether enough agree, and b faces the camera. */
+static void judged(int64_t L, int64_t P, int64_t first, int64_t some, const Many *of, const Lanes b[3], const Lanes spread, double most,
+                   int64_t needed, double facing, const double *rays, bool *agree, double *chi2, double *cost, bool *good) {
+    Lanes within = {0.0}, beyond = {0.0}, number = {0.0};
+    for (int64_t k = 0; k < L; k++) {
+        const Lanes *light = of->light + 3 * k;
+        Lanes close;
+        for (int w = 0; w < LANES; w++) {
+            double predicted = light[0][w] * b[0][w] + light[1][w] * b[1][w] + light[2][w] * b[2][w], least = spread[w] * spread[w];
+            double apart = of->signal[k][w] - (predicted < 0.0 ? 0.0 : predicted); /* NaN stays NaN */
+            double square = apart * apart / (of->variance[k][w] > least ? of->variance[k][w] : least), counts = of->usable[k][w];
+            close[w] = square < most ? counts : 0.0;
+            number[w] += close[w];
+            within[w] += square < most ? counts * square : 0.0;
+            beyond[w] += square < most ? 0.0 : counts * most;
+        }
+        for (int64_t w = 0; w < some; w++) agree[k * P + first + w] = close[w] > 0.0;
+    }
+    for (int64_t w = 0; w < some; w++) {
+        const double *ray = rays + 3 * (first + w), now[3] = {b[0][w], b[1][w], b[2][w]};
+        chi2[first + w] = within[w];
+        cost[first + w] = within[w] + beyond[w];
+        good[w] = number[w] >= (double)needed && dot3(now, ray) < facing * sqrt(dot3(now, now)) * sqrt(dot3(ray, ray));
+    }
+}
+
+/* Estimates of many lights: from the middle of their ranked shadings, then by weights in rounds: what `lpcal_few` finds of few. `work` are
+   8 LANES numbers a light. Twin: surface/normals.py (_many). */
 KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
-                       double darkest, double brightest, double mad, double scale, int64_t rounds, double singular, double *value,
-                       int64_t *index, double *b, double *inverse, double *spread) {
-    for (int64_t p = 0; p < P; p++) {
-        Equations start = {{{0.0}}, {0.0}};
-        int64_t count = 0;
+                       const double *rays, double darkest, double brightest, double mad, double scale, int64_t rounds, double most,
+                       int64_t needed, double facing, double singular, double *work, double *b, bool *agree, double *inverse, double *chi2,
+                       double *cost) {
+    Lanes *rows = (Lanes *)work;
+    double narrow = 1.0 / (scale * scale);
+    Many of = {rows, rows + 3 * L, rows + 4 * L, rows + 5 * L, rows + 6 * L, rows + 7 * L};
+    for (int64_t first = 0; first < P; first += LANES) {
+        Lanes count = {0.0}, now[3], M[6], right[3], inverted[6], middle = {0.0};
+        int64_t some = P - first < LANES ? P - first : LANES;
         for (int64_t k = 0; k < L; k++)
-            if (usable[k * P + p]) {
-                const double *light = B + 3 * (k * P + p);
-                value[count] = signal[k * P + p] / fmax(sqrt(dot3(light, light)), 1e-300);
-                index[count++] = k;
+            for (int w = 0; w < LANES; w++) {
+                int64_t at = k * P + first + (w < some ? w : some - 1);
+                double counts = usable[at] ? 1.0 : 0.0;
+                for (int i = 0; i < 3; i++) of.light[3 * k + i][w] = usable[at] ? B[3 * at + i] : 0.0;
+                of.signal[k][w] = usable[at] ? signal[at] : 0.0;
+                of.variance[k][w] = usable[at] ? variance[at] : 1.0;
+                of.usable[k][w] = counts;
+                count[w] += counts;
             }
-        sort(count, value, index);
-        for (int64_t rank = (int64_t)floor(darkest * (double)count); rank < (int64_t)ceil((1.0 - brightest) * (double)count); rank++)
-            add(&start, B + 3 * (index[rank] * P + p), signal[index[rank] * P + p], 1.0);
-        solve(&start, singular, b + 3 * p, inverse + 9 * p);
+        for (int64_t k = 0; k < L; k++)
+            for (int w = 0; w < LANES; w++) {
+                double x = of.light[3 * k][w], y = of.light[3 * k + 1][w], z = of.light[3 * k + 2][w], size = sqrt(x * x + y * y + z * z);
+                of.value[k][w] = of.usable[k][w] > 0.0 ? of.signal[k][w] / (size > 1e-300 ? size : 1e-300) : INFINITY;
+            }
+        memcpy(of.sorted, of.value, (size_t)L * sizeof(Lanes));
+        sort(L, of.sorted);
+        middle_ranks(L, &of, count, darkest, brightest, of.sorted);
+        summed(L, &of, (const Lanes *)of.sorted, M, right);
+        solved((const Lanes *)M, (const Lanes *)right, singular, now, inverted);
         for (int64_t round = 0; round < rounds; round++) {
-            Equations found = {{{0.0}}, {0.0}};
-            const double *now = b + 3 * p;
-            bool known = isfinite(now[0]) && isfinite(now[1]) && isfinite(now[2]);
-            count = 0;
-            if (known)
-                for (int64_t k = 0; k < L; k++)
-                    if (usable[k * P + p]) {
-                        value[count] = fabs(signal[k * P + p] - fmax(dot3(B + 3 * (k * P + p), now), 0.0));
-                        index[count++] = k;
-                    }
-            sort(count, value, index);
-            double middle = count ? mad * ((value[(count - 1) / 2] + value[count / 2 < L ? count / 2 : L - 1]) / 2.0) : 0.0;
+            spread_of(L, &of, (const Lanes *)now, count, mad, middle);
             for (int64_t k = 0; k < L; k++)
-                if (usable[k * P + p]) {
-                    double s = signal[k * P + p], residual = known ? fabs(s - fmax(dot3(B + 3 * (k * P + p), now), 0.0)) : 0.0;
-                    double own = fmax(variance[k * P + p], middle * middle), q = 1.0 + residual * residual / (scale * scale * own);
-                    add(&found, B + 3 * (k * P + p), s, 1.0 / (q * q) / own);
+                for (int w = 0; w < LANES; w++) {
+                    double least = middle[w] * middle[w], own = of.variance[k][w] > least ? of.variance[k][w] : least;
+                    double residual = of.value[k][w] < INFINITY ? of.value[k][w] : 0.0, width = own + residual * residual * narrow;
+                    of.sorted[k][w] = of.usable[k][w] * own / (width * width); /* 1 / own / (1 + r^2 / (scale^2 own))^2 */
                 }
-            solve(&found, singular, b + 3 * p, inverse + 9 * p);
-            spread[p] = middle;
+            summed(L, &of, (const Lanes *)of.sorted, M, right);
+            solved((const Lanes *)M, (const Lanes *)right, singular, now, inverted);
+        }
+        static const int place[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+        bool good[LANES];
+        judged(L, P, first, some, &of, (const Lanes *)now, middle, most, needed, facing, rays, agree, chi2, cost, good);
+        for (int64_t w = 0; w < some; w++) {
+            for (int i = 0; i < 3; i++) b[3 * (first + w) + i] = good[w] ? now[i][w] : NAN;
+            for (int i = 0; i < 9; i++) inverse[9 * (first + w) + i] = inverted[place[i]][w];
         }
     }
 }

@@ -17,34 +17,49 @@ typedef struct {
 
 typedef struct {
     Shape shape;
-    real *across, *up, *down, *hold, *diagonal, *inverse; /* weights to the next pixel, to those above and below; damping over diagonal */
+    real *across, *up, *down, *hold, *diagonal, *inverse; /* weights to the next pixel, to those above and below; 1 over the diagonal */
     real *x, *y, *right;
 } Level;
 
+/* How the equations are solved. */
 typedef struct {
-    Level *level;
+    double first, second, over, rounding; /* shares of the two steps that smooth, factor of what a coarser level says, raise of its diagonal */
+    int64_t most;                         /* steps of the conjugate gradients */
+} Way;
+
+typedef struct {
+    Level level[64];
     int64_t last, band;
-    double *factor; /* banded Cholesky factor of the coarsest matrix (pixels, band + 1), the diagonal last; NULL: its diagonal alone */
-    real damping, over;
+    double *factor; /* banded Cholesky factor of the coarsest matrix (pixels, band + 1), the diagonal last */
+    bool direct;    /* whether there is one; else the diagonal stands for the coarsest matrix */
+    Way way;
+    double *across, *up, *down, *diagonal, *image, *residual, *direction, *guess, *scratch; /* of the finest, in doubles */
 } Grid;
 
-/* A x of the finest matrix. */
-static void times(Shape shape, const double *across, const double *up, const double *down, const double *diagonal, const double *x,
-                  double *restrict found) {
+/* A x of the finest matrix, and x . A x. */
+static double times(const Grid *grid, const double *x, double *restrict found) {
+    Shape shape = grid->level->shape;
+    double lane[8] = {0.0};
     for (int64_t s = 0; s < shape.stretches; s++) {
         const int32_t *at = shape.stretch + 4 * s;
-        int64_t first = at[0], count = at[1];
-        const double *here = x + first, *above = x + at[2], *below = x + at[3], *next = across + first;
-        for (int64_t k = 0; k < count; k++) {
-            double around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[first + k] * above[k] + down[first + k] * below[k]);
-            found[first + k] = diagonal[first + k] * here[k] - around;
+        int64_t first = at[0], count = at[1], k = 0;
+        const double *here = x + first, *above = x + at[2], *below = x + at[3], *next = grid->across + first, *up = grid->up + first;
+        const double *down = grid->down + first, *diagonal = grid->diagonal + first;
+        double *to = found + first;
+        for (; k < count; k++) {
+            double around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[k] * above[k] + down[k] * below[k]);
+            to[k] = diagonal[k] * here[k] - around;
         }
+        for (k = 0; k + 8 <= count; k += 8)
+            for (int j = 0; j < 8; j++) lane[j] += here[k + j] * to[k + j];
+        for (; k < count; k++) lane[0] += here[k] * to[k];
     }
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-/* y = x + damping / diagonal (right - A x) where `smooth`, else y = right - A x. */
-static void swept(const Level *at, const real *x, const real *right, real *restrict y, real damping, bool smooth) {
-    real keep = 1 - damping;
+/* y = x + share / diagonal (right - A x); a share of 0: y = right - A x. */
+static void swept(const Level *at, const real *x, const real *right, real *restrict y, real share) {
+    real keep = 1 - share;
     for (int64_t s = 0; s < at->shape.stretches; s++) {
         const int32_t *stretch = at->shape.stretch + 4 * s;
         int64_t first = stretch[0], count = stretch[1];
@@ -52,10 +67,10 @@ static void swept(const Level *at, const real *x, const real *right, real *restr
         const real *up = at->up + first, *down = at->down + first, *inverse = at->inverse + first, *given = right + first;
         const real *diagonal = at->diagonal + first;
         real *to = y + first;
-        if (smooth)
+        if (share != 0)
             for (int64_t k = 0; k < count; k++) {
                 real around = (next[k] * here[k + 1] + next[k - 1] * here[k - 1]) + (up[k] * above[k] + down[k] * below[k]);
-                to[k] = keep * here[k] + inverse[k] * (given[k] + around);
+                to[k] = keep * here[k] + share * inverse[k] * (given[k] + around);
             }
         else
             for (int64_t k = 0; k < count; k++) {
@@ -75,10 +90,10 @@ static void upwards(Shape shape, const real *down, real *up) {
     }
 }
 
-static void diagonals(const Level *at, real damping) {
+static void diagonals(const Level *at) {
     for (int64_t i = 0; i < at->shape.pixels; i++) {
         at->diagonal[i] = at->hold[i] + ((at->across[i] + at->across[i - 1]) + (at->up[i] + at->down[i]));
-        at->inverse[i] = damping / at->diagonal[i];
+        at->inverse[i] = 1 / at->diagonal[i];
     }
 }
 
@@ -133,16 +148,17 @@ static bool factored(const Level *at, double *factor, int64_t band, double round
     return true;
 }
 
-static void coarsest(const Grid *grid, const real *right, real *found, double *x) {
+static void coarsest(const Grid *grid) {
     const Level *at = grid->level + grid->last;
     int64_t n = at->shape.pixels, band = grid->band, width = band + 1;
-    if (!grid->factor) {
-        for (int64_t i = 0; i < n; i++) found[i] = right[i] / at->diagonal[i];
+    double *x = grid->scratch;
+    if (!grid->direct) {
+        for (int64_t i = 0; i < n; i++) at->x[i] = at->right[i] / at->diagonal[i];
         return;
     }
     for (int64_t i = 0; i < n; i++) {
         const double *row = grid->factor + i * width;
-        double sum = right[i];
+        double sum = at->right[i];
         for (int64_t j = i < band ? 0 : i - band; j < i; j++) sum -= row[band - (i - j)] * x[j];
         x[i] = sum / row[band];
     }
@@ -150,107 +166,251 @@ static void coarsest(const Grid *grid, const real *right, real *found, double *x
         const double *row = grid->factor + i * width;
         x[i] /= row[band];
         for (int64_t j = i < band ? 0 : i - band; j < i; j++) x[j] -= row[band - (i - j)] * x[i];
-        found[i] = (real)x[i];
+        at->x[i] = (real)x[i];
     }
 }
 
 /* One symmetric V-cycle from zero; what it finds is in the level's x. */
-static void cycle(const Grid *grid, int64_t depth, double *scratch) {
-    Level *at = grid->level + depth;
+static void cycle(const Grid *grid, int64_t depth) {
+    const Level *at = grid->level + depth;
     if (depth == grid->last) {
-        coarsest(grid, at->right, at->x, scratch);
+        coarsest(grid);
         return;
     }
-    Level *under = at + 1;
+    const Level *under = at + 1;
     const int32_t *parent = at->shape.parent;
     int64_t n = at->shape.pixels;
-    for (int64_t i = 0; i < n; i++) at->y[i] = at->inverse[i] * at->right[i];
-    swept(at, at->y, at->right, at->x, grid->damping, true);
-    swept(at, at->x, at->right, at->y, grid->damping, false);
+    real first = (real)grid->way.first, second = (real)grid->way.second, over = (real)grid->way.over;
+    for (int64_t i = 0; i < n; i++) at->y[i] = first * at->inverse[i] * at->right[i];
+    swept(at, at->y, at->right, at->x, second);
+    swept(at, at->x, at->right, at->y, 0);
     memset(under->right, 0, (size_t)under->shape.pixels * sizeof(real));
     for (int64_t i = 0; i < n; i++) under->right[parent[i]] += at->y[i];
-    cycle(grid, depth + 1, scratch);
-    for (int64_t i = 0; i < n; i++) at->x[i] += grid->over * under->x[parent[i]];
-    swept(at, at->x, at->right, at->y, grid->damping, true);
-    swept(at, at->y, at->right, at->x, grid->damping, true);
+    cycle(grid, depth + 1);
+    for (int64_t i = 0; i < n; i++) at->x[i] += over * under->x[parent[i]];
+    swept(at, at->x, at->right, at->y, second);
+    swept(at, at->y, at->right, at->x, first);
 }
 
-/* Always summed in the same eight lanes. */
+/* Sums are always made in the same eight lanes. */
+static double sum_of(const double lane[8]) { return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7])); }
+
 static double dot(int64_t n, const double *a, const double *b) {
     double lane[8] = {0.0};
     int64_t i = 0;
     for (; i + 8 <= n; i += 8)
         for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];
     for (; i < n; i++) lane[0] += a[i] * b[i];
-    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+    return sum_of(lane);
 }
 
-/* x of A x = right, from x, until the residual is no longer than `enough`. `sizes` (levels, 2): pixels and stretches of each; `across` and
-   `down` (pixels) are the finest's weights, `band` is how far apart neighbours of the coarsest are numbered at most, -1 where there are too
-   many. `work` is zero: eight times the finest's pixels plus two, and (band + 2) times the coarsest's; `singles` likewise: nine times the
-   pixels plus two of all levels. */
-KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *hold,
-                            const double *across, const double *down, const double *right, double *x, double *work, float *singles,
-                            int64_t band, double enough, int64_t most, double damping, double over, double rounding) {
-    Level level[64];
-    int64_t n = sizes[0];
-    double *vector[8];
-    for (int k = 0; k < 8; k++, work += n + 2) vector[k] = work + 1;
-    double *next = vector[0], *above = vector[1], *below = vector[2], *diagonal = vector[3];
-    double *image = vector[4], *residual = vector[5], *direction = vector[6], *guess = vector[7], before = 1.0;
+static double dot_single(int64_t n, const double *a, const real *b) {
+    double lane[8] = {0.0};
+    int64_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];
+    for (; i < n; i++) lane[0] += a[i] * b[i];
+    return sum_of(lane);
+}
+
+/* Divides the work space among the levels: `work` of zeros, eight times the finest's pixels plus two, and (band + 2) times the coarsest's;
+   `singles` likewise, nine times the pixels plus two of all levels. `sizes` (levels, 2) are pixels and stretches of each. */
+static void laid_out(Grid *grid, int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, double *work,
+                     real *singles, int64_t band, Way way) {
+    double **of[8] = {&grid->across, &grid->up, &grid->down, &grid->diagonal, &grid->image, &grid->residual, &grid->direction, &grid->guess};
+    for (int k = 0; k < 8; k++, work += sizes[0] + 2) *of[k] = work + 1;
     for (int64_t l = 0; l < levels; l++) {
         int64_t pixels = sizes[2 * l];
         real *own[9];
         for (int k = 0; k < 9; k++, singles += pixels + 2) own[k] = singles + 1;
         Shape shape = {pixels, sizes[2 * l + 1], parents, stretches};
-        level[l] = (Level){shape, own[0], own[1], own[2], own[3], own[4], own[5], own[6], own[7], own[8]};
+        grid->level[l] = (Level){shape, own[0], own[1], own[2], own[3], own[4], own[5], own[6], own[7], own[8]};
         parents += pixels;
         stretches += 4 * shape.stretches;
-        if (l == 0) {
-            for (int64_t i = 0; i < n; i++) {
-                level->hold[i] = (real)hold[i];
-                level->across[i] = (real)across[i];
-                level->down[i] = (real)down[i];
-            }
-            upwards(shape, level->down, level->up);
-        } else
-            joined(level + l - 1, level + l);
-        diagonals(level + l, (real)damping);
     }
-    Shape shape = level->shape;
+    grid->last = levels - 1;
+    grid->band = band;
+    grid->scratch = work;
+    grid->factor = work + sizes[2 * levels - 2];
+    grid->way = way;
+}
+
+/* The equations whose weights are in the grid's `across` and `down`, with `hold` on the diagonal besides, on every level. */
+static void set_up(Grid *grid, const double *hold) {
+    Level *finest = grid->level;
+    Shape shape = finest->shape;
     for (int64_t s = 0; s < shape.stretches; s++) {
         const int32_t *at = shape.stretch + 4 * s;
         if (at[3] != at[0])
-            for (int64_t k = 0; k < at[1]; k++) above[at[3] + k] = down[at[0] + k];
+            for (int64_t k = 0; k < at[1]; k++) grid->up[at[3] + k] = grid->down[at[0] + k];
     }
-    for (int64_t i = 0; i < n; i++) {
-        next[i] = across[i];
-        below[i] = down[i];
-        guess[i] = x[i];
+    for (int64_t i = 0; i < shape.pixels; i++) {
+        grid->diagonal[i] = hold[i] + ((grid->across[i] + grid->across[i - 1]) + (grid->up[i] + grid->down[i]));
+        finest->hold[i] = (real)hold[i];
+        finest->across[i] = (real)grid->across[i];
+        finest->down[i] = (real)grid->down[i];
     }
-    for (int64_t i = 0; i < n; i++) diagonal[i] = hold[i] + ((next[i] + next[i - 1]) + (above[i] + below[i]));
-    int64_t size = sizes[2 * levels - 2];
-    Grid grid = {level, levels - 1, band, NULL, (real)damping, (real)over};
-    if (band >= 0 && factored(level + levels - 1, work + size, band, rounding)) grid.factor = work + size;
-    times(shape, next, above, below, diagonal, guess, image);
+    upwards(shape, finest->down, finest->up);
+    diagonals(finest);
+    for (Level *level = finest + 1; level <= finest + grid->last; level++) {
+        joined(level - 1, level);
+        diagonals(level);
+    }
+    grid->direct = grid->band >= 0 && factored(finest + grid->last, grid->factor, grid->band, grid->way.rounding);
+}
+
+/* From the grid's guess to a residual no longer than `enough`. */
+static void improved(Grid *grid, const double *right, double enough) {
+    int64_t n = grid->level->shape.pixels;
+    double *residual = grid->residual, *direction = grid->direction, *image = grid->image, *guess = grid->guess, before = 1.0;
+    real *asked = grid->level->right, *answer = grid->level->x;
+    times(grid, guess, image);
     for (int64_t i = 0; i < n; i++) residual[i] = right[i] - image[i];
-    double length = sqrt(dot(n, residual, residual));
-    for (int64_t step = 0; step < most && !(length <= enough); step++) {
-        for (int64_t i = 0; i < n; i++) level->right[i] = (real)(residual[i] / length);
-        cycle(&grid, 0, work);
-        for (int64_t i = 0; i < n; i++) image[i] = level->x[i];
-        double now = dot(n, residual, image), turn = step ? now / before : 0.0;
-        for (int64_t i = 0; i < n; i++) direction[i] = image[i] + turn * direction[i];
-        times(shape, next, above, below, diagonal, direction, image);
-        double by = now / dot(n, direction, image);
-        for (int64_t i = 0; i < n; i++) {
+    double length = sqrt(dot(n, residual, residual)), unit = 1.0 / length; /* singles hold what is about one */
+    for (int64_t i = 0; i < n; i++) asked[i] = (real)(residual[i] * unit);
+    for (int64_t step = 0; step < grid->way.most && !(length <= enough); step++) {
+        cycle(grid, 0);
+        double now = dot_single(n, residual, answer), turn = step ? now / before : 0.0;
+        for (int64_t i = 0; i < n; i++) direction[i] = answer[i] + turn * direction[i];
+        double by = now / times(grid, direction, image), lane[8] = {0.0};
+        int64_t i = 0;
+        before = now;
+        unit = 1.0 / length; /* the answer to any multiple of the residual serves */
+        for (; i + 8 <= n; i += 8)
+            for (int j = 0; j < 8; j++) {
+                guess[i + j] += by * direction[i + j];
+                residual[i + j] -= by * image[i + j];
+                asked[i + j] = (real)(residual[i + j] * unit);
+                lane[j] += residual[i + j] * residual[i + j];
+            }
+        for (; i < n; i++) {
             guess[i] += by * direction[i];
             residual[i] -= by * image[i];
+            asked[i] = (real)(residual[i] * unit);
+            lane[0] += residual[i] * residual[i];
         }
-        before = now;
-        length = sqrt(dot(n, residual, residual));
+        length = sqrt(sum_of(lane));
     }
-    memcpy(x, guess, (size_t)n * sizeof *x);
+}
+
+/* x of A x = right, from x, until the residual is no longer than `enough`. `across` and `down` (pixels) are the finest's weights, `band` is how
+   far apart neighbours of the coarsest are numbered at most, -1 where there are too many; the rest as `laid_out` has it. */
+KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *hold,
+                            const double *across, const double *down, const double *right, double *x, double *work, float *singles,
+                            int64_t band, double enough, int64_t most, double first, double second, double over, double rounding) {
+    Grid grid;
+    size_t bytes = (size_t)sizes[0] * sizeof *x;
+    laid_out(&grid, levels, sizes, parents, stretches, work, singles, band, (Way){first, second, over, rounding, most});
+    memcpy(grid.across, across, bytes);
+    memcpy(grid.down, down, bytes);
+    memcpy(grid.guess, x, bytes);
+    set_up(&grid, hold);
+    improved(&grid, right, enough);
+    memcpy(x, grid.guess, bytes);
+}
+
+/* The middle of values, the mean of the two middle ones where their number is even; they change places (Hoare 1961, FIND). */
+static double median(int64_t count, double *value) {
+    int64_t low = 0, high = count - 1, middle = count / 2;
+    while (low < high) {
+        double pivot = value[(low + high) / 2];
+        int64_t i = low, j = high;
+        while (i <= j) {
+            while (value[i] < pivot) i++;
+            while (pivot < value[j]) j--;
+            if (i <= j) {
+                double other = value[i];
+                value[i++] = value[j];
+                value[j--] = other;
+            }
+        }
+        if (middle <= j) high = j;
+        else if (middle >= i) low = i;
+        else break;
+    }
+    if (count % 2) return value[middle];
+    double below = value[0];
+    for (int64_t i = 1; i < middle; i++) below = value[i] > below ? value[i] : below;
+    return (below + value[middle]) / 2.0;
+}
+
+/* Edges to the right and downwards at their first pixels: their steps, the reciprocals of their sigmas (0: no edge), their weights. */
+typedef struct {
+    const double *step[2];
+    double *closeness[2], *weight[2], *residual;
+} Edges;
+
+/* Weights by how well x keeps the steps: (C^2 / (C^2 + e^2))^2, C no less than `spread` medians of abs(e). */
+static void weighed(const Edges *edges, Shape shape, const double *x, double robust, double spread, double least) {
+    int64_t count = 0, close = 0;
+    double narrow = robust / spread;
+    for (int way = 0; way < 2; way++)
+        for (int64_t s = 0; s < shape.stretches; s++) {
+            const int32_t *at = shape.stretch + 4 * s;
+            const double *here = x + at[0], *there = x + (way ? at[3] : at[0] + 1), *step = edges->step[way] + at[0];
+            const double *closeness = edges->closeness[way] + at[0];
+            double *weight = edges->weight[way] + at[0];
+            for (int64_t k = 0; k < at[1]; k++) weight[k] = fabs((there[k] - here[k] - step[k]) * closeness[k]);
+            for (int64_t k = 0; k < at[1]; k++)
+                if (closeness[k] > 0) {
+                    edges->residual[count++] = weight[k];
+                    close += weight[k] <= narrow;
+                }
+        }
+    double scale = 2 * close > count + 1 ? robust : fmax(robust, spread * (count ? median(count, edges->residual) : 0.0));
+    double square = scale * scale;
+    for (int way = 0; way < 2; way++)
+        for (int64_t i = 0; i < shape.pixels; i++) {
+            double share = square / (square + edges->weight[way][i] * edges->weight[way][i]);
+            edges->weight[way][i] = share * share + least;
+        }
+}
+
+/* Depth x (pixels) whose differences keep steps by their sigmas (0: no edge), robustly, tied to each pixel's optimum by its curvature times
+   strengths in turn; and the last weights of the edges, one where they are `fresh`, else by x. All edges are given at their first pixels, those
+   to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: surface/integrate.py (integrate). */
+KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *step,
+                             const double *sigma, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
+                             const double *strength, double roughly, double finely, double robust, double spread, double least, double *x,
+                             double *weight, double *work, float *singles, int64_t band, int64_t most, double first, double second,
+                             double over, double rounding) {
+    Grid grid;
+    int64_t n = sizes[0], room = n + 2;
+    Edges edges = {{step, step + n}, {work, work + room}, {weight, weight + n}, work + 2 * room};
+    double *pull[2] = {work + 4 * room + 1, work + 5 * room + 1}, *right = work + 6 * room;
+    laid_out(&grid, levels, sizes, parents, stretches, work + 7 * room, singles, band, (Way){first, second, over, rounding, most});
+    Shape shape = grid.level->shape;
+    for (int way = 0; way < 2; way++)
+        for (int64_t i = 0; i < n; i++) {
+            edges.closeness[way][i] = sigma[way * n + i] > 0 ? 1.0 / sigma[way * n + i] : 0.0;
+            edges.weight[way][i] = 1.0;
+        }
+    double *finest[2] = {grid.across, grid.down}, *hold = grid.direction, *ones = grid.image;
+    memcpy(grid.guess, x, (size_t)n * sizeof *x);
+    if (!fresh) weighed(&edges, shape, grid.guess, robust, spread, least);
+    for (int64_t k = 0; k < count; k++) {
+        for (int way = 0; way < 2; way++)
+            for (int64_t i = 0; i < n; i++) {
+                finest[way][i] = edges.weight[way][i] * (edges.closeness[way][i] * edges.closeness[way][i]);
+                pull[way][i] = finest[way][i] * edges.step[way][i];
+            }
+        for (int64_t i = 0; i < n; i++) {
+            hold[i] = curvature[i] * strength[k];
+            right[i] = hold[i] * optimum[i] + pull[0][i - 1] - pull[0][i] - pull[1][i];
+            ones[i] = 1.0;
+        }
+        for (int64_t s = 0; s < shape.stretches; s++) {
+            const int32_t *at = shape.stretch + 4 * s;
+            if (at[3] != at[0])
+                for (int64_t j = 0; j < at[1]; j++) right[at[3] + j] += pull[1][at[0] + j];
+        }
+        double mean = dot(n, ones, grid.guess) / (double)n;
+        for (int64_t i = 0; i < n; i++) ones[i] = right[i] - mean * hold[i];
+        set_up(&grid, hold);
+        improved(&grid, right, (k + 1 < count ? roughly : finely) * sqrt(dot(n, ones, ones)) + 1e-300);
+        weighed(&edges, shape, grid.guess, robust, spread, least);
+    }
+    memcpy(x, grid.guess, (size_t)n * sizeof *x);
 }
 
 /* right - A x of blocks (P, 3, 3) at pixels and links between neighbours; vectors (P, 3). */

@@ -50,30 +50,59 @@ KERNEL void lpcal_hidden(int64_t count, const double *from, const double *to, in
         found[p] = stands_between(from + 3 * p, to + 3 * p, steps, height, width, front, pixel_of_ray, tolerance, thickness);
 }
 
-/* J (lights, count, 3) at patches of place x and normal n, of the light of others with place, normal, area and signal (others, lights). */
+#define SOME 64
+
+/* Places and normals of patches, each coordinate of all patches by itself. */
+typedef struct {
+    const double *x[3], *n[3];
+} Facing;
+
+/* Which of some patches (at most SOME, from the first on) face a place of normal n, and it them, by more than a cosine: their numbers. */
+static int64_t facing(const Facing *of, int64_t first, int64_t some, const double here[3], const double n[3], double grazing, int64_t *found) {
+    bool face[SOME];
+    double least = grazing * grazing;
+    int64_t count = 0;
+    for (int64_t j = 0; j < some; j++) {
+        int64_t q = first + j;
+        double x = of->x[0][q] - here[0], y = of->x[1][q] - here[1], z = of->x[2][q] - here[2];
+        double square = fmax(x * x + y * y + z * z, 1e-18) * least;
+        double arriving = x * n[0] + y * n[1] + z * n[2], leaving = -(x * of->n[0][q] + y * of->n[1][q] + z * of->n[2][q]);
+        face[j] = (arriving > 0.0) & (leaving > 0.0) & (arriving * arriving > square) & (leaving * leaving > square);
+    }
+    for (int64_t j = 0; j < some; j++) {
+        found[count] = first + j;
+        count += face[j];
+    }
+    return count;
+}
+
+/* J (lights, count, 3) at patches of place x and normal n, from the first on up to the last, of the light of others with place and normal
+   (3, others), area and signal (others, lights). */
 KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const double *x, const double *n, const double *other_x,
                            const double *other_n, const double *area, const double *signal, double *J, int64_t height, int64_t width,
                            const double *front, const double *pixel_of_ray, int64_t steps, double tolerance, double thickness, double grazing,
-                           double off) {
-    for (int64_t p = 0; p < count; p++)
-        for (int64_t q = 0; q < others; q++) {
-            const double *here = x + 3 * p, *there = other_x + 3 * q;
-            double way[3], e[3], from[3], to[3];
-            for (int i = 0; i < 3; i++) way[i] = there[i] - here[i];
-            double square = fmax(dot3(way, way), 1e-18), far = sqrt(square);
-            for (int i = 0; i < 3; i++) e[i] = way[i] / far;
-            double leaving = -dot3(e, other_n + 3 * q);
-            double arriving = dot3(e, n + 3 * p);
-            if (!(arriving > grazing && leaving > grazing)) continue;
-            double share = fmin(off * here[2] / far, 0.5);
-            for (int i = 0; i < 3; i++) {
-                from[i] = here[i] + share * way[i];
-                to[i] = there[i] - share * way[i];
+                           double off, int64_t first, int64_t last) {
+    Facing of = {{other_x, other_x + others, other_x + 2 * others}, {other_n, other_n + others, other_n + 2 * others}};
+    for (int64_t p = first; p < last; p++)
+        for (int64_t begin = 0; begin < others; begin += SOME) {
+            const double *here = x + 3 * p;
+            int64_t seen[SOME], some = facing(&of, begin, others - begin < SOME ? others - begin : SOME, here, n + 3 * p, grazing, seen);
+            for (int64_t j = 0; j < some; j++) {
+                int64_t q = seen[j];
+                double there[3] = {of.x[0][q], of.x[1][q], of.x[2][q]}, way[3], from[3], to[3];
+                for (int i = 0; i < 3; i++) way[i] = there[i] - here[i];
+                double square = fmax(dot3(way, way), 1e-18), far = sqrt(square), share = fmin(off * here[2] / far, 0.5);
+                for (int i = 0; i < 3; i++) {
+                    from[i] = here[i] + share * way[i];
+                    to[i] = there[i] - share * way[i];
+                }
+                if (stands_between(from, to, steps, height, width, front, pixel_of_ray, tolerance, thickness)) continue;
+                double leaving = -(way[0] * of.n[0][q] + way[1] * of.n[1][q] + way[2] * of.n[2][q]);
+                double factor = leaving * area[q] / ((PI * square + area[q]) * square); /* the way's length is in it twice */
+                for (int i = 0; i < 3; i++) way[i] *= factor;
+                for (int64_t k = 0; k < lights; k++)
+                    for (int i = 0; i < 3; i++) J[3 * (k * count + p) + i] += signal[q * lights + k] * way[i];
             }
-            if (stands_between(from, to, steps, height, width, front, pixel_of_ray, tolerance, thickness)) continue;
-            double factor = leaving * area[q] / (PI * square + area[q]);
-            for (int64_t k = 0; k < lights; k++)
-                for (int i = 0; i < 3; i++) J[3 * (k * count + p) + i] += signal[q * lights + k] * factor * e[i];
         }
 }
 

@@ -165,11 +165,11 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
     with cores(wishes.jobs):
         distant = made(mask=surface.mask, method="distant") if document["flatness"] and both_ways and raw.full is None else None
-    document |= {} if distant is None else {"flatness_distant": flatness(distant)}
-    document["made_from"] = digest
+    document |= ({} if distant is None else {"flatness_distant": flatness(distant)}) | {"made_from": digest}
     progress(f"{task.name}: writing", 0, 1)
-    page = render(surface, calibration, distant) if "page" in wishes.outputs else None
-    write_surface(task.target, surface, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
+    page = partial(render, surface, calibration, distant)
+    with cores(wishes.jobs):
+        write_surface(task.target, surface, document, page, wishes.outputs, placed_mesh=wishes.placed_mesh)
     progress(f"{task.name}: writing", 1, 1)
     return document
 

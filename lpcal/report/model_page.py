@@ -19,9 +19,8 @@ import numpy as np
 from lpcal import __version__
 from lpcal.geometry.arrays import Array
 from lpcal.records.model import Missing, NextStop, ObjectModel, RigEvidence, ViewInModel
-from lpcal.report.page import script_json
 from lpcal.report.page_data import ModelData, ViewData
-from lpcal.report.templates import environment, packed_three
+from lpcal.report.templates import environment, packed_three, script_json
 
 STEPS = 16.0
 """Steps of a byte for a factor of two of a sigma: 4 % each."""

@@ -147,7 +147,7 @@ def bands(surface: Surface, window: tuple[slice, slice], step: int, scales: Scal
         part = reduced(surface, (slice(top, min(top + height, rows.stop)), columns), step)
         planes: Planes = [np.asarray(np.round(c * (2**FINE_BITS - 1)), dtype=np.uint16) for c in _octahedral(part.normals)]
         planes += [_code(part.depth, part.mask, scales), *_albedo(part.albedo, part.mask, scales), part.breaks]
-        found.append((part.mask.shape[0], deflate(planes, level=6)))
+        found.append((part.mask.shape[0], deflate(planes)))
     return found
 
 
@@ -186,7 +186,7 @@ def _byte(value: Any, mask: Mask) -> npt.NDArray[np.uint8]:
     return np.asarray(np.where(mask, np.clip(np.round(np.nan_to_num(value)), 0, 255), 0), dtype=np.uint8)
 
 
-def deflate(planes: Planes, level: int = 9) -> str:
+def deflate(planes: Planes, level: int = 6) -> str:
     """Planes as row differences, deflated, in base64."""
     packer, parts = zlib.compressobj(level), []
     for plane in planes:

@@ -10,10 +10,8 @@ from P to the light, v from P to the camera. So a sphere's own direction l is co
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -30,7 +28,7 @@ from lpcal.report.rig_report import KINDS, LACKING, OPTIONAL, PARTS, RigReport, 
 from lpcal.report.scene import layers_of, rig_caption, rig_scene, room_scene
 from lpcal.report.scene_items import LineScene
 from lpcal.report.surface_sections import surface_section
-from lpcal.report.templates import environment, packed_three
+from lpcal.report.templates import environment, packed_three, script_json
 from lpcal.report.verdict import headline, verdicts
 from lpcal.report.wording import NOTHING, fixed, listed, number, plural, sigma_of
 
@@ -71,11 +69,6 @@ def render(report: RigReport, stamp: str = "") -> str:
             missing=_missing(report),
         )
     )
-
-
-def script_json(value: Any) -> str:
-    """JSON that may stand inside a script element."""
-    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def _script(scene: LineScene | None) -> str | None:

@@ -17,10 +17,9 @@ from lpcal.records.pictures import data_uri, png
 from lpcal.records.surface import Surface
 from lpcal.report import packing
 from lpcal.report.distant_shape import bend_of
-from lpcal.report.page import script_json
 from lpcal.report.page_data import FullSize, LightData, RelightData
 from lpcal.report.pictures import bounds, shaded, shrunk
-from lpcal.report.templates import environment, packed_three
+from lpcal.report.templates import environment, packed_three, script_json
 
 POSTER_PX = 420
 """Largest side of the still picture that stands in the page until it draws."""

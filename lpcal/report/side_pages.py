@@ -15,12 +15,11 @@ from lpcal import __version__
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 from lpcal.records.comparison import CalibrationChange
-from lpcal.report.page import script_json
 from lpcal.report.page_data import MarkData, WatchData
 from lpcal.report.rig_report import RigReport
 from lpcal.report.scene import rig_scene
 from lpcal.report.scene_items import LineItem, LineScene
-from lpcal.report.templates import environment, packed_three
+from lpcal.report.templates import environment, packed_three, script_json
 
 DIFF_MARK = '<meta name="lpcal-page" content="diff">'
 """What marks the page as lpcal's."""

@@ -26,8 +26,8 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.surface import bands, sides
 from lpcal.surface import relief as body
-from lpcal.surface import sides
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.sight import Indices, Lit, Sight
@@ -134,15 +134,15 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
         at_patches = at_patches + _received(own, around.seen, relief)
         beyond = around.beyond(relief, lights)
     inside = raster.blurred(seen.mask.astype(np.float32), size / 2, "constant")[seen.mask]
-    blank = np.zeros(seen.mask.shape, np.float32)
 
     def spread(values: Array) -> Array:
         """Values (P,) of the patches' values (Q,)."""
+        blank = np.zeros(seen.mask.shape, np.float32)
         blank[seen.mask] = values[of_pixel]
         return np.asarray(raster.blurred(blank, size / 2, "constant")[seen.mask] / np.maximum(inside, 1e-6))
 
     def at_pixels(values: Array) -> Array:
-        return np.stack([np.stack([spread(one) for one in of_light.T], axis=-1) for of_light in values])
+        return np.stack(bands.shared(lambda of_light: np.stack([spread(one) for one in of_light.T], axis=-1), values))
 
     out_of_sight = None if beyond is None else at_pixels(_received(own, beyond, relief))
     return Thrown(at_pixels(at_patches), at_pixels(by_unseen), out_of_sight, spread(unseen))
@@ -233,9 +233,13 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
     """J (L, Q, 3) at patches, of the light of others."""
     found = np.zeros((len(of.signal), *at.x_C.shape))
     if run := kernel("received"):
-        patches = [np.ascontiguousarray(one) for one in (at.x_C, at.n, of.x_C, of.n, of.area, of.signal.T)]
+        patches = [np.ascontiguousarray(one) for one in (at.x_C, at.n, of.x_C.T, of.n.T, of.area, of.signal.T)]
         between = (*relief.front.shape, relief.front, relief.pixel_of_ray, STEPS, body.TOLERANCE, body.THICKNESS)
-        run(*found.shape[:2], len(of.x_C), *patches, found, *between, GRAZING, OFF)
+
+        def of_band(some: slice) -> None:
+            run(*found.shape[:2], len(of.x_C), *patches, found, *between, GRAZING, OFF, some.start, some.stop)
+
+        bands.each(len(at.x_C), max(1, bands.SAMPLES // BLOCK), of_band)
         return found
     for first in range(0, len(at.x_C), BLOCK):
         some = slice(first, first + BLOCK)

@@ -15,12 +15,14 @@ Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J. Computer Visi
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface import multigrid
 from lpcal.surface.multigrid import Matrix, Pyramid
 from lpcal.surface.sight import Indices
@@ -78,6 +80,12 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
     With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is uncertain where
     the surface bends, and where one of the two is the rim of something in front.
     """
+    if central and (run := kernel("steps")):
+        found = np.empty(len(grid.a)), np.empty(len(grid.a))
+        tilt2 = np.zeros(len(normals)) if tilt_rad is None else np.ascontiguousarray(tilt_rad**2, float)
+        given = (np.ascontiguousarray(one, float) for one in (normals, rays_C))
+        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, STEEPEST, *found)
+        return found
     mean = normals[grid.a] + normals[grid.b]
     mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
     error = np.full(len(grid.a), NORMAL_ERROR_RAD)
@@ -100,14 +108,33 @@ def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
 
 def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
     """u (P,) and the final weights w (edges,); a jump is an edge of little weight."""
-    u = start
     strengths = GRADUATION if graduated else AGAIN
+    if run := kernel("integrated"):
+        return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
+    u = start
     weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
     for k, strength in enumerate(strengths):
         A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
         u = multigrid.solve(A, right, u, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
         weight = _weight(grid, u, step, sigma)
     return u, weight
+
+
+def _integrated(
+    run: Callable[..., None], grid: Grid, step: Array, sigma: Array, own: Own, start: Array, strengths: Sequence[float], *, fresh: bool
+) -> tuple[Array, Array]:
+    """`integrate` by its kernel."""
+    finest, (sizes, parents, stretches, band) = grid.pyramid.levels[0], grid.pyramid.laid_out
+    by_pixel = [np.stack(finest.by_pixel(one)) for one in (step, sigma)]
+    u, weight = np.array(start, float), np.empty_like(by_pixel[0])
+    work, singles = grid.pyramid.work_space(7)
+    given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
+    robustly = (ROUGHLY, FINELY, ROBUST, SPREAD, LEAST_WEIGHT)
+    way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, multigrid.ROUNDING)
+    levels = (len(sizes), sizes, parents, stretches)
+    run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, work, singles, band, *way)
+    first = finest.to_the_right
+    return u, np.concatenate([weight[0, grid.a[:first]], weight[1, grid.a[first:]]])
 
 
 def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:

@@ -12,6 +12,7 @@ Fischler and Bolles 1981 (consensus), Wu et al. 2010 and Hernandez et al. 2008 (
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -36,6 +37,8 @@ DARKEST, BRIGHTEST = 0.3, 0.3
 WEIGHT_ROUNDS = 6
 SCALE = 1.5
 MAD = 1.4826
+MANY_LANES = 8
+"""Pixels that the kernel of many lights works on at once."""
 FACING = -0.02
 """n . v of a pixel that the camera can see (v the unit ray) is under this."""
 
@@ -88,7 +91,9 @@ def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
 
 def variances(sight: Sight, gloss: Array | None = None) -> Array:
     """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks; a share of the gloss counts as doubt."""
-    variance = sight.sigma**2 + (MODEL * sight.signal) ** 2
+    variance = MODEL * sight.signal
+    variance *= variance
+    variance += sight.sigma**2
     return variance if gloss is None else variance + (DOUBT * gloss) ** 2
 
 
@@ -140,12 +145,7 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The best three, then least squares on the inliers, in rounds."""
     if run := kernel("few"):
-        (L, P), given = signal.shape, (np.ascontiguousarray(one, float) for one in (B, signal))
-        rest = (np.ascontiguousarray(one, float) for one in (variance, rays_C))
-        fixed = (OUTLIER**2, ROUNDS, LEAST, FACING, lambert.SINGULAR)
-        found = Estimate(np.empty((P, 3)), np.empty((L, P), bool), np.empty((P, 3, 3)), np.empty(P), np.empty(P))
-        run(L, P, *given, np.ascontiguousarray(usable), *rest, *fixed, found.b, found.inliers, found.covariance, found.chi2, found.cost)
-        return found
+        return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER**2, ROUNDS, LEAST, FACING, lambert.SINGULAR))
     b = _best_three(signal, B, usable, variance)
     inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
     for _ in range(ROUNDS):
@@ -156,19 +156,9 @@ def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) 
 
 def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
-    b, covariance, spread = _weighted_in_rounds(signal, B, usable, variance)
-    return _judged(signal, B, usable, np.maximum(variance, spread**2), rays_C, b, covariance)
-
-
-def _weighted_in_rounds(signal: Array, B: Array, usable: Mask, variance: Array) -> tuple[Array, Array, Array]:
-    """b (P, 3), its covariance (P, 3, 3) and the spread (P,) of many lights' residuals."""
     if run := kernel("many"):
-        L, P = signal.shape
-        b, covariance, spread = np.empty((P, 3)), np.empty((P, 3, 3)), np.empty(P)
-        given = (np.ascontiguousarray(one, float) for one in (B, signal))
-        fixed = (DARKEST, BRIGHTEST, MAD, SCALE, WEIGHT_ROUNDS, lambert.SINGULAR, np.empty(L), np.empty(L, np.int64))
-        run(L, P, *given, np.ascontiguousarray(usable), np.ascontiguousarray(variance, float), *fixed, b, covariance, spread)
-        return b, covariance, spread
+        ranks, ends = (DARKEST, BRIGHTEST, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER**2, LEAST, FACING, lambert.SINGULAR)
+        return _run(run, (signal, B, usable, variance, rays_C), (*ranks, *ends, np.empty(8 * MANY_LANES * len(signal))))
     b = _middle_of_the_ranks(signal, B, usable)
     for _ in range(WEIGHT_ROUNDS):
         residual = np.where(usable, np.abs(signal - lambert.predicted(B, b)), np.nan)
@@ -176,7 +166,17 @@ def _weighted_in_rounds(signal: Array, B: Array, usable: Mask, variance: Array) 
         own = np.maximum(variance, spread**2)
         square = np.nan_to_num(residual) ** 2 / (SCALE**2 * own)
         b, covariance = lambert.weighted(B, signal, usable / (1 + square) ** 2 / own)
-    return b, covariance, spread
+    return _judged(signal, B, usable, np.maximum(variance, spread**2), rays_C, b, covariance)
+
+
+def _run(run: Callable[..., None], samples: tuple[Array, Array, Mask, Array, Array], fixed: tuple[object, ...]) -> Estimate:
+    """The estimate by a kernel, of samples and by its constants."""
+    signal, B, usable, variance, rays_C = samples
+    (L, P), given = signal.shape, (np.ascontiguousarray(one, float) for one in (B, signal))
+    rest = (np.ascontiguousarray(one, float) for one in (variance, rays_C))
+    found = Estimate(np.empty((P, 3)), np.empty((L, P), bool), np.empty((P, 3, 3)), np.empty(P), np.empty(P))
+    run(L, P, *given, np.ascontiguousarray(usable), *rest, *fixed, found.b, found.inliers, found.covariance, found.chi2, found.cost)
+    return found
 
 
 def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array, b: Array, covariance: Array) -> Estimate:

@@ -17,7 +17,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import bounce, distance, field, normals, pieces, sight
+from lpcal.surface import bands, bounce, distance, field, normals, pieces, sight
 from lpcal.surface.crop import Crop
 from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
@@ -221,14 +221,18 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), SLANTED)
     dark = ~(seen.signal > SHADED * expected)
     by_object, by_any = np.zeros_like(dark), np.zeros_like(dark)
-    for k, light in enumerate(scene.lights):
-        if light.source_C is None:
-            continue
+
+    def of(k: int) -> None:
+        source_C = scene.lights[k].source_C
+        if source_C is None:
+            return
         maybe = np.flatnonzero(dark[k])
-        by_object[k, maybe] = relief.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
+        by_object[k, maybe] = relief.hidden_from(x_C[maybe], source_C, SHADOW_STEPS)
         by_any[k] = by_object[k]
         if scene.around is not None:
-            by_any[k, maybe] |= scene.around.front.hidden_from(x_C[maybe], light.source_C, SHADOW_STEPS)
+            by_any[k, maybe] |= scene.around.front.hidden_from(x_C[maybe], source_C, SHADOW_STEPS)
+
+    bands.shared(of, range(len(scene.lights)))
     return by_object, by_any
 
 

@@ -24,6 +24,7 @@ from lpcal.surface import (
     field,
     flats,
     gloss,
+    integrate,
     layers,
     multigrid,
     normals,
@@ -140,8 +141,9 @@ def many_labels(rng: np.random.Generator) -> Array:
 
 
 def many(rng: np.random.Generator) -> Array:
-    found = [part for lights in (9, 24, 96) for part in normals._weighted_in_rounds(*shading(rng, lights, 200))]
-    return np.concatenate([part.ravel() for part in found])
+    rays_C = rng.normal(loc=[0, 0, 1], scale=0.3, size=(203, 3))
+    found = [normals._many(*shading(rng, lights, 203), rays_C) for lights in (9, 24, 96)]
+    return np.concatenate([part.ravel() for one in found for part in (one.b, one.inliers, one.covariance, one.chi2, one.cost)])
 
 
 def connected(rng: np.random.Generator) -> Array:
@@ -284,6 +286,19 @@ def solved(rng: np.random.Generator) -> Array:
     return np.concatenate([*found, multigrid.solve(alone, right[:900], np.zeros(900), precision=1e-13)])
 
 
+def integrated(rng: np.random.Generator) -> Array:
+    y, x = np.indices((60, 70))
+    grid = Grid.of((x - 35) ** 2 + (y - 30) ** 2 < 27**2 + 200 * np.sin(x / 3))
+    rays = np.stack([(grid.columns - 35) / 300, (grid.rows - 30) / 300, np.ones(len(grid.rows))], axis=1)
+    n = lambert.unit(np.stack([*rng.normal(scale=0.3, size=(2, len(rays))), np.full(len(rays), -1.0)], axis=1))[0]
+    step, sigma = integrate.steps(grid, n, rays, central=True, tilt_rad=0.1 * rng.random(len(rays)))
+    behind = 0.1 * (grid.columns > 40)
+    own = integrate.Own(1e4 * (1 + rng.random(len(rays))), behind + rng.normal(scale=0.01, size=len(rays)))
+    start = rng.normal(scale=0.02, size=len(rays))
+    found = [integrate.integrate(grid, step, few * sigma, own, start, graduated=fresh) for fresh, few in ((True, 1.0), (False, 1e-3))]
+    return np.concatenate([step, np.log(sigma), *(each for pair in found for each in pair)])
+
+
 def coupled(rng: np.random.Generator) -> Array:
     y, x = np.indices((40, 50))
     grid = Grid.of((x - 25) ** 2 + (y - 20) ** 2 < 18**2 + 100 * np.sin(x))
@@ -371,6 +386,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     undistort: (0.0, {"distort", "undistort"}),
     cluster_slope: (1e-12, {"cluster_slope"}),
     solved: (1e-8, {"multigrid"}),
+    integrated: (1e-4, {"integrated", "steps"}),
 }
 """Each kernel's work, the share of the largest value by which the twin may differ (of badly conditioned sums rounding makes more), and the
 kernels that it calls."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import base64
+import json
 import zlib
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -26,8 +27,13 @@ def environment() -> Environment:
     )
 
 
+def script_json(value: Any) -> str:
+    """JSON that may stand inside a script element."""
+    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
 @cache
 def packed_three() -> str:
     """three.js, deflated and in base64: a third of its size in every page that draws in space."""
     source = (resources.files(__name__) / "three.min.js").read_bytes()
-    return base64.b64encode(zlib.compress(source, 9)).decode("ascii")
+    return base64.b64encode(zlib.compress(source)).decode("ascii")
