@@ -25,7 +25,7 @@ from bench_many_views import reconstructed
 from lpcal.fusion.align import SHARED_SCALE_STD, Aligned
 from lpcal.fusion.model import shared_covariance
 from lpcal.fusion.registration import registered
-from lpcal.fusion.vertices import Vertices, carried, on_the_views
+from lpcal.fusion.vertices import Vertices, carried, on_the_views, shared
 from lpcal.fusion.views import view_of
 from lpcal.fusion.volume import surface_of
 from lpcal.geometry import se3
@@ -99,8 +99,7 @@ def split(aligned: Aligned, found: Vertices, off: np.ndarray, n_O: np.ndarray) -
     some = some[:: max(len(some) // SAMPLES, 1)]
     v, n = found.triangles.vertices_A[some], n_O[some]
     covariance = carried(aligned, v, found.triangles.normals_A[some])
-    away = v - v.mean(axis=0)
-    Q, _ = np.linalg.qr(np.column_stack([n, np.cross(away, n), (away * n).sum(axis=1)]))
+    Q = shared(v, n)
     inner = Q.T @ covariance @ Q
     at = Q.T @ off[some]
     rest = np.maximum(found.sigma_m[some] ** 2 - np.diag(Q @ inner @ Q.T), 0)

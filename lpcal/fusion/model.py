@@ -169,4 +169,5 @@ def _figures(aligned: Aligned, found: Vertices) -> ModelFigures:
         open_edges_m=float(np.linalg.norm(v[open_edges[:, 0]] - v[open_edges[:, 1]], axis=1).sum()),
         distance_scale=float(aligned.parameters[6]),
         distance_scale_std=float(np.sqrt(aligned.covariance[6, 6])),
+        shared_sigma_m=found.shared_sigma_m,
     )

@@ -39,6 +39,8 @@ PASSES = 2
 SIGMA_VERTICES = 800
 """Vertices, of those that several views see, at which the covariance of the views' places is carried over; between them it is the nearest
 one's. Where one view alone sees a vertex it is that vertex's own: a patch beside an edge is known far less well than what is next to it."""
+SHARED_VERTICES = 300
+"""Vertices at which what all of them share is told from the rest: it has seven numbers."""
 LONE = 2
 """Views that see a vertex of which no other view tells: fewer than these."""
 HELD = 4_000_000
@@ -79,6 +81,8 @@ class Vertices:
     views: Index
     """How many see it."""
     normal_sigma_rad: Array
+    shared_sigma_m: float
+    """What of sigma all vertices share, rms: see `shared`."""
     loose_m2: float
     """Area that was left out: one view alone sees it, and its distance is not known well enough."""
 
@@ -105,9 +109,8 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
     loose_m2 = _area(v, faces) - _area(v[tied], held)
     v, n, rest = v[tied], n[tied], rest.of(tied)
     albedo = _albedo(state, v, n, footprint_m)
-    return Vertices(
-        Triangles(v, n, held), n_photometric[tied], albedo, sigma[tied], rest.disagreement_m, rest.count, normal_sigma[tied], loose_m2
-    )
+    told = rest.disagreement_m, rest.count, normal_sigma[tied], _shared_m(aligned, v, n, rest.count)
+    return Vertices(Triangles(v, n, held), n_photometric[tied], albedo, sigma[tied], *told, loose_m2)
 
 
 @dataclass(frozen=True)
@@ -278,6 +281,22 @@ def carried(aligned: Aligned, v: Array, n: Array) -> Array:
     for k, (used, row) in enumerate(rows):
         J[k, used] = row
     return np.asarray(J @ aligned.covariance @ J.T)
+
+
+def shared(v: Array, n: Array) -> Array:
+    """Orthonormal basis (V, 7) of the moves of vertices along their normals that one motion and one growth of the whole make."""
+    away = v - v.mean(axis=0)
+    return np.asarray(np.linalg.qr(np.column_stack([n, np.cross(away, n), (away * n).sum(axis=1)]))[0])
+
+
+def _shared_m(aligned: Aligned, v: Array, n: Array, count: Index) -> float:
+    """Standard deviation, rms over the vertices, of what they all share."""
+    some = np.flatnonzero(count >= LONE)
+    some = some[:: max(len(some) // SHARED_VERTICES, 1)]
+    if len(some) < 8:
+        return 0.0
+    Q = shared(v[some], n[some])
+    return float(np.sqrt(max(np.trace(Q.T @ carried(aligned, v[some], n[some]) @ Q), 0.0) / len(some)))
 
 
 def _rows(aligned: Aligned, v: Array, n: Array, footprint_m: float) -> tuple[Evidence, list[tuple[Index, Array]]]:

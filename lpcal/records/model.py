@@ -78,6 +78,8 @@ class ModelFigures:
     """By how much all distances were changed together, relative."""
     distance_scale_std: float
     """Relative standard deviation of the scale that all distances share."""
+    shared_sigma_m: float = 0.0
+    """What of `sigma_m` all vertices share, rms: one motion and one growth of the whole, whose seven numbers one session draws once."""
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,7 @@ def test_the_model_is_nearer_than_the_views_and_says_how_near() -> None:
         single.append(float(np.sqrt(np.mean(found.off_m(points) ** 2))))
     assert float(np.sqrt(np.mean(off_m**2))) < 0.6 * float(np.median(single))
     assert np.mean(np.abs(off_m) < 3 * model.sigma_m) > 0.9  # H_PC's error, which all vertices share, is one of two sigmas here
+    assert 0 < model.figures.shared_sigma_m < float(np.sqrt(np.mean(model.sigma_m**2)))
     assert model.figures.after_m < model.figures.before_m / 8
     angle = np.degrees(np.arccos(np.clip((found.normals(model.vertices_A) * model.normals_A).sum(axis=1), -1, 1)))
     assert np.median(angle) < 2.0
@@ -53,13 +54,20 @@ def test_the_model_is_nearer_than_the_views_and_says_how_near() -> None:
 
 @pytest.mark.slow
 def test_sigmas_are_those_of_the_errors_over_many_rigs() -> None:
-    """The mean square of errors in their sigmas is about 1: each rig's shared errors are one draw, so it is told over rigs alone."""
-    squares = []
+    """The mean square of errors in their sigmas is about 1: each rig's shared errors are one draw, so it is told over rigs alone.
+
+    So is that of the part that all vertices share, one motion and one growth of the whole, in its own sigma.
+    """
+    squares, together = [], []
     for seed in range(3, 11):
         found = scene("stone", 10, seed)
         model = lpcal.fuse(found.surfaces, step_m=0.004)
-        squares.append(float(np.mean((found.off_m(model.vertices_A) / model.sigma_m) ** 2)))
+        off_m = found.off_m(model.vertices_A)
+        squares.append(float(np.mean((off_m / model.sigma_m) ** 2)))
+        Q = vertices.shared(model.vertices_A, found.normals(model.vertices_A))
+        together.append(float(np.mean((Q @ (Q.T @ off_m)) ** 2)) / model.figures.shared_sigma_m**2)
     assert 0.5 < np.mean(squares) < 2, squares
+    assert 0.4 < np.mean(together) < 2, together
 
 
 def test_pairs_of_views_do_not_count_as_if_each_were_new() -> None:
