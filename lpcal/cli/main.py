@@ -47,7 +47,7 @@ COMMANDS = {
     "report": "calib/report.html, one file, opens offline",
     "study": "the two experiments of the LightPanel paper: phase angle, ambient light",
     "simulate": "a synthetic rig folder with its truth",
-    "mark": "a sphere, a mask or the lights of images set by mouse, where they are not found automatically",
+    "mark": "a sphere, a mask, a board's corners or the lights of images set by mouse, where they are not found automatically",
     "frames": "the frames of a video as images, with the table of their times",
     "watch": "while one captures: each new image judged, and what comes next",
     "run": "every stage that is out of date, in order",

@@ -1,4 +1,4 @@
-"""``lpcal mark``: a sphere, a mask or the lights' images set by mouse, where they are not found automatically."""
+"""``lpcal mark``: a sphere, a mask, a board's corners or the lights' images set by mouse, where they are not found automatically."""
 
 from __future__ import annotations
 

@@ -28,6 +28,8 @@ LETTER = 7.0
 """Units of the drawing that a letter takes across, at most, in the charts' type."""
 LINE = 13.0
 """Units of the drawing from one line of type to the next."""
+SEAM = 0.4
+"""By how much a cell reaches over the next ones, which are drawn over it: edges that only touch show as lines."""
 BAR = 12
 """Height of a colour bar."""
 
@@ -196,8 +198,8 @@ def heat_map(value: Array, *, unit: str, aspect: float, outline: Mask | None = N
     for (r, c), one in np.ndenumerate(value):
         if np.isfinite(one):
             shade = 0.04 + 0.96 * min(max((one - low) / max(high - low, 1e-12), 0.0), 1.0)
-            where = f'x="{2 + c * across:.1f}" y="{2 + r * down:.1f}" width="{across:.1f}" height="{down:.1f}"'
-            parts.append(f'<rect {where} class="fill-accent" opacity="{shade:.2f}"><title>{shown(one)} {escape(unit)}</title></rect>')
+            where = f'x="{2 + c * across:.1f}" y="{2 + r * down:.1f}" width="{across + SEAM:.1f}" height="{down + SEAM:.1f}"'
+            parts.append(f'<rect {where} style="--share:{shade:.0%}"><title>{shown(one)} {escape(unit)}</title></rect>')
     parts.append("</g>")
     if outline is not None:
         parts.append(f'<path class="border" d="{_border(outline, across, down)}"/>')
@@ -222,8 +224,8 @@ def _colour_bar(top: float, span: tuple[float, float], unit: str, *, signed: boo
         share = (k + 0.5) / steps
         tone = "accent" if not signed else ("warm" if share > 0.5 else "cool")
         shade = 0.04 + 0.96 * share if not signed else 0.08 + 0.92 * abs(2 * share - 1)
-        where = f'x="{left + k * width / steps:.1f}" y="{top}" width="{width / steps:.1f}" height="{BAR}"'
-        parts.append(f'<rect {where} class="fill-{tone}" opacity="{shade:.2f}"/>')
+        where = f'x="{left + k * width / steps:.1f}" y="{top}" width="{width / steps + SEAM:.1f}" height="{BAR}"'
+        parts.append(f'<rect {where} class="{tone}" style="--share:{shade:.0%}"/>')
     parts.append("</g>")
     for share, value in ((0.0, span[0]), (0.5, sum(span) / 2), (1.0, span[1])):
         end = f" {escape(unit)}" if share == 1.0 else ""

@@ -62,7 +62,7 @@ def solved() -> RigReport:
 def test_where_the_camera_is_sure_and_the_next_view_stand_on_the_page() -> None:
     part = camera_section(solved())
     assert "33 % of the image, at most 0.050 px there" in plain(part.uncertainty.note)
-    assert part.uncertainty.svg.count('class="fill-accent"') == 24 + 24, "24 cells, and 24 steps of the colour bar"
+    assert part.uncertainty.svg.count('style="--share:') == 24 + 24, "24 cells, and 24 steps of the colour bar"
     said = text_of(render(solved()))
     assert "the same corners by OpenCV calibrateCamera 0.012 px rms, 0.050 px at most apart" in said
     assert "COLMAP, every corner free failed: no memory" in said
