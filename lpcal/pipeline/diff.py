@@ -60,7 +60,7 @@ def diff(one: Path, other: Path, page: Path) -> Outcome:
         solutions=(_solution(files[0], before), _solution(files[1], after)),
     )
     lines = lines_of(change)
-    write_text(page, diff_html((str(one), str(other)), (before, after), change, lines, verdict(change)), PAGE)
+    write_text(page, diff_html((str(one), str(other)), (before, after), change, remarks_of(change), verdict(change)), PAGE)
     document = {"before": str(files[0]), "after": str(files[1]), "changed": list(change.changed), **asdict(change)}
     document["least"] = {light.name: asdict(light.least) for light in change.lights}
     return Outcome([*lines, verdict(change), f"written {page}"], document, list(change.notes))
@@ -119,15 +119,28 @@ def _least_across(light: LightChange) -> float:
 
 def lines_of(change: CalibrationChange) -> list[str]:
     """The table, for people: each figure with what an unmoved rig shows."""
-    by_spheres = np.isfinite(change.highlight_px)
     moved = "direction, deg" if change.distant else "moved, mm"
     lines = [f"{'light':<12} {moved:>18} {'axis turned, deg':>20} {'power, %':>18}"]
     lines += [_light_line(light, change.distant) for light in change.lights]
-    if by_spheres:
-        lines.append(f"moves are by the chrome spheres of both days, whose highlights scatter by {change.highlight_px:.4f} px")
-        lines += [_own_line(light) for light in change.lights if "moved" in light.says and np.isfinite(light.moved_L).all()]
-    lines += _least_lines(change)
-    lines.append(_part_line("all lights", change.together) + f", distances {100 * change.scale:+.2f} %")
+    return [*lines, *_moves(change), *_least_lines(change), *_parts(change)]
+
+
+def remarks_of(change: CalibrationChange) -> list[str]:
+    """What stands beside the tables."""
+    return [*_moves(change), *_parts(change)]
+
+
+def _moves(change: CalibrationChange) -> list[str]:
+    """What the moves rest on, and how each light that has moved did."""
+    if not np.isfinite(change.highlight_px):
+        return []
+    lines = [f"moves are by the chrome spheres of both days, whose highlights scatter by {change.highlight_px:.4f} px"]
+    return lines + [_own_line(light) for light in change.lights if "moved" in light.says and np.isfinite(light.moved_L).all()]
+
+
+def _parts(change: CalibrationChange) -> list[str]:
+    """The lights together, the hand-eye and the camera."""
+    lines = [_part_line("all lights", change.together) + f", distances {100 * change.scale:+.2f} %"]
     if np.isfinite(change.handeye.moved):
         lines.append(_part_line("hand-eye", change.handeye))
     if np.isfinite(change.camera.moved):

@@ -15,11 +15,13 @@ from lpcal import __version__
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 from lpcal.records.comparison import CalibrationChange
+from lpcal.report.diff_table import change_table
 from lpcal.report.page_data import MarkData, WatchData
 from lpcal.report.rig_report import RigReport
 from lpcal.report.scene import rig_scene
 from lpcal.report.scene_items import LineItem, LineScene
 from lpcal.report.templates import environment, packed_three, script_json
+from lpcal.report.wording import grouped
 
 DIFF_MARK = '<meta name="lpcal-page" content="diff">'
 """What marks the page as lpcal's."""
@@ -29,9 +31,9 @@ ROOM = 1.2
 
 
 def diff_html(
-    names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, lines: Sequence[str], verdict: str
+    names: tuple[str, str], rigs: tuple[Calibration, Calibration], change: CalibrationChange, remarks: Sequence[str], verdict: str
 ) -> str:
-    """The page: the verdict where nothing has changed, the table in `lines`, and the rigs over each other."""
+    """The page: the verdict where nothing has changed, the table, the `remarks` beside it, and the rigs over each other."""
     scene = scene_of(rigs, change)
     return (
         environment()
@@ -40,7 +42,8 @@ def diff_html(
             mark=DIFF_MARK,
             names=names,
             change=change,
-            lines=lines,
+            table=change_table(change),
+            remarks=remarks,
             verdict=verdict,
             scene=None if scene is None else script_json(scene.document()),
             three=packed_three(),
@@ -145,7 +148,11 @@ def collection_html(name: str, rows: Sequence[Row]) -> str:
     counts = {state: sum(row.state == state for row in rows) for state in ("done", "up to date", "failed", "lost")}
     said = ", ".join(f"{count} {state}" for state, count in counts.items() if count)
     doubtful = sum(row.tone == "fair" for row in rows)
-    return environment().get_template("collection.html").render(mark=COLLECTION_MARK, name=name, rows=rows, said=said, doubtful=doubtful)
+    return (
+        environment()
+        .get_template("collection.html")
+        .render(mark=COLLECTION_MARK, name=name, rows=rows, said=said, doubtful=doubtful, grouped=grouped)
+    )
 
 
 def watch_html(state: WatchData) -> str:

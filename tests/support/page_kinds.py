@@ -12,7 +12,7 @@ import numpy as np
 from lpcal.api.comparison import compare_calibrations
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
-from lpcal.pipeline.diff import lines_of, verdict
+from lpcal.pipeline.diff import remarks_of, verdict
 from lpcal.pipeline.watch_page import served
 from lpcal.records.body_course import BodyCourse, Lapse
 from lpcal.records.calibration import Calibration, Light
@@ -140,7 +140,7 @@ def diff_page() -> str:
     """The page of `two_calibrations`."""
     rigs_of = two_calibrations()
     change = compare_calibrations(*rigs_of)
-    return diff_html(("before.yaml", "after.yaml"), rigs_of, change, lines_of(change), verdict(change))
+    return diff_html(("before.yaml", "after.yaml"), rigs_of, change, remarks_of(change), verdict(change))
 
 
 def collection_page() -> str:
