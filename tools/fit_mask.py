@@ -1,16 +1,19 @@
-"""Fit the weights by which the automatic mask judges the object's regions: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE]``.
+"""Fit what the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
-estimated, as the mask does it. Prints the weights for lpcal.surface.background (OWN and BESIDE); cross-validated by scene in FOLDS parts,
-how good the coarse masks are with the weights as they stand and with the fitted ones. The regions themselves depend a little on the
-weights: run it until these stand still; then tools/fit_outline.py.
+estimated, as the mask does it. Writes the trees of lpcal.surface.trees and prints BESIDE of lpcal.surface.background; cross-validated by
+scene in FOLDS parts, how good the coarse masks are. The judges that were fitted without a part of the scenes go to FILE, for
+tools/fit_outline.py, which must not see odds of scenes that they were fitted to. The regions themselves depend a little on the judge. Needs
+scikit-learn (``uv run --with scikit-learn``); with OMP_NUM_THREADS=1 where other work shares the machine.
 """
 
 from __future__ import annotations
 
 import argparse
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import chain
 from pathlib import Path
 
@@ -24,19 +27,28 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.surface import background, flats, layers, mask, regions, room_light, sight
+from lpcal.surface import background, context, flats, layers, mask, outline, regions, room_light, sight
 from lpcal.surface.coarse import LightTable, coarse_of, factor_of
 from lpcal.surface.regions import Pictures, Regions, View
+from lpcal.surface.trees import FITTED, Trees
 
 FOLDS, INNER = 6, 5
 RIDGE = 0.3
 """Penalty on the square of a weight of a clue of standard deviation 1, by the loss of scenes left out, which is flat from .1 to .3."""
+REGIONS = {"max_iter": 200, "max_leaf_nodes": 12, "min_samples_leaf": 30, "l2_regularization": 3.0}
+CONTEXT = {"max_iter": 150, "max_leaf_nodes": 12, "min_samples_leaf": 200, "l2_regularization": 5.0}
+"""Trees of regions and of coarse pixels, and how far they go, by the IoU of scenes left out, which gains no more from more of them."""
+COMMON = {"learning_rate": 0.06, "max_features": 0.5, "early_stopping": False, "random_state": 0}
+FALLING = ("frame", "frame, a plane")
+"""Clues that speak against the object the more the larger they are, whatever the scenes say: what holds the frame is background."""
 CROPS = 2
 """Crops of a scene that are fitted to besides the whole, so that the object lies anywhere in the picture."""
 WRONG = 0.9
 """IoU under which a mask is wrong."""
 SMALLEST = 3
 """Coarse pixels under which a region is not fitted to."""
+SOME, CLEAR, FEWEST = 1500, 0.2, 50
+"""Coarse pixels of a scene that are fitted to at most; how far from half their share of the object must be; the least object."""
 
 
 @dataclass
@@ -46,10 +58,11 @@ class Example:
     name: str
     pictures: Pictures
     found: Regions
-    true: np.ndarray
-    """(rows, columns) bool."""
-    now: np.ndarray
-    """(rows, columns) the mask by the weights as they stand."""
+    of_object: np.ndarray
+    """(rows, columns) share of a coarse pixel that is the object."""
+    bright: np.ndarray
+    room: np.ndarray | None
+    """(rows, columns) logarithms of the lights' brightness and of the image without lights."""
     whole: bool = True
     """Whether it is no crop."""
     share: np.ndarray = field(init=False)
@@ -65,11 +78,25 @@ class Example:
         self.share = self.found.mean(self.true)
         area = self.found.area
         self.weight = np.minimum(area / max(self.true.sum(), 1), 1.0) * (area >= SMALLEST)
-        self.clues = np.stack(list(regions.own(self.pictures, self.found).values()), axis=1)
+        self.clues = np.stack(list(self.own().values()), axis=1)
 
-    def beside(self) -> np.ndarray:
-        """The clues (N, clues) with those about it, by the first odds."""
-        return np.stack(list(regions.beside(self.pictures, self.found, background.logit(self.first)).values()), axis=1)
+    @property
+    def true(self) -> np.ndarray:
+        """(rows, columns) bool."""
+        return self.of_object > 0.5
+
+    def own(self) -> dict[str, np.ndarray]:
+        """The clues (N,) of regions by themselves."""
+        return regions.own(self.pictures, self.found)
+
+    def beside(self) -> dict[str, np.ndarray]:
+        """The clues (N,) with those about it, by the first odds."""
+        return regions.beside(self.pictures, self.found, background.logit(self.first))
+
+    def in_context(self, odds: np.ndarray) -> dict[str, np.ndarray] | None:
+        """The clues (P,) of coarse pixels by the odds (N,) of regions."""
+        of_pixel = odds[self.found.number]
+        return context.clues_of(of_pixel, background.logit(of_pixel), self.pictures, self.found, self.bright, self.room)
 
 
 @dataclass(frozen=True)
@@ -105,25 +132,33 @@ class Seen:
         return View(image, table, flats.sweep(image, table, self.distance_m)), lit
 
 
-def example(scene: Path) -> list[Example]:
+def example(scene: Path, folds: Path | None) -> list[Example]:
     """A scene taken apart as the mask does it."""
+    del folds  # what is fitted here
     seen = Seen.of(scene)
     view, lit = seen.view()
-    true = block_means(seen.true.astype(float), view.image.factor) > 0.5
+    of_object = block_means(seen.true.astype(float), view.image.factor)
     planes = flats.find(view.image, view.table, view.swept, lit, seen.distance_m)
-    return of_view(scene.name, view, planes, lit, seen.distance_m, true)
+    labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
+    return of_labels(scene.name, view, (labels, found.planes, cost), of_object, outline.levels_of(view.image, seen.room))
 
 
-def of_view(name: str, view: View, planes: list[np.ndarray], lit: np.ndarray, distance_m: float, true: np.ndarray) -> list[Example]:
-    """The regions of a view and of crops of it; true (rows, columns)."""
-    labels, found, cost = layers.label(view, planes, lit, float(np.log(distance_m)))
-    now = background.judged(view, labels, found.planes, cost).mask
+def of_labels(
+    name: str,
+    view: View,
+    labelled: tuple[np.ndarray, list[np.ndarray], np.ndarray],
+    of_object: np.ndarray,
+    levels: tuple[np.ndarray, np.ndarray | None],
+) -> list[Example]:
+    """The regions of a labelled view and of crops of it, by the object's share (rows, columns) of coarse pixels."""
     rng, examples = np.random.default_rng(int("".join(filter(str.isdigit, name)) or 0)), []
     for k in range(1 + CROPS):
-        here = replace(view, allowed=crop(true, rng) if k else None)
+        here = replace(view, allowed=crop(of_object > 0.5, rng) if k else None)
         w = here.window
-        pictures = Pictures.of(here, labels, found.planes, cost)
-        examples.append(Example(name, pictures, Regions.of(pictures.labels, pictures.bright), true[w], now[w], not k))
+        pictures = Pictures.of(here, *labelled)
+        found = Regions.of(pictures.labels, pictures.bright)
+        room = None if levels[1] is None else levels[1][w]
+        examples.append(Example(name, pictures, found, of_object[w], levels[0][w], room, not k))
     return examples
 
 
@@ -154,7 +189,7 @@ def fitted(clues: np.ndarray, share: np.ndarray, weight: np.ndarray) -> np.ndarr
 
 
 def odds(clues: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Odds (N,) by weights."""
+    """Odds (N,) by clues (N, clues) and weights."""
     return 1 / (1 + np.exp(-np.clip(b[0] + clues @ b[1:], -30, 30)))
 
 
@@ -165,39 +200,92 @@ def parts(examples: list[Example], count: int, rng: np.random.Generator) -> np.n
     return np.array([part[one.name] for one in examples])
 
 
-def stacked(train: list[Example], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Both lines' weights; the second is fitted to odds that the first gives to scenes it was not fitted to."""
+def trees(names: list[str], clues: np.ndarray, share: np.ndarray, weight: np.ndarray, kind: dict[str, float]) -> Trees:
+    """Boosted trees of least logistic loss."""
+    from sklearn.ensemble import HistGradientBoostingClassifier
+
+    twice, true = np.r_[clues, clues], np.repeat([1, 0], len(clues))
+    counts = np.r_[weight * share, weight * (1 - share)]
+    some = counts > 1e-6
+    falling = [-1 if name in FALLING else 0 for name in names]
+    model = HistGradientBoostingClassifier(monotonic_cst=falling, **COMMON, **kind)
+    model.fit(twice[some], true[some], sample_weight=counts[some] * (some.sum() / counts[some].sum()))
+    nodes = [one[0].nodes for one in model._predictors]  # noqa: SLF001 (it keeps them nowhere else)
+    root = np.cumsum([0, *map(len, nodes[:-1])])
+    every, offset = np.concatenate(nodes), np.repeat(root, [len(one) for one in nodes])
+    ends = every["is_leaf"].astype(bool)
+    clue = np.where(ends, -1, every["feature_idx"])
+    threshold = np.where(ends, 0.0, every["num_threshold"])
+    left, right = (np.where(ends, 0, every[side] + offset) for side in ("left", "right"))
+    leaf = np.where(ends, every["value"], 0.0)
+    start = float(model._baseline_prediction.item())  # noqa: SLF001
+    return Trees(tuple(names), start, root, clue, threshold, left, right, leaf)
+
+
+def of_trees(found: Trees, clues: dict[str, np.ndarray]) -> np.ndarray:
+    """Odds (N,) by trees."""
+    return 1 / (1 + np.exp(-np.clip(found.log_odds(clues), -30, 30)))
+
+
+def judge_of(train: list[Example], rng: np.random.Generator) -> background.Judge:
+    """A judge; each stage is fitted to odds that the one before gives to scenes it was not fitted to."""
     share, weight = (np.concatenate([getattr(one, name) for one in train]) for name in ("share", "weight"))
-    part = parts(train, INNER, rng)
+    names, part = list(train[0].own()), parts(train, INNER, rng)
+
+    def own(some: list[Example]) -> Trees:
+        return trees(names, *(np.concatenate([getattr(one, name) for one in some]) for name in ("clues", "share", "weight")), REGIONS)
+
     for k in range(INNER):
-        some = [one for one, g in zip(train, part, strict=True) if g != k]
-        b = fitted(*(np.concatenate([getattr(one, name) for one in some]) for name in ("clues", "share", "weight")))
+        of_rest = own([one for one, g in zip(train, part, strict=True) if g != k])
         for one, g in zip(train, part, strict=True):
             if g == k:
-                one.first = odds(one.clues, b)
-    second = fitted(np.concatenate([one.beside() for one in train]), share, weight)
-    return fitted(np.concatenate([one.clues for one in train]), share, weight), second
+                one.first = of_trees(of_rest, one.own())
+    about = [np.stack(list(one.beside().values()), axis=1) for one in train]
+    b = fitted(np.concatenate(about), share, weight)
+    beside = dict(zip(["", *train[0].beside()], map(float, b), strict=True))
+    return background.Judge(own(train), beside, of_context(train, [odds(one, b) for one in about], rng))
+
+
+def of_context(train: list[Example], of_regions: list[np.ndarray], rng: np.random.Generator) -> Trees:
+    """The trees of coarse pixels by their regions' odds (N,)."""
+    clues, share, weight, names = [], [], [], []
+    for one, known in zip(train, of_regions, strict=True):
+        here = one.in_context(known)
+        if here is None:
+            continue
+        of_object = one.of_object.ravel()
+        some = rng.permutation(np.flatnonzero(np.abs(of_object - 0.5) > CLEAR))[: SOME if one.whole else SOME // CROPS]
+        names = list(here)
+        clues.append(np.stack([values[some] for values in here.values()], axis=1))
+        share.append((of_object[some] > 0.5).astype(float))
+        weight.append(np.full(len(some), of_object.size / max(len(some), 1) / max(one.true.sum(), FEWEST)))
+    return trees(names, np.concatenate(clues), np.concatenate(share), np.concatenate(weight), CONTEXT)
+
+
+def by_folds(examples: list[Example], rng: np.random.Generator) -> dict[str, background.Judge]:
+    """For each scene a judge that was not fitted to it."""
+    part = parts(examples, FOLDS, rng)
+    found: dict[str, background.Judge] = {}
+    for k in range(FOLDS):
+        judge = judge_of([one for one, g in zip(examples, part, strict=True) if g != k], rng)
+        found |= {one.name: judge for one, g in zip(examples, part, strict=True) if g == k}
+    return found
+
+
+def masks_of(one: Example, judge: background.Judge) -> tuple[float, float, float]:
+    """IoU of the regions, of the coarse pixels in their context, and of a perfect judge of regions."""
+    by_regions = judge.of_regions(one.pictures, one.found)
+    clues = one.in_context(by_regions)
+    of_pixel = by_regions[one.found.number]
+    if clues is not None and judge.context is not None:
+        of_pixel = of_trees(judge.context, clues).reshape(one.true.shape)
+    each = (by_regions[one.found.number], of_pixel, one.share[one.found.number])
+    return tuple(iou(background.object_in(here > 0.5, ()), one.true) for here in each)
 
 
 def iou(mine: np.ndarray, true: np.ndarray) -> float:
     """Intersection over union."""
     return float((mine & true).sum() / max((mine | true).sum(), 1))
-
-
-def validated(examples: list[Example], rng: np.random.Generator) -> tuple[list[float], list[float]]:
-    """IoU of each scene by weights fitted to others, and the loss."""
-    part, found, loss = parts(examples, FOLDS, rng), [0.0] * len(examples), [0.0] * len(examples)
-    for k in range(FOLDS):
-        first, second = stacked([one for one, g in zip(examples, part, strict=True) if g != k], rng)
-        for i in np.flatnonzero(part == k):
-            one = examples[i]
-            one.first = odds(one.clues, first)
-            p = odds(one.beside(), second)
-            q = background.object_in(p[one.found.number] > 0.5, ())
-            found[i] = iou(q, one.true)
-            sure = np.clip(p, 1e-3, 1 - 1e-3)
-            loss[i] = -float(np.sum(one.weight * (one.share * np.log(sure) + (1 - one.share) * np.log(1 - sure))))
-    return found, loss
 
 
 def line_of(name: str, values: list[float]) -> str:
@@ -207,42 +295,36 @@ def line_of(name: str, values: list[float]) -> str:
     return f"{name}: mean {x.mean():.3f}, median {np.median(x):.3f}, worst tenth {np.percentile(x, 10):.3f}, {shares}"
 
 
-def report(examples: list[Example]) -> None:
-    """Print weights and figures."""
-    rng = np.random.default_rng(0)
-    runs = [validated(examples, rng) for _ in range(3)]
-    found, loss = (np.mean([run[k] for run in runs], axis=0) for k in range(2))
-    whole = np.array([one.whole for one in examples])
-    for kind, some in (("whole", whole), ("crops", ~whole)):
-        print(f"{kind}: {some.sum()}")
-        print(
-            line_of(
-                "  IoU with the weights as they stand", [iou(one.now, one.true) for one, here in zip(examples, some, strict=True) if here]
-            )
-        )
-        print(line_of("  IoU with fitted weights, scenes left out", list(found[some])), f"; loss {loss[some].mean():.4f}")
-    first, second = stacked(examples, rng)
-    one = examples[0]
-    for name, b, clues in (
-        ("OWN", first, regions.own(one.pictures, one.found)),
-        ("BESIDE", second, regions.beside(one.pictures, one.found, one.first)),
-    ):
-        print(f"{name} = {{")
-        for key, value in zip(["", *clues], b, strict=True):
-            print(f'    "{key}": {value:.3g},')
-        print("}")
+def report(examples: list[Example], folds: Path | None = None) -> None:
+    """Write the trees and the judges by folds, print weights and figures."""
+    left_out = by_folds(examples, np.random.default_rng(0))
+    if folds is not None:
+        folds.write_bytes(pickle.dumps(left_out))
+    for kind, some in (("whole", [one for one in examples if one.whole]), ("crops", [one for one in examples if not one.whole])):
+        found = np.array([masks_of(one, left_out[one.name]) for one in some])
+        for name, values in zip(("regions", "coarse pixels in context", "a perfect judge of the regions"), found.T, strict=True):
+            print(line_of(f"{kind}, {len(some)}: IoU of {name}, scenes left out", list(values)))
+    judge = judge_of(examples, np.random.default_rng(0))
+    assert judge.context is not None
+    np.savez_compressed(FITTED, **judge.own.arrays("regions"), **judge.context.arrays("context"))
+    print("BESIDE = {")
+    for key, value in judge.beside.items():
+        print(f'    "{key}": {value:.3g},')
+    print("}")
 
 
-def of_scenes[T](description: str | None, example: Callable[[Path], T]) -> list[T]:
-    """The examples of the scenes that the command line names, on the engine that it asks for."""
+def of_scenes[T](description: str | None, example: Callable[[Path, Path | None], T]) -> tuple[list[T], Path | None]:
+    """The examples of the scenes that the command line names, on the engine that it asks for, and the file of the judges by folds."""
     words = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("scenes", nargs="+", type=Path)
     words.add_argument("--jobs", type=int, default=1)
     words.add_argument("--on", default="processes")
+    words.add_argument("--folds", type=Path)
     given = words.parse_args()
     with engine_of(given.on, given.jobs, Path()).start() as pool:
-        return list(pool.map(example, given.scenes))
+        return list(pool.map(partial(example, folds=given.folds), given.scenes)), given.folds
 
 
 if __name__ == "__main__":
-    report(list(chain.from_iterable(of_scenes(__doc__, example))))
+    taken, file = of_scenes(__doc__, example)
+    report(list(chain.from_iterable(taken)), file)

@@ -1,13 +1,14 @@
-"""Fit the weights by which the automatic mask's coarse pixels and outline are judged: ``python tools/fit_outline.py SCENES... [--jobs N]``.
+"""Fit the weights by which the automatic mask's outline is judged: ``python tools/fit_outline.py SCENES... --folds FILE [--jobs N]``.
 
-SCENES are folders as tools/fit_mask.py reads them. Prints CONTEXT of lpcal.surface.background, WITH_ROOM and WITHOUT_ROOM of
-lpcal.surface.outline, and DOUBTED and DOUBT_POWER of lpcal.surface.mask; and how good the masks are, coarse and in full size, with the
-weights as they stand, and coarse with the fitted ones, cross-validated by scene. Each scale's clues depend on the weights before it: run
-it until these stand still. Scenes whose regions are judged so wrong that there is no outline to draw are not fitted to.
+SCENES are folders as tools/fit_mask.py reads them, and FILE is what it has written of judges that were not fitted to them; scenes that are
+not in it are judged as lpcal does. Prints WITH_ROOM and WITHOUT_ROOM of lpcal.surface.outline, and DOUBTED and DOUBT_POWER of
+lpcal.surface.mask; and how good the masks are, coarse and in full size. Each scale's clues depend on the weights before it: run it until
+these stand still. Scenes whose regions are judged so wrong that there is no outline to draw are not fitted to.
 """
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +20,6 @@ from fit_mask import WRONG, Seen, iou, line_of, of_scenes
 from lpcal.geometry.raster import block_means
 from lpcal.surface import background, cut, flats, layers, mask, outline
 
-FOLDS = 6
 RIDGE = 1e-3
 """Penalty on the square of a weight, by a mean weight of 1 for pixels: pixels are many, it keeps the equations solvable."""
 SOME = 3000
@@ -55,17 +55,14 @@ class Example:
     """A scene."""
 
     name: str
-    context: Clues | None
     outline: list[Clues]
     room: bool
     masks: tuple[float, float, float]
     """IoU of the regions, of the coarse pixels in their context, and in full size."""
     expected_wrong: float
-    whole: tuple[np.ndarray, np.ndarray] | None
-    """The context's clues (P, clues) of all coarse pixels, and their truth (P,)."""
 
 
-def example(scene: Path) -> Example:
+def example(scene: Path, judge: background.Judge | None = None) -> Example:
     """A scene's clues, along the way that the mask takes with its weights as they stand."""
     seen, rng = Seen.of(scene), np.random.default_rng(0)
     view, lit = seen.view()
@@ -73,10 +70,8 @@ def example(scene: Path) -> Example:
     planes = flats.find(image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
     share = block_means(seen.true.astype(float), image.factor)
-    first = background.judged(view, labels, found.planes, cost)
-    pictures = outline.levels_of(image, seen.room)
-    clues = background.context_of(first.odds, *pictures)
-    judged = background.in_context(first, view, labels, *pictures)
+    first = background.judged(view, labels, found.planes, cost, judge)
+    judged = background.in_context(first, view, labels, *outline.levels_of(image, seen.room), judge)
     coarse = iou(judged.mask, share > 0.5)
     of_outline, fine = [], 0.0
     if judged.mask.any():
@@ -91,13 +86,17 @@ def example(scene: Path) -> Example:
         fine = iou(mask.tidy(cut.halfway(here, seen.maps.signal, seen.maps.sigma)), seen.true)
     return Example(
         scene.name,
-        None if clues is None else Clues.of(clues, share.ravel(), rng),
         of_outline if coarse >= DRAWABLE else [],
         seen.room is not None,
         (iou(first.mask, share > 0.5), coarse, fine),
         background.doubt_of(judged, labels).share if judged.mask.any() else 1.0,
-        None if clues is None else (np.stack(list(clues.values()), axis=1), share.ravel() > 0.5),
     )
+
+
+def left_out(scene: Path, folds: Path | None) -> Example:
+    """A scene's clues by the judge that was not fitted to it."""
+    judges = {} if folds is None else pickle.loads(folds.read_bytes())
+    return example(scene, judges.get(scene.name))
 
 
 def fitted(some: Sequence[Clues]) -> np.ndarray:
@@ -135,16 +134,6 @@ def report(examples: Sequence[Example]) -> None:
     """Print weights and figures."""
     for k, name in enumerate(("regions", "coarse pixels", "full size")):
         print(line_of(f"IoU with the weights as they stand, {name}", [one.masks[k] for one in examples]))
-    known = [one for one in examples if one.context is not None and one.whole is not None]
-    part = np.random.default_rng(0).permutation(np.arange(len(known)) % FOLDS)
-    left_out = []
-    for k in range(FOLDS):
-        b = fitted([one.context for one, g in zip(known, part, strict=True) if g != k and one.context is not None])
-        left_out += [
-            iou(one.whole[0] @ b > 0, one.whole[1]) for one, g in zip(known, part, strict=True) if g == k and one.whole is not None
-        ]
-    print(line_of("IoU of coarse pixels, scenes left out", left_out))
-    printed("CONTEXT", [one.context for one in known if one.context is not None])
     for name, room in (("WITH_ROOM", True), ("WITHOUT_ROOM", False)):
         printed(name, [clues for one in examples if one.room == room for clues in one.outline if len(clues.true)])
     expected, bad = np.array([one.expected_wrong for one in examples]), np.array([one.masks[2] < WRONG for one in examples])
@@ -156,4 +145,4 @@ def report(examples: Sequence[Example]) -> None:
 
 
 if __name__ == "__main__":
-    report(of_scenes(__doc__, example))
+    report(of_scenes(__doc__, left_out)[0])

@@ -1,66 +1,40 @@
 r"""Which labels are the object and which the wall behind it or the support under it: odds of every region, from clues.
 
-The log odds that a region is the object are linear in its clues (surface.regions), first in those of its own, then also in those of its
-neighbours' odds; both are fitted by tools/fit_mask.py on simulated scenes. Their remaining uncertainty is the mask's stated doubt. The user
-may say where the object is: a box takes the place of the image, and what a given point shows is the object. Source: Wolpert 1992, Neural
-Networks 5 (a second fit on the predictions of a first).
+The log odds that a region is the object are a sum of trees over its own clues (surface.regions, surface.trees), then linear in those of its
+neighbours' odds; those of a coarse pixel are a sum of trees over its region's odds and its context (surface.context). All are fitted by
+tools/fit_mask.py on simulated scenes, each stage on what the one before says of scenes that it was not fitted to. Their remaining
+uncertainty is the mask's stated doubt. The user may say where the object is: a box takes the place of the image, and what a given point
+shows is the object. Source: Wolpert 1992, Neural Networks 5 (a second fit on the predictions of a first).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.surface import regions
-from lpcal.surface.likeness import likeness
+from lpcal.surface import context, regions
 from lpcal.surface.regions import Pictures, Regions, View
+from lpcal.surface.trees import Trees, fitted
 
-OWN = {
-    "": 4.96,
-    "frame": -6.0,
-    "plane": 2.2,
-    "frame, a plane": -1.46,
-    "spared": -0.182,
-    "begins low": -1.6,
-    "width": -4.71,
-    "height": -4.14,
-    "fills its box": -4.35,
-    "size": 12.4,
-    "size, of any normal": 3.13,
-    "facing down": 1.31,
-    "facing aside": 1.95,
-    "bright": 0.0953,
-    "edge in the lights": -0.931,
-    "dark frame": 2.28,
-    "nothing beside": -3.06,
-    "before": 1.11,
-}
-"""Weights of a region's own clues in its log odds; "" is the constant. By tools/fit_mask.py."""
 BESIDE = {
-    "": 0.562,
-    "itself": 0.279,
-    "about": 0.994,
-    "widely about, of any normal": -0.34,
-    "alike in the lights', a plane": 1.32,
-    "frame of the whole plane": -2.16,
-    "frame of the whole, seen through": -1.16,
-    "above, facing up": 0.932,
-    "goes on, a plane": 3.58,
-    "in the hull, dark": -0.945,
+    "": 0.169,
+    "itself": 0.514,
+    "about": 0.766,
+    "widely about, of any normal": -0.284,
+    "alike in the lights', a plane": 0.846,
+    "frame of the whole plane": -0.726,
+    "frame of the whole, seen through": -1.41,
+    "above, facing up": 0.192,
+    "goes on, a plane": 2.93,
+    "in the hull, dark": 0.123,
 }
-"""Weights of the clues of the regions about it, likewise."""
-CONTEXT = {"": 0.311, "odds": 0.947, "about": 0.636, "lights": 0.17, "room": 0.448, "room, widely": 0.126}
-"""Weights of a coarse pixel's clues in its log odds, by its region's and by what it is like. By tools/fit_outline.py."""
-ABOUT_PX = 1.5
-"""Standard deviation, in coarse pixels, of the neighbourhood whose odds a pixel is compared with."""
-LIKE_PX = (3.0, 5.0, 12.0)
-"""The same of the windows in which a pixel is compared with the object and with the rest: by the image without lights, by the lights', and
-widely by the image without lights."""
+"""Weights of the clues of the regions about it in a region's log odds; "" is the constant. By tools/fit_mask.py."""
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
 HOLE = 0.005
@@ -88,6 +62,33 @@ class Judged:
     """(rows, columns) what is not."""
     mask: Mask
     """(rows, columns) the object, without crumbs and small holes."""
+    pictures: Pictures
+    regions: Regions
+    """What regions were judged by, in the window of the view."""
+
+
+@dataclass(frozen=True)
+class Judge:
+    """What clues say: fitted to simulated scenes."""
+
+    own: Trees
+    beside: Mapping[str, float]
+    context: Trees | None
+    """None: regions are judged, and no coarse pixels in their context."""
+
+    @staticmethod
+    @cache
+    def fitted() -> Judge:
+        """The one that tools/fit_mask.py has fitted."""
+        return Judge(fitted("regions"), BESIDE, fitted("context"))
+
+    def of_regions(self, pictures: Pictures, found: Regions) -> Array:
+        """The odds (N,), 0..1, that regions are the object."""
+        first = _odds(self.own.log_odds(regions.own(pictures, found)))
+        total = np.full(len(first), self.beside[""])
+        for name, clue in regions.beside(pictures, found, logit(first)).items():
+            total += self.beside[name] * clue
+        return _odds(total)
 
 
 def rim_of(shape: tuple[int, ...]) -> Mask:
@@ -97,69 +98,45 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
     return rim
 
 
-def judged(view: View, labels: Labels, planes: list[Array], cost: Array) -> Judged:
+def judged(view: View, labels: Labels, planes: list[Array], cost: Array, judge: Judge | None = None) -> Judged:
     """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
 
     Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
     """
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels, pictures.bright)
-    probable = odds_of(pictures, found)
+    odds = (judge or Judge.fitted()).of_regions(pictures, found)
+    return _judged(odds[found.number], view, labels, pictures, found)
+
+
+def _judged(in_window: Array, view: View, labels: Labels, pictures: Pictures, found: Regions) -> Judged:
     odds = np.zeros(labels.shape)
-    odds[view.window] = probable[found.number]
-    return _judged(odds, view, labels)
-
-
-def _judged(odds: Array, view: View, labels: Labels) -> Judged:
-    odds = odds.copy()
+    odds[view.window] = in_window
     for at in view.points:
         shown, _ = raster.labelled(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
-    return Judged(odds, behind, object_in(~behind, view.points))
+    return Judged(odds, behind, object_in(~behind, view.points), pictures, found)
 
 
-def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, room: Image | None) -> Judged:
+def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, room: Image | None, judge: Judge | None = None) -> Judged:
     """Regions judged again pixel by pixel, by what their neighbours are and which side they are like.
 
-    `bright` and `room` (rows, columns) are the logarithms of the lights' brightness and of the image without lights, where there is one:
-    what no light reaches, and what paint or a shadow has joined to a wrong region, shows itself there.
+    `bright` and `room` (rows, columns) are the logarithms of the lights' brightness and of the image without lights, where there is one.
     """
-    clues = context_of(judgement.odds, bright, room)
-    if clues is None:
+    judge = judge or Judge.fitted()
+    clues = clues_in(judgement, view, bright, room)
+    if clues is None or judge.context is None:
         return judgement
-    odds = _odds(clues, CONTEXT).reshape(labels.shape)
-    here = np.zeros(labels.shape, bool)
-    here[view.window] = True
-    return _judged(np.where(here, odds, 0.0), view, labels)
+    odds = _odds(judge.context.log_odds(clues)).reshape(judgement.pictures.labels.shape)
+    return _judged(odds, view, labels, judgement.pictures, judgement.regions)
 
 
-def context_of(odds: Array, bright: Image, room: Image | None) -> dict[str, Array] | None:
-    """The clues (P,) of coarse pixels by odds (rows, columns); None where all is on one side."""
-    inside = odds > 0.5
-    if not inside.any() or inside.all():
-        return None
-    everywhere = np.ones(odds.shape, bool)
-    near, plain, wide = LIKE_PX
-
-    def like(picture: Image | None, by: float) -> Array:
-        return np.zeros(odds.size) if picture is None else likeness([picture], inside, ~inside, by, everywhere)[0]
-
-    return {
-        "": np.ones(odds.size),
-        "odds": logit(odds.ravel()),
-        "about": raster.blurred(odds, ABOUT_PX).ravel() - 0.5,
-        "lights": like(bright, plain),
-        "room": like(room, near),
-        "room, widely": like(room, wide),
-    }
-
-
-def odds_of(pictures: Pictures, found: Regions) -> Array:
-    """The odds (N,), 0..1, that regions are the object."""
-    first = _odds(regions.own(pictures, found), OWN)
-    return _odds(regions.beside(pictures, found, logit(first)), BESIDE)
+def clues_in(judgement: Judged, view: View, bright: Image, room: Image | None) -> dict[str, Array] | None:
+    """The clues (P,) of the coarse pixels of the view's window; None where all is on one side."""
+    odds, here = judgement.odds[view.window], view.window
+    return context.clues_of(odds, logit(odds), judgement.pictures, judgement.regions, bright[here], None if room is None else room[here])
 
 
 def logit(odds: Array) -> Array:
@@ -168,9 +145,8 @@ def logit(odds: Array) -> Array:
     return np.asarray(np.log(sure / (1 - sure)))
 
 
-def _odds(clues: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
-    total = sum(weights[name] * value for name, value in ({"": np.float64(1.0)} | dict(clues)).items())
-    return np.asarray(1 / (1 + np.exp(-np.clip(total, -30, 30))))
+def _odds(log_odds: Array) -> Array:
+    return np.asarray(1 / (1 + np.exp(-np.clip(log_odds, -30, 30))))
 
 
 def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:

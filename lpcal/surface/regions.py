@@ -153,6 +153,11 @@ class Pictures:
     """(rows, columns, 3)."""
     swept: tuple[Array, Array]
     """u (D,) and the cost (D, rows, columns) of matter of any normal."""
+    free: Array
+    flat: Array
+    """Costs of matter of any normal, and of the best of the planes; SPARED's upper bound where there is none."""
+    of_any: Array
+    """(rows, columns, 3) normals of matter of any normal, whatever the label."""
 
     @staticmethod
     def of(view: View, labels: Labels, planes: list[Array], cost: Array) -> Pictures:
@@ -161,15 +166,19 @@ class Pictures:
         image, count = view.image, len(planes)
         signal = strength(image.maps)
         facing = np.stack([np.zeros(3), *(-q / np.linalg.norm(q) for q in planes), np.zeros(3), np.zeros(3)])[labels]
-        of_any = (labels == 0) | (labels == count + 2)  # what no light reaches shows no normal
+        free = (labels == 0) | (labels == count + 2)  # what no light reaches shows no normal
+        flat = cost[1 : count + 1].min(axis=0) if count else np.full(labels.shape, SPARED[1])
         return Pictures(
             labels[here],
             planes,
             np.clip(cost[0] - np.take_along_axis(cost, labels[None], axis=0)[0], *SPARED)[here],
             np.log(np.maximum(signal, 1e-3 * np.percentile(signal, 99)))[here],
-            np.where(of_any[..., None], view.normals, facing)[here],
+            np.where(free[..., None], view.normals, facing)[here],
             image.image(image.rays_C)[here],
             (view.swept.u, view.swept.cost.reshape(-1, *image.shape)[:, *here]),
+            cost[0][here],
+            flat[here],
+            view.normals[here],
         )
 
 
@@ -237,7 +246,7 @@ def _above(regions: Regions, odds: Array) -> Array:
 
 def _goes_on(pictures: Pictures, regions: Regions, odds: Array) -> Array:
     """The share (N,) of each region's outline over which the likely object, by odds (N,), goes on at the same depth."""
-    log_z = _log_depth(pictures, regions)
+    log_z = log_depth(pictures, regions)
     a, b = log_z.ravel()[regions.pixels].T
     same = np.nan_to_num(np.exp(-np.abs(a - b) / JUMP))
     return regions.outline(same, odds)
@@ -265,11 +274,11 @@ def _before(pictures: Pictures, regions: Regions, frame: Array, plane: Mask) -> 
         return np.zeros(len(regions.label))
     held = np.bincount(regions.label[plane], weights=frame[plane], minlength=len(pictures.planes) + 1)[1:]
     wall = _depth(pictures.planes[int(np.argmax(held))], pictures.rays_C)
-    ahead = np.nan_to_num(np.clip(np.log(wall) - _log_depth(pictures, regions), -1, 1))
+    ahead = np.nan_to_num(np.clip(np.log(wall) - log_depth(pictures, regions), -1, 1))
     return np.asarray(regions.mean(ahead) > BEFORE, float)
 
 
-def _log_depth(pictures: Pictures, regions: Regions) -> Array:
+def log_depth(pictures: Pictures, regions: Regions) -> Array:
     """Log depth (rows, columns): a plane's, or that at which a region's pixels together cost least; NaN where there is none."""
     log_z = np.full(regions.number.shape, np.nan)
     u, cost = pictures.swept

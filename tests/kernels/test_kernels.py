@@ -18,6 +18,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.surface import (
+    background,
     bounce,
     cut,
     distance,
@@ -348,6 +349,12 @@ def distort(rng: np.random.Generator) -> Array:
     return np.concatenate([found.ravel(), J.ravel()])
 
 
+def trees(rng: np.random.Generator) -> Array:
+    judges = background.Judge.fitted()
+    assert judges.context is not None
+    return np.concatenate([one.log_odds({name: 2 * rng.normal(size=500) for name in one.clues}) for one in (judges.own, judges.context)])
+
+
 CASES: dict[Callable, tuple[float, set[str]]] = {
     hidden: (0.0, {"hidden"}),
     behind: (1e-13, {"behind"}),
@@ -380,6 +387,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     white: (1e-12, {"white"}),
     plane: (1e-9, {"plane"}),
     cluster: (1e-12, {"cluster"}),
+    trees: (0.0, {"trees"}),
     turns: (1e-10, {"turns"}),
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),

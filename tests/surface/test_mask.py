@@ -14,6 +14,7 @@ from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.flats import Sweep
 from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, light_vectors, ray_map
+from lpcal.surface.trees import Trees
 
 CARD = (slice(36, 74), slice(50, 105))
 WALL, FLOOR = np.array([0.04, -0.02, 1 / 0.45]), np.array([0.0, 1.0, 0.1]) / 0.06
@@ -188,10 +189,36 @@ def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_b
 def test_every_clue_has_its_weight_and_every_weight_its_clue() -> None:
     labels = np.full((20, 30), 1)
     labels[5:12, 8:20] = 0
-    pictures = regions.Pictures.of(view_of(labels.shape), labels, [WALL], costs(labels, 1))
-    found = regions.Regions.of(labels, np.zeros(labels.shape))
-    assert set(background.OWN) == {"", *regions.own(pictures, found)}
-    assert set(background.BESIDE) == {"", *regions.beside(pictures, found, np.zeros(len(found.label)))}
+    view, level = view_of(labels.shape), np.zeros(labels.shape, np.float32)
+    judge, judged = background.Judge.fitted(), background.judged(view, labels, [WALL], costs(labels, 1))
+    own, beside = regions.own(judged.pictures, judged.regions), regions.beside(judged.pictures, judged.regions, np.zeros(2))
+    in_context = background.clues_in(judged, view, level, level)
+    assert in_context is not None
+    assert judge.context is not None
+    assert set(judge.own.clues) == set(own)
+    assert set(background.BESIDE) == {"", *beside}
+    assert set(judge.context.clues) == set(in_context)
+    for trees, clues in ((judge.own, own), (judge.context, in_context)):
+        asked = set(trees.clue[trees.clue >= 0])
+        assert asked == set(range(len(trees.clues))), "every clue is asked for"
+        assert trees.log_odds(clues).shape == next(iter(clues.values())).shape
+
+
+def test_trees_sum_the_leaves_that_the_clues_lead_to() -> None:
+    two = Trees(
+        ("a", "b"),
+        0.5,
+        np.array([0, 3]),
+        np.array([1, -1, -1, 0, -1, 1, -1, -1]),
+        np.array([2.0, 0, 0, -1.0, 0, 5.0, 0, 0]),
+        np.array([1, 0, 0, 4, 0, 6, 0, 0]),
+        np.array([2, 0, 0, 5, 0, 7, 0, 0]),
+        np.array([0, 10.0, 20.0, 0, 100.0, 0, 200.0, 400.0]),
+    )
+    clues = {"b": np.array([2.0, 2.1, 6.0]), "a": np.array([-1.0, 0.0, 0.0]), "of no tree": np.zeros(3)}
+    np.testing.assert_array_equal(two.log_odds(clues), [0.5 + 10 + 100, 0.5 + 20 + 200, 0.5 + 20 + 400])
+    again = Trees.of(two.arrays("one"), "one")
+    np.testing.assert_array_equal(again.log_odds(clues), two.log_odds(clues))
 
 
 def test_what_holds_the_frame_is_background_and_what_lies_in_the_middle_the_object() -> None:
@@ -309,11 +336,12 @@ def test_why_a_mask_is_doubted_names_the_rival_and_the_place() -> None:
     labels = np.full((30, 40), 1)
     labels[10:20, 10:30] = 0
     odds = np.where(labels == 0, 0.98, 0.01)
-    sure = background.doubt_of(background.Judged(odds, labels == 1, labels == 0), labels)
+    judged = background.judged(view_of(labels.shape), labels, [WALL], costs(labels, 1))
+    sure = background.doubt_of(replace(judged, odds=odds, behind=labels == 1, mask=labels == 0), labels)
     assert sure.share < 0.08
     assert not sure.place.any()
     labels[10:20, 24:30], odds[10:20, 24:30] = 2, 0.6
-    doubt = background.doubt_of(background.Judged(odds, odds < 0.5, odds > 0.5), labels)
+    doubt = background.doubt_of(replace(judged, odds=odds, behind=odds < 0.5, mask=odds > 0.5), labels)
     assert doubt.rival == 2
     assert doubt.share == pytest.approx((60 * 0.4 + 140 * 0.02 + 1000 * 0.01) / 200)
     assert doubt.open == pytest.approx(60 / 200)
