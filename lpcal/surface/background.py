@@ -10,7 +10,7 @@ shows is the object. Source: Wolpert 1992, Neural Networks 5 (a second fit on th
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal
 
@@ -118,6 +118,11 @@ def _judged(in_window: Array, view: View, labels: Labels, pictures: Pictures, fo
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
     return Judged(odds, behind, object_in(~behind, view.points), pictures, found)
+
+
+def all_of(judgement: Judged, lit: Mask) -> Judged:
+    """All that is lit (rows, columns) as the object, where nothing in the picture is likely to be it."""
+    return replace(judgement, odds=np.where(lit, LIKELY[1], LIKELY[0]), behind=~lit, mask=lit)
 
 
 def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, room: Image | None, judge: Judge | None = None) -> Judged:

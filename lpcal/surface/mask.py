@@ -40,7 +40,7 @@ LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02
 """Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
-DOUBTED, DOUBT_POWER = 0.16, 2.2
+DOUBTED, DOUBT_POWER = 0.11, 3.2
 """Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_outline.py."""
 
 
@@ -163,14 +163,15 @@ def _by_layers(
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
     judged = background.in_context(judged, view, labels, *outline.levels_of(image, room))
+    alone = judged.mask.sum() < LEAST_OF_IMAGE * judged.mask.size
+    if alone:
+        judged = background.all_of(judged, image.image(lit))
     mask, behind = judged.mask, judged.behind
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
-    if mask.sum() < LEAST_OF_IMAGE * mask.size:
-        every = hints.of(outline.enlarged(image.image(lit), image.factor, shape))
-        return Found(every, "all that is lit lies in one plane: that is the object", walls, layer=every.astype(np.uint8))
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
+    how = "all that is lit lies in one plane: that is the object" if alone else how
     if not drawn:
         return Found(hints.of(outline.enlarged(mask, image.factor, shape)), how, walls)
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
@@ -181,7 +182,8 @@ def _by_layers(
     fine = tidy(outline.drawn(apart, maps, rays_C, room))
     fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
-    return Found(fine, how, walls, doubt.share, why, _layer(fine, labels, behind, kinds, image.factor))
+    layer = _layer(fine, labels, behind, kinds, image.factor)
+    return Found(fine, how, walls, layer=layer) if alone else Found(fine, how, walls, doubt.share, why, layer)
 
 
 def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:

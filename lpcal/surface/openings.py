@@ -44,7 +44,7 @@ def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, fou
     rows, columns = image.shape
     inside = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3)) > 0.5
     shown = np.zeros(inside.shape, bool)
-    if not inside.any():
+    if not inside.any() or inside.all():
         return np.zeros(mask.shape, bool)
     like = [_like(image.maps, image.image(image.rays_C), lights, inside, plane) for plane in found]
     for candidates in (*like, _dim(strength(image.maps), inside)):

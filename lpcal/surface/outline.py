@@ -22,9 +22,9 @@ from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.likeness import MOST, level, likeness
 from lpcal.surface.sight import Grey, Indices, strength
 
-WITH_ROOM = {"": -0.309, "layers": 0.174, "odds": 0.206, "lights": 0.145, "room": 0.222, "odds, dim": 0.7}
+WITH_ROOM = {"": -0.0715, "layers": 0.163, "odds": 0.158, "lights": 0.134, "room": 0.279, "odds, dim": 0.526}
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
-WITHOUT_ROOM = {"": -0.609, "layers": 0.156, "odds": 0.251, "lights": 0.134}
+WITHOUT_ROOM = {"": -0.0209, "layers": 0.14, "odds": 0.109, "lights": 0.176}
 """The same where there is none."""
 LEAN = 0.8
 """Log odds added for the object: rims are darker than what they bound, and without it more is missing than too much. From 0 to 0.8 the mean

@@ -19,7 +19,8 @@ def pictures(labels: np.ndarray, planes: list[np.ndarray], u_object: float = np.
     u = np.log(np.array([0.3, 0.4, 0.5]))
     cost = np.abs(u - u_object)[:, None, None] * np.ones(labels.shape)
     rays = np.tile([0.0, 0.0, 1.0], (*labels.shape, 1))
-    return Pictures(labels, planes, np.zeros(labels.shape), np.zeros(labels.shape), facing, rays, (u, cost))
+    none = np.zeros(labels.shape)
+    return Pictures(labels, planes, none, none, facing, rays, (u, cost), none, none, facing)
 
 
 def clue(name: str, labels: np.ndarray, planes: list[np.ndarray], u_object: float = np.log(0.4)) -> np.ndarray:
