@@ -1,10 +1,10 @@
 """Fit what the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
-estimated, as the mask does it. Writes the trees of lpcal.surface.trees and prints BESIDE of lpcal.surface.background; cross-validated by
-scene in FOLDS parts, how good the coarse masks are. The judges that were fitted without a part of the scenes go to FILE, for
-tools/fit_outline.py, which must not see odds of scenes that they were fitted to. The regions themselves depend a little on the judge. Needs
-scikit-learn (``uv run --with scikit-learn``); with OMP_NUM_THREADS=1 where other work shares the machine.
+estimated, as the mask does it. Writes the trees that lpcal.surface.background reads and prints its BESIDE; cross-validated by scene in
+FOLDS parts, how good the coarse masks are. The judges that were fitted without a part of the scenes go to FILE, for tools/fit_outline.py,
+which must not see odds of scenes that they were fitted to. The regions themselves depend a little on the judge. Needs scikit-learn
+(``uv run --with scikit-learn``); with OMP_NUM_THREADS=1 where other work shares the machine.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from lpcal.records.calibration import Light
 from lpcal.surface import background, context, flats, layers, mask, outline, regions, room_light, sight
 from lpcal.surface.coarse import LightTable, coarse_of, factor_of
 from lpcal.surface.regions import Pictures, Regions, View
-from lpcal.surface.trees import FITTED, Trees
 
 FOLDS, INNER = 6, 5
 RIDGE = 0.3
@@ -200,7 +199,7 @@ def parts(examples: list[Example], count: int, rng: np.random.Generator) -> np.n
     return np.array([part[one.name] for one in examples])
 
 
-def trees(names: list[str], clues: np.ndarray, share: np.ndarray, weight: np.ndarray, kind: dict[str, float]) -> Trees:
+def trees(names: list[str], clues: np.ndarray, share: np.ndarray, weight: np.ndarray, kind: dict[str, float]) -> background.Trees:
     """Boosted trees of least logistic loss."""
     from sklearn.ensemble import HistGradientBoostingClassifier
 
@@ -219,10 +218,10 @@ def trees(names: list[str], clues: np.ndarray, share: np.ndarray, weight: np.nda
     left, right = (np.where(ends, 0, every[side] + offset) for side in ("left", "right"))
     leaf = np.where(ends, every["value"], 0.0)
     start = float(model._baseline_prediction.item())  # noqa: SLF001
-    return Trees(tuple(names), start, root, clue, threshold, left, right, leaf)
+    return background.Trees(tuple(names), start, root, clue, threshold, left, right, leaf)
 
 
-def of_trees(found: Trees, clues: dict[str, np.ndarray]) -> np.ndarray:
+def of_trees(found: background.Trees, clues: dict[str, np.ndarray]) -> np.ndarray:
     """Odds (N,) by trees."""
     return 1 / (1 + np.exp(-np.clip(found.log_odds(clues), -30, 30)))
 
@@ -232,7 +231,7 @@ def judge_of(train: list[Example], rng: np.random.Generator) -> background.Judge
     share, weight = (np.concatenate([getattr(one, name) for one in train]) for name in ("share", "weight"))
     names, part = list(train[0].own()), parts(train, INNER, rng)
 
-    def own(some: list[Example]) -> Trees:
+    def own(some: list[Example]) -> background.Trees:
         return trees(names, *(np.concatenate([getattr(one, name) for one in some]) for name in ("clues", "share", "weight")), REGIONS)
 
     for k in range(INNER):
@@ -246,7 +245,7 @@ def judge_of(train: list[Example], rng: np.random.Generator) -> background.Judge
     return background.Judge(own(train), beside, of_context(train, [odds(one, b) for one in about], rng))
 
 
-def of_context(train: list[Example], of_regions: list[np.ndarray], rng: np.random.Generator) -> Trees:
+def of_context(train: list[Example], of_regions: list[np.ndarray], rng: np.random.Generator) -> background.Trees:
     """The trees of coarse pixels by their regions' odds (N,)."""
     clues, share, weight, names = [], [], [], []
     for one, known in zip(train, of_regions, strict=True):
@@ -306,7 +305,7 @@ def report(examples: list[Example], folds: Path | None = None) -> None:
             print(line_of(f"{kind}, {len(some)}: IoU of {name}, scenes left out", list(values)))
     judge = judge_of(examples, np.random.default_rng(0))
     assert judge.context is not None
-    np.savez_compressed(FITTED, **judge.own.arrays("regions"), **judge.context.arrays("context"))
+    np.savez_compressed(background.FITTED, **judge.own.arrays("regions"), **judge.context.arrays("context"))
     print("BESIDE = {")
     for key, value in judge.beside.items():
         print(f'    "{key}": {value:.3g},')

@@ -1,10 +1,11 @@
 r"""Which labels are the object and which the wall behind it or the support under it: odds of every region, from clues.
 
-The log odds that a region is the object are a sum of trees over its own clues (surface.regions, surface.trees), then linear in those of its
+The log odds that a region is the object are a sum of trees over its own clues (surface.regions), then linear in those of its
 neighbours' odds; those of a coarse pixel are a sum of trees over its region's odds and its context (surface.context). All are fitted by
 tools/fit_mask.py on simulated scenes, each stage on what the one before says of scenes that it was not fitted to. Their remaining
 uncertainty is the mask's stated doubt. The user may say where the object is: a box takes the place of the image, and what a given point
-shows is the object. Source: Wolpert 1992, Neural Networks 5 (a second fit on the predictions of a first).
+shows is the object. Sources: Friedman 2001, Annals of Statistics 29 (gradient boosting); Wolpert 1992, Neural Networks 5 (a second fit on
+the predictions of a first).
 """
 
 from __future__ import annotations
@@ -12,16 +13,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.kernels.library import kernel
 from lpcal.surface import context, regions
 from lpcal.surface.regions import Pictures, Regions, View
-from lpcal.surface.trees import Trees, fitted
+from lpcal.surface.sight import Indices
 
+FITTED = Path(__file__).with_name("mask_trees.npz")
+"""Where the mask's trees are."""
 BESIDE = {
     "": 0.169,
     "itself": 0.514,
@@ -68,6 +73,65 @@ class Judged:
 
 
 @dataclass(frozen=True)
+class Trees:
+    """Gradient-boosted trees: log odds as a sum over T small decision trees of a few clues, N nodes together.
+
+    A node asks whether a clue is at most a threshold; a leaf is what the way there adds. scikit-learn fits them, numpy alone uses them.
+    """
+
+    clues: tuple[str, ...]
+    start: float
+    """Log odds before any tree."""
+    root: Indices
+    """(T,) the first node of each tree."""
+    clue: Indices
+    """(N,) the number of the clue that a node asks for; -1 at a leaf."""
+    threshold: Array
+    """(N,) up to which the way leads left."""
+    left: Indices
+    right: Indices
+    """(N,) the next node."""
+    leaf: Array
+    """(N,) what a leaf adds to the log odds; 0 at other nodes."""
+
+    def log_odds(self, clues: Mapping[str, Array]) -> Array:
+        """Log odds (P,) by clues (P,) of these names, of which there may be more."""
+        at = np.stack([np.asarray(clues[name], float) for name in self.clues], axis=1)
+        return self._summed(at)
+
+    def _summed(self, clues: Array) -> Array:
+        """Log odds (P,) by clues (P, C)."""
+        total = np.full(len(clues), self.start)
+        if run := kernel("trees"):
+            nodes = (np.ascontiguousarray(one, np.int64) for one in (self.root, self.clue, self.left, self.right))
+            values = (np.ascontiguousarray(one, float) for one in (self.threshold, self.leaf))
+            run(*clues.shape, len(self.root), np.ascontiguousarray(clues), *nodes, *values, total)
+            return total
+        every = np.arange(len(clues))
+        for root in self.root:
+            node = np.full(len(clues), root)
+            while (open_ := self.clue[node] >= 0).any():
+                goes = clues[every, np.maximum(self.clue[node], 0)] <= self.threshold[node]
+                node = np.where(open_, np.where(goes, self.left[node], self.right[node]), node)
+            total += self.leaf[node]
+        return total
+
+    def arrays(self, name: str) -> dict[str, np.ndarray]:
+        """What a file keeps of them, under a name."""
+        kept: dict[str, np.ndarray] = {"clues": np.array(self.clues), "start": np.array(self.start), "root": self.root.astype(np.int32)}
+        kept |= {"clue": self.clue.astype(np.int8), "left": self.left.astype(np.int32), "right": self.right.astype(np.int32)}
+        kept |= {"threshold": self.threshold, "leaf": self.leaf.astype(np.float32)}
+        return {f"{name}.{key}": value for key, value in kept.items()}
+
+    @staticmethod
+    def of(arrays: Mapping[str, np.ndarray], name: str) -> Trees:
+        """From what a file keeps."""
+        root, clue, left, right = (arrays[f"{name}.{key}"].astype(np.int64) for key in ("root", "clue", "left", "right"))
+        threshold, leaf = (arrays[f"{name}.{key}"].astype(float) for key in ("threshold", "leaf"))
+        return Trees(tuple(map(str, arrays[f"{name}.clues"])), float(arrays[f"{name}.start"]), root, clue, threshold, left, right, leaf)
+
+
+@dataclass(frozen=True)
 class Judge:
     """What clues say: fitted to simulated scenes."""
 
@@ -80,7 +144,8 @@ class Judge:
     @cache
     def fitted() -> Judge:
         """The one that tools/fit_mask.py has fitted."""
-        return Judge(fitted("regions"), BESIDE, fitted("context"))
+        with np.load(FITTED) as arrays:
+            return Judge(Trees.of(arrays, "regions"), BESIDE, Trees.of(arrays, "context"))
 
     def of_regions(self, pictures: Pictures, found: Regions) -> Array:
         """The odds (N,), 0..1, that regions are the object."""

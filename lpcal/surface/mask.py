@@ -18,7 +18,6 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.surface import background, cut, flats, layers, outline, planes
 from lpcal.surface.coarse import Coarse, LightTable, coarse_of, factor_of
-from lpcal.surface.openings import openings
 from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, Sight, strength
 
@@ -180,7 +179,7 @@ def _by_layers(
     log_odds = background.logit(judged.odds.ravel()).reshape(image.shape)
     apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
     fine = tidy(outline.drawn(apart, maps, rays_C, room))
-    fine = hints.of(fine & ~openings(maps, rays_C, lights, fine, walls))
+    fine = hints.of(fine & ~outline.openings(maps, rays_C, lights, fine, walls))
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     layer = _layer(fine, labels, behind, kinds, image.factor)
     return Found(fine, how, walls, layer=layer) if alone else Found(fine, how, walls, doubt.share, why, layer)

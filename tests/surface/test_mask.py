@@ -14,7 +14,6 @@ from lpcal.surface.coarse import Coarse, LightTable, coarse_of
 from lpcal.surface.flats import Sweep
 from lpcal.surface.regions import View
 from lpcal.surface.sight import Grey, light_vectors, ray_map
-from lpcal.surface.trees import Trees
 
 CARD = (slice(36, 74), slice(50, 105))
 WALL, FLOOR = np.array([0.04, -0.02, 1 / 0.45]), np.array([0.0, 1.0, 0.1]) / 0.06
@@ -205,7 +204,7 @@ def test_every_clue_has_its_weight_and_every_weight_its_clue() -> None:
 
 
 def test_trees_sum_the_leaves_that_the_clues_lead_to() -> None:
-    two = Trees(
+    two = background.Trees(
         ("a", "b"),
         0.5,
         np.array([0, 3]),
@@ -217,7 +216,7 @@ def test_trees_sum_the_leaves_that_the_clues_lead_to() -> None:
     )
     clues = {"b": np.array([2.0, 2.1, 6.0]), "a": np.array([-1.0, 0.0, 0.0]), "of no tree": np.zeros(3)}
     np.testing.assert_array_equal(two.log_odds(clues), [0.5 + 10 + 100, 0.5 + 20 + 200, 0.5 + 20 + 400])
-    again = Trees.of(two.arrays("one"), "one")
+    again = background.Trees.of(two.arrays("one"), "one")
     np.testing.assert_array_equal(again.log_odds(clues), two.log_odds(clues))
 
 

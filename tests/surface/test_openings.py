@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import lpcal.surface.openings
+import lpcal.surface.outline
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface.openings import openings
+from lpcal.surface.outline import openings
 from lpcal.surface.planes import Plane
 from lpcal.surface.sight import Grey, light_vectors
 
@@ -74,7 +74,7 @@ def test_a_dome_that_rises_out_of_the_wall_stays(monkeypatch: pytest.MonkeyPatch
     """Its middle lies and faces as the wall does, but nothing steps at the middle's rim."""
     maps, disc = pictures(WALL_M + 0.395, 0.40)
     assert not openings(maps, rays(), LIGHTS, disc, [WALL]).any()
-    monkeypatch.setattr(lpcal.surface.openings, "STEP", -1.0)
+    monkeypatch.setattr(lpcal.surface.outline, "STEP", -1.0)
     assert openings(maps, rays(), LIGHTS, disc, [WALL]).any()
 
 
