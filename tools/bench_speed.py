@@ -26,9 +26,11 @@ from scipy.sparse import linalg
 from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import Provenance
 from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array
+from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Calibration, Light
-from lpcal.surface import multigrid, normals
-from lpcal.surface.integrate import Grid, system
+from lpcal.surface import multigrid, normals, pieces, uncertainty
+from lpcal.surface.integrate import Grid, Own, integrate, settle, steps, system
 from lpcal.surface.sight import Sight
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -126,6 +128,42 @@ def integration() -> Row:
     return Row(name, f"{own:.2f} s", f"{peer:.2f} s, scipy spsolve", peer / own)
 
 
+def broken_integration() -> Row:
+    """Depth with breaks, and its sigma, of the normals of two balls before a wall, compared with the kernels' numpy twins."""
+    y, x = np.indices((470, 470))
+    rays = np.stack([(x - 235) / 600, (y - 235) / 600, np.ones(x.shape)], axis=-1)
+    mask, z = (x - 235) ** 2 + (y - 235) ** 2 < 221.5**2, np.full(x.shape, 0.36)
+    for column, row, radius, front in ((-0.03, 0.0, 0.05, 0.36), (0.06, 0.03, 0.04, 0.33)):
+        height2 = radius**2 - (0.35 * rays[..., 0] - column) ** 2 - (0.35 * rays[..., 1] - row) ** 2
+        z = np.where(height2 > 0, np.minimum(z, front - np.sqrt(np.maximum(height2, 0))), z)
+    slopes = [np.gradient(rays * z[..., None], axis=axis) for axis in (0, 1)]
+    rng, r = np.random.default_rng(3), rays[mask]
+    n = lambert.unit(np.cross(*slopes)[mask])[0]
+    n *= -np.sign(np.sum(n * r, axis=1))[:, None]
+    n = lambert.unit(n + 0.02 * rng.standard_normal(r.shape))[0]
+    grid, pixels = Grid.of(mask), len(r)
+    own = Own(np.full(pixels, 0.5), np.log(z[mask]) + 0.05 * rng.standard_normal(pixels))
+
+    def whole() -> Array:
+        step, sigma = steps(grid, n, r, central=True)
+        u, weight = integrate(grid, step, sigma, own, np.full(pixels, np.log(0.35)), graduated=True)
+        weight = pieces.without_slivers(grid, weight, mask)
+        u = settle(grid, step, sigma, own, u, weight)
+        label, towards = pieces.pieces(grid, weight, mask), -np.sum(n * r, axis=1) / np.linalg.norm(r, axis=1)
+        uncertainty.depth_sigma(grid, np.full(pixels, 2.0), towards, r[:, :2], np.exp(u), label)
+        return u
+
+    mine = timed(whole)
+    os.environ[SWITCH] = "numpy"
+    begun = time.thread_time()
+    whole()
+    twin = time.thread_time() - begun
+    del os.environ[SWITCH]
+    return Row(
+        f"integration with breaks and sigma of {pixels} pixels", f"{mine:.2f} s", f"{twin:.2f} s, the kernels' numpy twins", twin / mine
+    )
+
+
 def reweighted(B: np.ndarray, signal: np.ndarray) -> np.ndarray:
     """b (P, 3) of least absolute residuals, by least squares weighted again, a pixel at a time in plain Python."""
     found = np.empty((signal.shape[1], 3))
@@ -191,7 +229,7 @@ def main(words: list[str]) -> int:
     """Measure, print, and with --check hold against what is committed."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory() as folder:
-        rows = [*captures(Path(folder)), integration(), robust_normals()]
+        rows = [*captures(Path(folder)), integration(), broken_integration(), robust_normals()]
     print(table(rows))
     worse = slides(rows) if "--check" in words else []
     print("".join(f"slid: {one}\n" for one in worse), end="")
