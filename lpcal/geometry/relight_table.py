@@ -74,12 +74,13 @@ def table(directions: Array, images: Image, gamma: float, components: int, insid
     weight = np.repeat(_nearness(nodes(RESOLUTION), directions), 3)
     mean = at_nodes.mean(axis=0)
     apart = weight * (at_nodes - mean)
-    _, V = np.linalg.eigh(apart.T @ apart)
-    V = V[:, ::-1][:, :components].T
-    planes = np.zeros((components, height * width), np.float32)
+    V = _strongest(apart.T @ apart, components)
+    planes = np.repeat((-V @ (weight * mean)).astype(np.float32)[:, None], height * width, axis=1)
+    shares = (weight * V).astype(np.float32).reshape(components, -1, 3)
     for first in range(0, height * width, BLOCK):
         part = slice(first, first + BLOCK)
-        planes[:, part] = V @ (weight * (law.at_nodes(flat[:, part]) - mean)).T
+        for c in range(3):
+            planes[:, part] += shares[:, :, c] @ law.one_channel(flat[:, part, c])
     left = (apart - apart @ V.T @ V)[:, weight == 1]
     basis = np.concatenate([mean[None], V / weight]).reshape(components + 1, -1, 3)
     held = rows[np.linspace(0, len(rows) - 1, min(HELD_OUT, len(rows))).astype(int)]
@@ -98,33 +99,50 @@ def _nearness(asked: Array, directions: Array) -> Array:
     return np.where(apart <= float(between.max()), 1.0, AFAR)
 
 
+def _strongest(moments: Array, count: int) -> Array:
+    """The eigenvectors (count, M) of the largest eigenvalues of symmetric moments (M, M), largest first."""
+    from scipy.linalg import eigh
+
+    size = len(moments)
+    return np.asarray(eigh(moments, subset_by_index=[size - count, size - 1])[1][:, ::-1].T)
+
+
 class _Law:
-    """Predicts the images under other lights (M, 3) from images under lights (L, 3)."""
+    """Predicts the images under other lights (M, 3) from images under lights (L, 3), in single precision: they become bytes."""
 
     def __init__(self, directions: Array, asked: Array, gamma: float) -> None:
-        self.directions, self.asked, self.gamma = directions, asked, gamma
-        self.weights = _spline(directions[:, :2], asked[:, :2])
+        self.directions, self.asked = directions.astype(np.float32), asked.astype(np.float32)
+        self.gamma = np.float32(gamma)
+        self.weights = _spline(directions[:, :2], asked[:, :2]).astype(np.float32)
 
     def at_nodes(self, images: Image) -> Array:
         """Encoded values (N, 3 M) of pixels (L, N, 3), a pixel a row, nodes first."""
-        values = images.reshape(len(images), -1).astype(float)
+        shown = np.stack([self.one_channel(images[..., c]) for c in range(3)], axis=-1)
+        return np.asarray(shown.transpose(1, 0, 2).reshape(images.shape[1], -1), float)
+
+    def one_channel(self, values: Image) -> Image:
+        """Encoded values (M, N) of a channel's (L, N)."""
+        values = np.ascontiguousarray(values, np.float32)
         b = _lambert(self.directions, values**self.gamma)
-        shown = self._shown(self.asked, b) + self.weights @ (values - self._shown(self.directions, b))
-        return np.asarray(np.clip(shown, 0, 1).reshape(len(self.asked), -1, 3).transpose(1, 0, 2).reshape(images.shape[1], -1))
+        shown = self._shown(self.asked, b)
+        shown += self.weights @ (values - self._shown(self.directions, b))
+        return np.clip(shown, 0, 1, out=shown)
 
-    def _shown(self, directions: Array, b: Array) -> Array:
-        return np.asarray(np.clip(directions @ b, 0, 1) ** (1 / self.gamma))
+    def _shown(self, directions: Image, b: Image) -> Image:
+        linear = directions @ b
+        np.clip(linear, 0, 1, out=linear)
+        return np.power(linear, 1 / self.gamma, out=linear)
 
 
-def _lambert(directions: Array, linear: Array) -> Array:
+def _lambert(directions: Image, linear: Image) -> Image:
     """b (3, N) of linear values (L, N), from those that are lit."""
-    b = np.linalg.lstsq(directions, linear, rcond=None)[0]
+    b = np.linalg.pinv(directions) @ linear
     squares = (directions[:, :, None] * directions[:, None, :]).reshape(len(directions), 9)
     for _ in range(ROUNDS):
-        lit = ((directions @ b > 0) & (linear > DARK)).astype(float)
-        normal = (lit.T @ squares).reshape(-1, 3, 3) + 1e-6 * np.eye(3)
-        b = np.linalg.solve(normal, ((linear * lit).T @ directions)[..., None])[..., 0].T
-    return np.asarray(b)
+        lit = ((directions @ b > 0) & (linear > DARK)).astype(np.float32)
+        normal = (lit.T @ squares).reshape(-1, 3, 3).astype(float) + 1e-6 * np.eye(3)
+        b = np.linalg.solve(normal, ((linear * lit).T @ directions)[..., None])[..., 0].T.astype(np.float32)
+    return b
 
 
 def _spline(places: Array, asked: Array) -> Array:
