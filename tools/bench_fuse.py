@@ -78,7 +78,6 @@ def of_model(truth: Truth, model: ObjectModel) -> dict:
     off, normals = truth.along(model.vertices_A)
     angle = np.degrees(np.arccos(np.clip((normals * model.normals_A).sum(axis=1), -1, 1)))
     common = shared_part(model.vertices_A, normals, off)
-    own_sigma_m = np.sqrt(np.maximum(model.sigma_m**2 - model.figures.shared_sigma_m**2, (0.1 * model.sigma_m) ** 2))
     return {
         "normals_median_deg": float(np.median(angle)),
         "within_2_sigma_percent": 100 * float(np.mean(np.abs(off) < 2 * model.sigma_m)),
@@ -86,7 +85,6 @@ def of_model(truth: Truth, model: ObjectModel) -> dict:
         "rms_in_sigmas": rms(off / model.sigma_m),
         "shared_rms_mm": 1e3 * rms(common),
         "shared_sigma_mm": 1e3 * model.figures.shared_sigma_m,
-        "own_within_2_sigma_percent": 100 * float(np.mean(np.abs(off - common) < 2 * own_sigma_m)),
         "own_rms_mm": 1e3 * rms(off - common),
         "own_median_mm": 1e3 * float(np.median(np.abs(off - common))),
         "left_out": [view.name for view in model.views if not view.used],
