@@ -28,16 +28,16 @@ from lpcal.surface.sight import Indices
 FITTED = Path(__file__).with_name("mask_trees.npz")
 """Where the mask's trees are."""
 BESIDE = {
-    "": 0.169,
-    "itself": 0.514,
-    "about": 0.766,
-    "widely about, of any normal": -0.284,
-    "alike in the lights', a plane": 0.846,
-    "frame of the whole plane": -0.726,
-    "frame of the whole, seen through": -1.41,
-    "above, facing up": 0.192,
-    "goes on, a plane": 2.93,
-    "in the hull, dark": 0.123,
+    "": 0.202,
+    "itself": 0.511,
+    "about": 0.78,
+    "widely about, of any normal": -0.36,
+    "alike in the lights', a plane": 0.756,
+    "frame of the whole plane": -0.715,
+    "frame of the whole, seen through": -1.37,
+    "above, facing up": 0.108,
+    "goes on, a plane": 3.43,
+    "in the hull, dark": 0.0695,
 }
 """Weights of the clues of the regions about it in a region's log odds; "" is the constant. By tools/fit_mask.py."""
 RIM = 2
@@ -48,6 +48,8 @@ LIKELY = (0.01, 0.99)
 """Odds beyond which a region counts no more for its neighbours."""
 CARRIED = 5
 """Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
+UNLIKELY = 0.02
+"""Odds under which no region is taken for the object: a wall alone has .002, a card parallel to a wall .07."""
 OPEN = 0.1
 """Odds that a region is on the other side from which it is named as doubtful."""
 
@@ -166,11 +168,14 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
 def judged(view: View, labels: Labels, planes: list[Array], cost: Array, judge: Judge | None = None) -> Judged:
     """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
 
-    Where no region is rather the object than not, it is what is likeliest, if anything is likely at all.
+    The odds are those given that the picture shows an object, if anything is likely to be it at all: one region alone must then be it. Where
+    still nothing is rather the object than not, it is what is likeliest.
     """
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels, pictures.bright)
     odds = (judge or Judge.fitted()).of_regions(pictures, found)
+    if odds.max() > UNLIKELY:
+        odds = odds / (1 - np.prod(1 - odds))  # given that the picture shows an object
     return _judged(odds[found.number], view, labels, pictures, found)
 
 
@@ -181,7 +186,7 @@ def _judged(in_window: Array, view: View, labels: Labels, pictures: Pictures, fo
         shown, _ = raster.labelled(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
-    behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, OPEN))
+    behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, UNLIKELY))
     return Judged(odds, behind, object_in(~behind, view.points), pictures, found)
 
 

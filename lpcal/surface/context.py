@@ -81,6 +81,7 @@ def _made_of(pictures: Pictures, found: Regions) -> dict[str, Array]:
         "normal z": z,
         "facing down": pictures.normals[..., 1],
         "bright": pictures.bright - np.median(pictures.bright),
+        "blown out": pictures.blown,
         "size": np.sqrt(found.area / labels.size)[found.number],
         "frame": frame[found.number],
         "frame of the label": np.bincount(found.label, weights=frame, minlength=planes + 3)[labels],

@@ -158,6 +158,8 @@ class Pictures:
     """Costs of matter of any normal, and of the best of the planes; SPARED's upper bound where there is none."""
     of_any: Array
     """(rows, columns, 3) normals of matter of any normal, whatever the label."""
+    blown: Array
+    """Share of a pixel's samples that cannot be used: saturated, as a bright wall behind a dark object is."""
 
     @staticmethod
     def of(view: View, labels: Labels, planes: list[Array], cost: Array) -> Pictures:
@@ -179,6 +181,7 @@ class Pictures:
             cost[0][here],
             flat[here],
             view.normals[here],
+            image.image(1.0 - image.usable.mean(axis=0))[here],
         )
 
 
@@ -206,6 +209,7 @@ def own(pictures: Pictures, regions: Regions) -> dict[str, Array]:
         "facing aside": np.abs(regions.mean(pictures.normals[..., 0])),
         "bright": regions.mean(pictures.bright) - float(np.median(pictures.bright)),
         "edge in the lights": regions.outline(np.minimum(_step(pictures.bright, regions), 1.0), all_over),
+        "blown out": regions.mean(pictures.blown),
         "dark frame": np.full(len(plane), frame[regions.label == count + 1].sum()),
         "nothing beside": regions.outline(along, regions.label == count + 1),
         "before": _before(pictures, regions, frame, plane > 0),

@@ -20,7 +20,7 @@ def pictures(labels: np.ndarray, planes: list[np.ndarray], u_object: float = np.
     cost = np.abs(u - u_object)[:, None, None] * np.ones(labels.shape)
     rays = np.tile([0.0, 0.0, 1.0], (*labels.shape, 1))
     none = np.zeros(labels.shape)
-    return Pictures(labels, planes, none, none, facing, rays, (u, cost), none, none, facing)
+    return Pictures(labels, planes, none, none, facing, rays, (u, cost), none, none, facing, none)
 
 
 def clue(name: str, labels: np.ndarray, planes: list[np.ndarray], u_object: float = np.log(0.4)) -> np.ndarray:
