@@ -168,8 +168,8 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
 def judged(view: View, labels: Labels, planes: list[Array], cost: Array, judge: Judge | None = None) -> Judged:
     """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
 
-    The odds are those given that the picture shows an object, if anything is likely to be it at all: one region alone must then be it. Where
-    still nothing is rather the object than not, it is what is likeliest.
+    The odds are those given that the picture shows an object, if anything is likely to be it at all: one region alone must then be it.
+    Where still nothing is rather the object than not, it is what is likeliest.
     """
     pictures = Pictures.of(view, labels, planes, cost)
     found = Regions.of(pictures.labels, pictures.bright)
