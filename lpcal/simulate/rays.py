@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Index, Mask
 from lpcal.simulate.shapes import Shape
 
 STEPS = 160
@@ -23,16 +23,17 @@ def cast(shape: Shape, o_S: Array, d_S: Array, touch: float = TOUCH) -> Array:
     near, far = bounding(o_S, d_S, shape.bound_m)
     hit = np.full(len(d_S), np.inf)
     active = np.flatnonzero(near < far)
-    t = np.maximum(near[active], 0)
+    o, d, t, far = _columns(o_S, active), _columns(d_S, active), np.maximum(near[active], 0), far[active]
     for _ in range(STEPS):
         if not len(active):
             break
-        gap = shape.distance(o_S[active] + t[:, None] * d_S[active])
+        gap = shape.distance_at(o + t * d)
         touched = gap < touch * shape.bound_m
         hit[active[touched]] = t[touched]
         t = t + gap
-        on = ~touched & (t < far[active])
-        active, t = active[on], t[on]
+        on = np.flatnonzero(~touched & (t < far))
+        active, t, far = active[on], t[on], far[on]
+        o, d = o.take(on, axis=1), d.take(on, axis=1)
     return hit
 
 
@@ -44,17 +45,24 @@ def blocked(shape: Shape, x_S: Array, target_S: Array) -> Mask:
     near, far = bounding(x_S, d_S, shape.bound_m)
     found = np.zeros(len(x_S), bool)
     active = np.flatnonzero((near < far) & (far > 0))
+    x, d, end = _columns(x_S, active), _columns(d_S, active), np.minimum(far, length)[active]
     t = np.maximum(near[active], LEAVE * shape.bound_m)
     for _ in range(STEPS):
         if not len(active):
             break
-        gap = shape.distance(x_S[active] + t[:, None] * d_S[active])
+        gap = shape.distance_at(x + t * d)
         touched = gap < TOUCH * shape.bound_m
         found[active[touched]] = True
         t = t + np.maximum(gap, 2e-4 * shape.bound_m)
-        on = ~touched & (t < np.minimum(far, length)[active])
-        active, t = active[on], t[on]
+        on = np.flatnonzero(~touched & (t < end))
+        active, t, end = active[on], t[on], end[on]
+        x, d = x.take(on, axis=1), d.take(on, axis=1)
     return found
+
+
+def _columns(x: Array, which: Index) -> Array:
+    """Coordinates (3, n) of some of the points (N, 3): sums along a row are faster."""
+    return np.ascontiguousarray(x[which].T)
 
 
 def bounding(o_S: Array, d_S: Array, radius_m: float) -> tuple[Array, Array]:
