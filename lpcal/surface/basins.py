@@ -9,6 +9,8 @@ cost of its samples there::
 The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the least cost a light, as what the model lacks is common to
 many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
 which decides where the light hardly determines it. The full solve begins in the likeliest.
+
+Smaller pieces that break off in the full solve are swept as they are (`of_piece`): with the shape kept, their light at each distance.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from lpcal.surface import bands, coarse, distance, normals, pieces
 from lpcal.surface.coarse import LightTable
 from lpcal.surface.crop import Crop
 from lpcal.surface.integrate import Grid, integrate, settle, steps
-from lpcal.surface.sight import Grey, Sight, look_at
+from lpcal.surface.sight import Grey, Lit, Sight, light_vectors, look_at
 
 PIXELS = 1500
 """Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
@@ -48,6 +50,10 @@ WORKING = 0.3
 """Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
 STATED = 0.02
 """Odds under which another basin is not reported."""
+PIECE_PIXELS = 600
+"""Pixels of a piece, spread over it, whose light is asked at every distance of a sweep."""
+PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
+"""Natural logarithms of a piece's distance over its own at which its light is asked, a twentieth apart: basins are wider."""
 
 
 @dataclass(frozen=True)
@@ -134,6 +140,50 @@ def search(
             ends[twin] = end
     odds = odds_of(ends, len(lights), about_m)
     return Basins(tuple(ends[k] for k in np.argsort(-odds)), inside, factor, len(lights), about_m)
+
+
+@dataclass(frozen=True)
+class PieceEnds:
+    """Distances at which the light of a piece, its shape as it is, costs least, the likeliest first."""
+
+    shift: Array
+    """(N,) natural logarithms of these distances over its own."""
+    odds: Array
+    """(N,) of sum 1."""
+
+
+def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:
+    """The distances that the light of a piece `inside` (P,) of log depths u (P,) supports, where the main piece is at log depth `main`.
+
+    Parts of an object that stand apart in the picture are swept as a whole: rounds find the minimum that is nearest. `thrown` (L, P, 3) is
+    the light of surfaces. The energy is that of `odds_of`, with the main piece in the working distance's place.
+    """
+    some = np.flatnonzero(inside)
+    some = some[:: max(1, len(some) // PIECE_PIXELS)]
+    few, begin = seen.at(some), u[some]
+    cost = np.array([_cost_of(few, lights, begin + shift, None if thrown is None else thrown[:, some]) for shift in PIECE_SWEEP])
+    away = float(np.median(begin)) + PIECE_SWEEP - main
+    energy = INDEPENDENT * cost / 2 / max(float(cost.min()) / len(lights), 1.0) + np.log1p((away / WORKING) ** 2)
+    least = np.flatnonzero(np.r_[True, energy[1:] < energy[:-1]] & np.r_[energy[:-1] <= energy[1:], True])
+    least = least[np.argsort(energy[least], kind="stable")]
+    odds = np.exp(energy[least[0]] - energy[least])
+    return PieceEnds(np.array([_vertex(energy, int(k)) for k in least]), odds / odds.sum())
+
+
+def _vertex(energy: Array, k: int) -> float:
+    """Where the parabola through a minimum of the sweep and its neighbours has its vertex."""
+    step = float(PIECE_SWEEP[1] - PIECE_SWEEP[0])
+    if not 0 < k < len(energy) - 1:
+        return float(PIECE_SWEEP[k])
+    bend = energy[k - 1] - 2 * energy[k] + energy[k + 1]
+    return float(PIECE_SWEEP[k] + step * (energy[k - 1] - energy[k + 1]) / (2 * max(bend, 1e-12)))
+
+
+def _cost_of(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None) -> float:
+    """Mean cost of the samples of pixels at log depths u (P,)."""
+    lit = Lit(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), thrown)
+    found = normals.estimate(seen, lit, normals.candidates(seen, lit.E), normals.variances(seen))
+    return float(np.mean(np.where(np.isfinite(found.b[:, 0]), np.minimum(found.cost, MOST), MOST)))
 
 
 def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:

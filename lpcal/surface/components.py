@@ -1,8 +1,6 @@
 """The pieces of a surface as it states them: how far away each is, how surely, and what other distances the images allow.
 
-The largest piece's other distances are those of the search (surface.basins). A small piece that stands apart from what it borders on has a
-second answer too: that it touches it. Light between parts of an object falsifies the distance of a small piece by a tenth and more, and
-parts of one object mostly hang together.
+The largest piece's other distances are those of the search, a smaller one's those of its own sweep (surface.basins).
 """
 
 from __future__ import annotations
@@ -13,24 +11,14 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.surface import Alternative, Component
-from lpcal.surface import normals, uncertainty
+from lpcal.surface import basins, normals, uncertainty
 from lpcal.surface.basins import Basins
-from lpcal.surface.integrate import Grid
 from lpcal.surface.rounds import Scene, State
-from lpcal.surface.sight import Indices
 
 STATED_DISTANCE = 0.003
 """Relative standard deviation of a distance that the user states."""
 UNKNOWN_DISTANCE = 0.5
 """Relative standard deviation of a distance that nothing determines."""
-SMALL = 0.12
-"""Share of the object's pixels under which a piece that stands apart may in truth touch the rest: of 5 larger ones of 180 drawn scenes that
-stand a tenth apart or more none did (tools/fit_distance_sigma.py)."""
-TOUCHES, TOUCH_STD = 0.5, 0.04
-"""Odds that such a piece touches what it borders on, and the relative standard deviation of its distance from there if so: of 14 such
-pieces of the same scenes 10 were nearer to the truth where they touch, off by .03 at the median."""
-BORDER = 20
-"""Pairs of neighbouring pixels of two pieces from which the piece borders on the rest."""
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
@@ -53,8 +41,8 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
         others = basins_found.others() if basins_found is not None and one == 1 else []
         alternatives = tuple(Alternative(ratio * middle, std, odds) for ratio, odds in others)
         piece = Component(int(one), int(inside.sum()), middle, std, alternatives)
-        if scene.near and found and piece.pixels < SMALL * len(label):
-            piece = replace(piece, alternatives=_touching(scene.grid, np.log(depth), label, piece, found))
+        if scene.near and found and scene.distance_m is None:
+            piece = replace(piece, alternatives=_others(scene, state, np.log(depth), label, piece))
         found.append(piece)
     return tuple(found)
 
@@ -66,19 +54,10 @@ def model_std(state: State, inside: Mask) -> float:
     return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
 
-def _touching(grid: Grid, u: Array, label: Labels, piece: Component, larger: list[Component]) -> tuple[Alternative, ...]:
-    """The distance at which a piece touches the larger ones, where that is another answer than its own, by log depths u (P,)."""
-    step, beside = steps_to_larger(grid.a, grid.b, u, label, piece.label)
-    if len(step) < BORDER:
-        return ()
-    nearest = larger[int(np.argmax(np.bincount(beside))) - 1]
-    apart, std = float(np.median(step)), float(np.hypot(nearest.scale_std, TOUCH_STD))
-    if abs(apart) <= np.hypot(piece.scale_std, std):
-        return ()
-    return (Alternative(float(piece.mean_depth_m * np.exp(-apart)), std, TOUCHES),)
-
-
-def steps_to_larger(a: Indices, b: Indices, u: Array, label: Labels, piece: int) -> tuple[Array, Labels]:
-    """By how much u (P,) steps (N,) from larger pieces to this one over the edges of neighbours a, b (edges,), and these pieces' labels."""
-    out, into = (label[a] == piece) & (label[b] < piece), (label[b] == piece) & (label[a] < piece)
-    return np.concatenate([(u[a] - u[b])[out], (u[b] - u[a])[into]]), np.concatenate([label[b][out], label[a][into]])
+def _others(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> tuple[Alternative, ...]:
+    """Other distances of a smaller piece that its light allows, by log depths u (P,)."""
+    ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, label == piece.label, float(np.median(u[label == 1])))
+    stated = [
+        (shift, odds) for shift, odds in zip(ends.shift, ends.odds, strict=True) if odds > basins.STATED and abs(shift) > basins.APART
+    ]
+    return tuple(Alternative(float(piece.mean_depth_m * np.exp(shift)), piece.scale_std, float(odds)) for shift, odds in stated)

@@ -17,7 +17,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import bands, bounce, distance, field, normals, pieces, sight
+from lpcal.surface import bands, basins, bounce, distance, field, normals, pieces, sight
 from lpcal.surface.crop import Crop
 from lpcal.surface.field import Field
 from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
@@ -112,14 +112,38 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     scene = scene.closely()
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
-        return _until_settled(scene, once(scene, begin, None, 0), 1, progress)
+        return swept(scene, _until_settled(scene, once(scene, begin, None, 0), 1, progress))
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid)
 
     def in_blocks(what: str, done: int, total: int) -> None:
         progress(f"{what} in coarse pixels", done, total)
 
-    settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    return _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True)
+    settled = swept(coarse, _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks))
+    return swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
+
+
+def swept(scene: Scene, state: State) -> State:
+    """The state with its smaller pieces at the distances that their light supports, and one more round of normals where one has moved.
+
+    Rounds move a piece by what its pixels say of its neighbourhood, less where other parts' light is in doubt: a small one stays where it
+    broke off.
+    """
+    label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
+    if not scene.near or label.max() == 1:
+        return state
+    u, moved = state.u.copy(), []
+    for one in range(2, int(label.max()) + 1):
+        inside = label == one
+        ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, inside, float(np.median(u[label == 1])))
+        if abs(ends.shift[0]) > basins.APART:
+            u[inside] += ends.shift[0]
+            moved.append(inside)
+    if not moved:
+        return state
+    again = once(scene, u, state)
+    for inside in moved:  # the round's own distance is what the sweep overrules
+        again.u[inside] += np.median(u[inside]) - np.median(again.u[inside])
+    return replace(again, weight=state.weight, moved=state.moved)
 
 
 def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
