@@ -17,7 +17,7 @@ from lpcal.report import charts
 from lpcal.report.charts import Drawing
 from lpcal.report.rig_report import RigReport, origin_sigmas
 from lpcal.report.time_lines import time_lines
-from lpcal.report.wording import NOTHING, fixed, number, plural, with_sigma
+from lpcal.report.wording import NOTHING, fixed, grouped, number, plural, with_sigma
 
 type Row = tuple[str, str]
 """A label and a figure."""
@@ -230,7 +230,7 @@ def _coverage(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawin
         return Drawing(charts.over_image(pixels, (w, h)), "where the board's corners fell")
     longest = float(np.linalg.norm(arrows[:, 2:], axis=1).max())
     factor = _round_down(0.8 * w / CELLS[0] / max(longest, 1e-9))
-    note = f"where the board's corners fell; arrows: mean residual in a cell, × {factor:g}"
+    note = f"where the board's corners fell; arrows: mean residual in a cell, × {_times(factor)}"
     note += f"; the longest is {number(longest, 2, 'px')}"
     note += f", noise alone leaves {number(noise, 2, 'px')}" if np.isfinite(noise) else ""
     return Drawing(charts.over_image(pixels, (w, h), arrows * [1, 1, factor, factor]), note)
@@ -252,7 +252,7 @@ def _uncertainty(found: ProjectionUncertainty | None, image_size: tuple[int, int
         outline=np.asarray(found.trusted, bool),
         what="standard deviation of projection over the image",
     )
-    return Drawing(drawn, f"{note}. Beyond the line hold the board there, or take no measurements there.")
+    return Drawing(drawn, f"{note}. Outside the line, show the board there too or measure nothing there.")
 
 
 def _vectors(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing | None:
@@ -265,7 +265,7 @@ def _vectors(pixels: Array, left: Array, image_size: tuple[int, int]) -> Drawing
     pixels, left = pixels[::step], left[::step]
     usual = float(np.percentile(np.linalg.norm(left, axis=1), 90))
     factor = _round_down(0.03 * image_size[0] / max(usual, 1e-9))
-    note = f"residuals of {'every corner' if step == 1 else f'one corner in {step}'}, × {factor:g}. "
+    note = f"residuals of {'every corner' if step == 1 else f'one corner in {step}'}, × {_times(factor)}. "
     note += "Lines that lie side by side and point alike are no noise: the lens model, the board or one view is wrong there."
     return Drawing(charts.vectors(pixels, factor * left, image_size), note)
 
@@ -296,7 +296,9 @@ def _histogram(left: Array) -> Drawing | None:
         return None
     sigma = float(np.sqrt(np.mean(left**2)))
     beyond = 100 * float(np.mean(np.abs(left) > 3 * sigma))
-    note = f"residuals of {left.size} coordinates, and the normal curve; {fixed(beyond, 1, '%')} are beyond 3 sigma, 0.3% expected"
+    note = (
+        f"residuals of {grouped(left.size)} coordinates, and the normal curve; {fixed(beyond, 1, '%')} are beyond 3 sigma, 0.3 % expected"
+    )
     return Drawing(charts.histogram(left, unit="px", sigma=sigma), note)
 
 
@@ -328,6 +330,11 @@ def _cell_means(pixels: Array, left: Array, w: int, h: int) -> tuple[Array, floa
     return np.array(arrows).reshape(-1, 4), noise
 
 
+def _times(factor: float) -> str:
+    """How many times as long as they are the lines of a drawing are, in words."""
+    return grouped(round(factor)) if factor >= 1 else f"{factor:g}"
+
+
 def _round_down(value: float) -> float:
     """1, 2 or 5 times a power of ten at or under a value."""
     power = 10 ** np.floor(np.log10(value))
@@ -337,7 +344,7 @@ def _round_down(value: float) -> float:
 def lens_choice(evidence: CameraEvidence) -> LensChoice | None:
     """How the lens model was chosen: the difference between the halves of the views, for each model and each board that was tried."""
     tried, chosen = evidence.cross_validation, evidence.chosen
-    if not tried:
+    if not any(np.isfinite(one.cross_validation_px) for one in tried):
         return None
     boards = list(dict.fromkeys(one.board for one in tried))
     score = {(one.model, one.board): one.cross_validation_px for one in tried}

@@ -65,7 +65,7 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
     level = longest * LETTER < thick
     below = 0 if not longest else 10 if level else min(10 + 5 * longest, MOST_BELOW)
     plot = _Plot(height + below, (0, max(len(items), 1)), (0, top), bottom=BOTTOM + below)
-    parts = plot.y_axis("deg" if unit == "°" else unit)
+    parts = plot.y_axis("degrees" if unit == "°" else unit)
     for k, item in enumerate(items):
         u, tip = plot.u(k) + 0.1 * thick, f"<title>{escape(item.label)}</title>"
         v = plot.v(item.value) if item.value is not None else plot.v(0) - 5
@@ -80,7 +80,7 @@ def bars(items: Sequence[Bar], *, unit: str, across: str, height: int = 190, gat
 def _level_names(items: Sequence[Bar], plot: _Plot) -> list[str]:
     """The bars' names under the axis, where each has room."""
     v = plot.v(0) + 13
-    return [f'<text class="middle" x="{plot.u(k + 0.5):.1f}" y="{v:.1f}">{escape(item.name)}</text>' for k, item in enumerate(items)]
+    return [f'<text class="middle level" x="{plot.u(k + 0.5):.1f}" y="{v:.1f}">{escape(item.name)}</text>' for k, item in enumerate(items)]
 
 
 def _turned_names(items: Sequence[Bar], plot: _Plot) -> list[str]:
@@ -307,7 +307,7 @@ class _Plot:
         for tick in marks:
             parts.append(f'<path d="M{self.left} {self.v(tick):.1f}h{self.width}" class="grid"/>')
             parts.append(f'<text x="{self.left - 6}" y="{self.v(tick) + 4:.1f}" class="end">{shown(tick, 4)}</text>')
-        parts.append(f'<text x="2" y="{TOP - 10}" class="unit">{escape(unit)}</text>')
+        parts.append(f'<text x="2" y="{TOP - 14}" class="unit">{escape(unit)}</text>')
         return parts
 
     def x_ticks(self, unit: str) -> list[str]:

@@ -17,7 +17,7 @@ from lpcal.records.calibration import HandEye
 from lpcal.report.charts import LEFT, RIGHT, WIDTH, Drawing, framed, ticks
 from lpcal.report.wording import fixed, number, plural, shown
 
-STRIP, BETWEEN, HEAD, FOOT = 76, 20, 22, 32
+STRIP, BETWEEN, HEAD, FOOT = 76, 26, 22, 32
 """Height of a strip, what is free between two, over the first and under the last, in the drawing's units."""
 GAP_S = 3.0
 """A curve is broken where its moments lie further apart than so many times the usual."""

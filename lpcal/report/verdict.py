@@ -16,7 +16,7 @@ from lpcal.records.calibration import HandEye, Wings
 from lpcal.records.camera import ViewVerdict
 from lpcal.records.distance import SensorSolution
 from lpcal.report.rig_report import RigReport, SurfaceReport, origin_sigmas, sigmas
-from lpcal.report.wording import fixed, grouped, number, plural, sigma_of, with_sigma
+from lpcal.report.wording import fixed, grouped, listed, number, plural, sigma_of, with_sigma
 
 GATES = {
     "camera_rms_px": (0.3, 0.7),
@@ -32,8 +32,8 @@ GATES = {
 GATE_WORDS = {
     "camera_rms_px": "rms ≤ {:g} px",
     "camera_focal_percent": "focal length ≤ {:g} %",
-    "handeye_deg": "hand-eye ≤ {:g}°",
-    "handeye_mm": "hand-eye ≤ {:g} mm",
+    "handeye_deg": "rotation ≤ {:g}°",
+    "handeye_mm": "position ≤ {:g} mm",
     "clock_ms": "clock ≤ {:g} ms",
     "distance_mm": "point ≤ {:g} mm",
     "light_deg": "direction ≤ {:g}°",
@@ -91,7 +91,7 @@ def headline(lines: list[Verdict]) -> tuple[Tone, str]:
 
 
 def _few(names: list[str]) -> str:
-    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    return listed(names) if len(names) <= 3 else f"{', '.join(names[:3])} and {len(names) - 3} more"
 
 
 def _level(*measured: tuple[float, str]) -> Tone:
@@ -199,7 +199,7 @@ def _surface(surface: SurfaceReport) -> Verdict:
     found = f"{grouped(pixels)} pixels in {plural(len(pieces), 'piece')}" if pieces else "a surface"
     measured = (max(spread, default=float("nan")), "surface_percent")
     if spread and np.isfinite(depth := pieces[0].mean_depth_m):
-        found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away"
+        found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away ({fixed(spread[0], 1, '%')})"
     level = _level(measured)
     unsure = [
         piece
@@ -208,5 +208,5 @@ def _surface(surface: SurfaceReport) -> Verdict:
     ]
     if level not in {"good", "none"} and unsure:
         worst = max(unsure, key=lambda piece: piece.scale_std)
-        found += f"; its piece {worst.label} of {plural(worst.pixels, 'pixel')} is known to {fixed(100 * worst.scale_std, 1, '%')} only"
+        found += f"; its piece {worst.label} of {grouped(worst.pixels)} pixels is known to {fixed(100 * worst.scale_std, 1, '%')} only"
     return Verdict("surface", surface.name, level, found, _gate(measured))

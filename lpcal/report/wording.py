@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TypeGuard
 
@@ -10,6 +11,10 @@ from lpcal.records.digits import fine
 
 NOTHING = "–"
 MINUS = "−"
+SAID = ((" deg\\b", "°"), (", deg\\b", ", °"), ("\\bcm2\\b", "cm²"), (r"(?<=[\s(])-(?=\d)", MINUS))
+"""Units as the commands say them in plain letters, and as a page sets them; degrees after a number or a bracket; minus signs."""
+HELD = r"(?<=[±≤≥×]) (?=\d)|(?<=[\d)]) (?=[±×]|(?:mm|cm²|px|ms|s|%)(?!\w))|(?<=,) (?=°)|(?<=\d) (?=to \d)|(?<=\bto) (?=\d)"
+"""Spaces at which a line may not break: between a number, what compares it or spreads it, and its unit."""
 
 
 def number(value: float | None, digits: int = 3, unit: str = "") -> str:
@@ -51,6 +56,13 @@ def with_sigma(value: float | None, sigma: float | None, unit: str = "") -> str:
     if decimals > 7:
         return f"{number(value, 5)} ± {number(sigma, 2)}{_unit(unit)}"
     return f"{_signed(f'{float(value):.{decimals}f}')} ± {float(sigma):.{decimals}f}{_unit(unit)}"
+
+
+def typeset(text: str) -> str:
+    """Words as a page sets them: degrees and areas by their signs, no line broken between a number and its sigma or unit."""
+    for said, sign in SAID:
+        text = re.sub(rf"(?<=[\d)]){said}" if said[0] == " " else said, sign, text)
+    return re.sub(HELD, "\N{NO-BREAK SPACE}", text)
 
 
 def grouped(count: int) -> str:

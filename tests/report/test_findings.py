@@ -102,7 +102,7 @@ def test_residual_vectors_show_a_shift_that_one_view_has() -> None:
 def test_views_have_their_names_on_the_axis() -> None:
     part = handeye_section(report_of(documents()))
     for _, svg in part.residuals:
-        assert [re.search(rf'class="middle"[^>]*>{k}<', svg) is not None for k in range(6)] == [True] * 6
+        assert [re.search(rf'class="middle level"[^>]*>{k}<', svg) is not None for k in range(6)] == [True] * 6
     many = [charts.Bar(1.0, f"view {k}", name=f"a_rather_long_name_{k:03d}") for k in range(300)]
     drawn = charts.bars(many, unit="px", across="views")
     assert 'class="middle"' not in drawn

@@ -35,9 +35,9 @@ def test_the_mesh_comes_back() -> None:
 def test_the_page_says_what_is_missing() -> None:
     """The words stand in it, escaped; a model of too many triangles says that it is thinned."""
     text = model_html(quarter_ball())
-    assert "missing, of 40.0 cm2" in text
+    assert "missing, of 40.0\N{NO-BREAK SPACE}cm²" in text
     assert "stop_02 is left out" in text
-    assert "next: the camera at 1000, 2000, 900 mm" in text
+    assert "next: the camera at 1000, 2000, 900\N{NO-BREAK SPACE}mm" in text
     assert not re.search(r"https?://(?!www.w3.org)", text.split('<script id="three"')[0])
 
 

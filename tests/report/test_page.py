@@ -157,7 +157,7 @@ def test_gates_are_said_as_they_are_applied(monkeypatch: pytest.MonkeyPatch) -> 
     assert before[0].gate == "rms \u2264 0.3 px, focal length \u2264 0.2 %"
     monkeypatch.setitem(GATES, "handeye_mm", (0.05, 2.5))
     line = next(line for line in verdicts(report_of(documents())) if line.stage == "handeye")
-    assert "hand-eye \u2264 0.05 mm" in line.gate
+    assert "position \u2264 0.05 mm" in line.gate
     assert line.tone == "fair"
 
 

@@ -9,6 +9,8 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from lpcal.report.wording import typeset
+
 if TYPE_CHECKING:
     from jinja2 import Environment
 
@@ -18,13 +20,15 @@ def environment() -> Environment:
     """Templates of this folder; HTML is escaped, an unknown name is an error."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    return Environment(
+    made = Environment(
         loader=PackageLoader("lpcal.report", "templates"),
         autoescape=lambda name: name is not None and name.endswith(".html"),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    made.filters["typeset"] = typeset
+    return made
 
 
 def script_json(value: Any) -> str:

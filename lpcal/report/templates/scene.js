@@ -101,10 +101,16 @@
       const away = camera.position.distanceTo(centre);
       camera.near = Math.max(away - 6 * data.radius, 0.02 * data.radius); camera.far = away + 6 * data.radius; camera.updateProjectionMatrix();
       gl.render(space, camera);
+      const stand = [], high = 13;  // labels that stand already: one that would lie on another goes below it
       for (const [tag, at] of tags) {
-        const p = at.clone().project(camera);
-        tag.style.transform = `translate(${(((p.x + 1) / 2) * w + 8).toFixed(1)}px, ${(((1 - p.y) / 2) * h - 18).toFixed(1)}px)`;
+        const p = at.clone().project(camera), wide = tag.textContent.length * 8;
         tag.hidden = Math.abs(p.x) > 1 || Math.abs(p.y) > 1;
+        if (tag.hidden) continue;
+        const x = Math.min(((p.x + 1) / 2) * w + 8, w - wide);
+        let y = ((1 - p.y) / 2) * h - 18;
+        for (let k = 0; k < 3; k++) for (const other of stand) if (Math.abs(other.y - y) < high && x < other.x + other.wide && other.x < x + wide) y = other.y + high;
+        stand.push({ x, y, wide });
+        tag.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       }
     }
 
