@@ -150,6 +150,8 @@ class PieceEnds:
     """(N,) natural logarithms of these distances over its own."""
     odds: Array
     """(N,) of sum 1."""
+    std: float
+    """Standard deviation of the first of the shifts, by the energy about it: wide where the light hardly knows the distance."""
 
 
 def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:
@@ -167,7 +169,9 @@ def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     least = np.flatnonzero(np.r_[True, energy[1:] < energy[:-1]] & np.r_[energy[:-1] <= energy[1:], True])
     least = least[np.argsort(energy[least], kind="stable")]
     odds = np.exp(energy[least[0]] - energy[least])
-    return PieceEnds(np.array([_vertex(energy, int(k)) for k in least]), odds / odds.sum())
+    at = np.array([_vertex(energy, int(k)) for k in least])
+    weight = np.exp(energy[least[0]] - energy) * (np.abs(PIECE_SWEEP[:, None] - at).argmin(axis=1) == 0)
+    return PieceEnds(at, odds / odds.sum(), float(np.sqrt(np.average((PIECE_SWEEP - at[0]) ** 2, weights=weight))))
 
 
 def _vertex(energy: Array, k: int) -> float:

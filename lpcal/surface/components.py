@@ -42,7 +42,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
         alternatives = tuple(Alternative(ratio * middle, std, odds) for ratio, odds in others)
         piece = Component(int(one), int(inside.sum()), middle, std, alternatives)
         if scene.near and found and scene.distance_m is None:
-            piece = replace(piece, alternatives=_others(scene, state, np.log(depth), label, piece))
+            piece = _by_its_light(scene, state, np.log(depth), label, piece)
         found.append(piece)
     return tuple(found)
 
@@ -54,10 +54,12 @@ def model_std(state: State, inside: Mask) -> float:
     return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
 
-def _others(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> tuple[Alternative, ...]:
-    """Other distances of a smaller piece that its light allows, by log depths u (P,)."""
+def _by_its_light(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> Component:
+    """A smaller piece no surer than its light is of its distance, and with the others that it allows, by log depths u (P,)."""
     ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, label == piece.label, float(np.median(u[label == 1])))
+    std = max(piece.scale_std, ends.std)
     stated = [
         (shift, odds) for shift, odds in zip(ends.shift, ends.odds, strict=True) if odds > basins.STATED and abs(shift) > basins.APART
     ]
-    return tuple(Alternative(float(piece.mean_depth_m * np.exp(shift)), piece.scale_std, float(odds)) for shift, odds in stated)
+    others = tuple(Alternative(float(piece.mean_depth_m * np.exp(shift)), std, float(odds)) for shift, odds in stated)
+    return replace(piece, scale_std=std, alternatives=others)

@@ -26,6 +26,8 @@ def test_a_piece_is_found_by_its_light_however_far_off_it_stands(off: float) -> 
         seen, u = piece(seed)
         ends = basins.of_piece(seen, GIVEN.lights, u + off, None, np.ones(len(u), bool), main=float(np.median(u)) + 0.1)
         assert ends.shift[0] == pytest.approx(-off, abs=0.04)
+        assert abs(ends.shift[0] + off) < 3 * ends.std
+        assert ends.std < 0.15
         assert ends.odds.sum() == pytest.approx(1)
         assert (np.diff(ends.odds) <= 0).all()
 
@@ -33,8 +35,7 @@ def test_a_piece_is_found_by_its_light_however_far_off_it_stands(off: float) -> 
 def test_of_two_distances_that_the_light_allows_that_nearer_the_main_piece_is_likelier() -> None:
     seen, u = piece(0)
     three = sight.Sight(seen.mask, seen.rays_C, seen.signal[:3], seen.sigma[:3], seen.usable[:3], seen.central)  # three lights say nothing
-    first = [
-        basins.of_piece(three, GIVEN.lights[:3], u, None, np.ones(len(u), bool), float(np.median(u)) + main).shift[0]
-        for main in (-0.4, 0.5)
-    ]
-    assert first[0] < first[1]
+    everything = np.ones(len(u), bool)
+    near, far = (basins.of_piece(three, GIVEN.lights[:3], u, None, everything, float(np.median(u)) + main) for main in (-0.4, 0.5))
+    assert near.shift[0] < far.shift[0]
+    assert near.std > 0.15, "and it is said that the light hardly knows"
