@@ -1,7 +1,8 @@
 """Normals of DiLiGenT by lpcal compared with plain least squares on the same images.
 
 ``python tools/bench_surface.py [FOLDER]``: FOLDER holds diligent_ball, diligent_bear (default: the recordings' surface folder);
-``python tools/bench_surface.py card`` is tools/bench_card.py.
+``python tools/bench_surface.py card`` is tools/bench_card.py; with the word ``counts`` it prints the errors by the number of lights: each
+set holds the one before, the next light being that furthest from all so far.
 Angles in degrees; six lights are those nearest to six evenly spread azimuths at the median slant.
 """
 
@@ -23,6 +24,7 @@ from lpcal.surface import sight
 from lpcal.surface.reconstruct import Options, reconstruct
 
 DATA = Path(os.environ.get("LPCAL_DATA", Path(__file__).resolve().parents[2] / "shared/data")) / "surface"
+COUNTS = (6, 8, 10, 16, 24, 48, 96)
 FIRST = {"diligent_ball": 1, "diligent_bear": 21}
 """The first 20 images of bear are known to be corrupted."""
 
@@ -33,6 +35,18 @@ def six(lights: list[Light]) -> list[Light]:
     slant, turn = np.hypot(S[:, 0], S[:, 1]), np.arctan2(S[:, 1], S[:, 0])
     cost = [np.abs(np.angle(np.exp(1j * (turn - k * np.pi / 3)))) + np.abs(slant - np.median(slant)) for k in range(6)]
     return [lights[int(np.argmin(one))] for one in cost]
+
+
+def spread(lights: list[Light]) -> list[Light]:
+    """Lights in an order in which each is the one furthest from those before it, beginning with the most central."""
+    S = np.stack([light.direction_C for light in lights])
+    cosine = S @ S.T
+    order = [int(np.argmax(cosine.sum(axis=1)))]
+    while len(order) < len(lights):
+        nearest = cosine[:, order].max(axis=1)
+        nearest[order] = np.inf
+        order.append(int(np.argmin(nearest)))
+    return [lights[k] for k in order]
 
 
 def errors(folder: Path, names: list[str] | None) -> tuple[float, float, float]:
@@ -63,7 +77,8 @@ def main() -> None:
 
         card([int(word) for word in sys.argv[2:]])
         return
-    root = Path(sys.argv[1]) if len(sys.argv) > 1 else DATA
+    words = [word for word in sys.argv[1:] if word != "counts"]
+    root = Path(words[0]) if words else DATA
     print(f"{'set':<15}{'lights':<14}{'lpcal':>8}{'plain':>8}{'s':>7}")
     for name, first in FIRST.items():
         folder = root / name
@@ -71,11 +86,14 @@ def main() -> None:
             print(f"{name:<15}not there")
             continue
         lights = list(read_lights(folder)[1].lights)
-        chosen = {
+        chosen: dict[str, list[str] | None] = {
             "all": None,
             f"from {first}": [one.name for one in lights[first - 1 :]],
             "six": [one.name for one in six(lights[first - 1 :])],
         }
+        if "counts" in sys.argv[1:]:
+            some = spread(lights[first - 1 :])
+            chosen = {str(min(count, len(some))): [one.name for one in some[:count]] for count in COUNTS}
         for label, names in chosen.items():
             own, plain, seconds = errors(folder, names)
             print(f"{name:<15}{label:<14}{own:>8.2f}{plain:>8.2f}{seconds:>7.1f}", flush=True)
