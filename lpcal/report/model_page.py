@@ -139,7 +139,7 @@ def missing_words(missing: Missing, frame: str) -> list[str]:
 def _stop_words(stop: NextStop, number: int, frame: str) -> str:
     H, what = (stop.H_AC, "the camera") if stop.H_AP is None else (stop.H_AP, "the panel")
     place = ", ".join(f"{1e3 * value:.0f}" for value in H[:3, 3])
-    shows = f"shows {1e4 * stop.unseen_m2:.1f} cm2 of the first and {1e4 * stop.once_m2:.1f} of the second"
+    shows = f"shows {1e4 * stop.unseen_m2:.1f} cm2 of the first and {1e4 * stop.once_m2:.1f} cm2 of the second"
     wings = (
         f"the wings set again (lpcal design --distance {1e3 * stop.distance_m:.0f}mm) and calibrated" if stop.reset else "wings as they are"
     )

@@ -117,8 +117,9 @@ class Click:
         """In words."""
         found_deg, drawn_deg = np.degrees([self.found_rad, self.drawn_rad])
         if not self.sure:
-            return f"{self.name}: its joint may be at {found_deg:.0f} deg, not {drawn_deg:.0f}, which these spheres hardly show: look at it"
-        return f"{self.name}: joint at {found_deg:.0f} deg, not {drawn_deg:.0f}; correct joint_angle in panel.yaml"
+            angles = f"{found_deg:.0f} deg, not {drawn_deg:.0f} deg"
+            return f"{self.name}: its joint may be at {angles}, which these spheres hardly show: look at it"
+        return f"{self.name}: joint at {found_deg:.0f} deg, not {drawn_deg:.0f} deg; correct joint_angle in panel.yaml"
 
 
 def fit_with_clicks(

@@ -84,7 +84,7 @@ def test_shading_tells_a_click_that_one_chrome_sphere_does_not(views: list[Spher
     wings = drawn_wings("L2", clicks)
     found = refine(some, [wing.name for wing in wings.wings], camera, wings, intensity_sd=0.1)
     said = [warning for warning in found.warnings if "joint at" in warning]
-    assert said == (["L2: joint at 30 deg, not 40; correct joint_angle in panel.yaml"] if clicks else [])
+    assert said == (["L2: joint at 30 deg, not 40 deg; correct joint_angle in panel.yaml"] if clicks else [])
     frames = {entry["name"]: np.array(entry["H_CL"]) for entry in truth("lights.yaml")["lights"]}
     axis = [np.degrees(np.arccos(np.clip(light.H_CL[:3, 2] @ frames[light.name][:3, 2], -1, 1))) for light in found.lights]
     assert np.sqrt(np.mean(np.square(axis))) < 1.0
