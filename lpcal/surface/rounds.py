@@ -129,7 +129,7 @@ def swept(scene: Scene, state: State) -> State:
     broke off.
     """
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    if not scene.near or label.max() == 1:
+    if not scene.near or scene.distance_m is not None or label.max() == 1:
         return state
     u, moved = state.u.copy(), []
     for one in range(2, int(label.max()) + 1):
