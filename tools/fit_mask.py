@@ -276,7 +276,7 @@ def masks_of(one: Example, judge: background.Judge) -> tuple[float, float, float
     by_regions = judge.of_regions(one.pictures, one.found)
     clues = one.in_context(by_regions)
     of_pixel = by_regions[one.found.number]
-    if clues is not None and judge.context is not None:
+    if clues is not None:
         of_pixel = of_trees(judge.context, clues).reshape(one.true.shape)
     each = (by_regions[one.found.number], of_pixel, one.share[one.found.number])
     return tuple(iou(background.object_in(here > 0.5, ()), one.true) for here in each)
@@ -304,7 +304,6 @@ def report(examples: list[Example], folds: Path | None = None) -> None:
         for name, values in zip(("regions", "coarse pixels in context", "a perfect judge of the regions"), found.T, strict=True):
             print(line_of(f"{kind}, {len(some)}: IoU of {name}, scenes left out", list(values)))
     judge = judge_of(examples, np.random.default_rng(0))
-    assert judge.context is not None
     np.savez_compressed(background.FITTED, **judge.own.arrays("regions"), **judge.context.arrays("context"))
     print("BESIDE = {")
     for key, value in judge.beside.items():

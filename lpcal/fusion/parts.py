@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lpcal.geometry import raster
 from lpcal.geometry.arrays import Image, Index, Labels, Mask
 
 BRIDGE_PX = 2
@@ -36,15 +37,13 @@ def parted(component: Labels, breaks: Mask, normals: Image, std_deg: Image) -> t
 
     `component` (H, W), 0 outside; `breaks` (2, H, W) towards the right [0] and below [1]; `normals` (H, W, 3) with `std_deg` (H, W).
     """
-    from scipy.ndimage import label as connected
-
     right, below = inner_breaks(component > 0, breaks)
     core = (component > 0) & ~near(right, below, BRIDGE_PX) & ~near(*turns(normals), 1) & (std_deg < SEAM_DEG)
     least = max(LEAST_PIXELS, LEAST_SHARE * float((component > 0).sum()))
     found = np.zeros(component.shape, np.intp)
     of: list[int] = [0]
     for label in (int(label) for label in np.unique(component[component > 0])):
-        numbers, _ = connected(core & (component == label))
+        numbers, _ = raster.labelled(core & (component == label))
         size = np.bincount(numbers.ravel())
         size[0] = 0
         large = [int(number) for number in np.argsort(-size) if size[number] >= least] or [-1]
@@ -77,20 +76,16 @@ def turns(normals: Image) -> tuple[Mask, Mask]:
 
 def near(right: Mask, below: Mask, reach_px: int) -> Mask:
     """Pixels (H, W) at a break, or so many less one beside one that is."""
-    from scipy.ndimage import binary_dilation
-
     broken = np.zeros((right.shape[0], below.shape[1]), bool)
     broken[:, :-1] |= right
     broken[:, 1:] |= right
     broken[:-1] |= below
     broken[1:] |= below
-    return np.asarray(binary_dilation(broken, iterations=reach_px - 1)) if reach_px > 1 else broken
+    return raster.grown(broken, reach_px - 1)
 
 
 def grown(found: Index, component: Labels, right: Mask, below: Mask) -> Index:
     """Parts grown over the rest of their pieces, up to breaks; what no part reaches so goes to the nearest of its piece."""
-    from scipy.ndimage import distance_transform_edt
-
     found = found.copy()
     joined = ~right & (component[:, :-1] == component[:, 1:]), ~below & (component[:-1] == component[1:])
     changed = True
@@ -103,9 +98,8 @@ def grown(found: Index, component: Labels, right: Mask, below: Mask) -> Index:
                 changed |= bool(take.any())
     for label in np.unique(component[(component > 0) & (found == 0)]):
         inside = component == label
-        _, nearest = distance_transform_edt(~(inside & (found > 0)), return_indices=True)
         rest = inside & (found == 0)
-        found[rest] = found[tuple(nearest)][rest]
+        found[rest] = found.ravel()[raster.nearest(inside & (found > 0))[rest]]
     return found
 
 

@@ -40,7 +40,7 @@ SIGMA_VERTICES = 800
 """Vertices, of those that several views see, at which the covariance of the views' places is carried over; between them it is the nearest
 one's. Where one view alone sees a vertex it is that vertex's own: a patch beside an edge is known far less well than what is next to it."""
 SHARED_VERTICES = 300
-"""Vertices at which what all of them share is told from the rest: it has seven numbers."""
+"""Vertices, spread over the model, from which the error that all of them share is estimated: seven numbers need no more."""
 LONE = 2
 """Views that see a vertex of which no other view tells: fewer than these."""
 HELD = 4_000_000
@@ -109,8 +109,17 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
     loose_m2 = _area(v, faces) - _area(v[tied], held)
     v, n, rest = v[tied], n[tied], rest.of(tied)
     albedo = _albedo(state, v, n, footprint_m)
-    told = rest.disagreement_m, rest.count, normal_sigma[tied], _shared_m(aligned, v, n, rest.count)
-    return Vertices(Triangles(v, n, held), n_photometric[tied], albedo, sigma[tied], *told, loose_m2)
+    return Vertices(
+        Triangles(v, n, held),
+        n_photometric[tied],
+        albedo,
+        sigma[tied],
+        rest.disagreement_m,
+        rest.count,
+        normal_sigma[tied],
+        _shared_m(aligned, v, n, rest.count),
+        loose_m2,
+    )
 
 
 @dataclass(frozen=True)

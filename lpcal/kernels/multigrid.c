@@ -36,6 +36,21 @@ typedef struct {
     double *across, *up, *down, *diagonal, *image, *residual, *direction, *guess, *scratch; /* of the finest, in doubles */
 } Grid;
 
+/* Sums are always made in the same eight lanes. */
+static double sum_of(const double lane[8]) { return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7])); }
+
+#define DOT(name, kind)                                                      \
+    static double name(int64_t n, const double *a, const kind *b) {          \
+        double lane[8] = {0.0};                                              \
+        int64_t i = 0;                                                       \
+        for (; i + 8 <= n; i += 8)                                           \
+            for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];      \
+        for (; i < n; i++) lane[0] += a[i] * b[i];                           \
+        return sum_of(lane);                                                 \
+    }
+DOT(dot, double)
+DOT(dot_single, real)
+
 /* A x of the finest matrix, and x . A x. */
 static double times(const Grid *grid, const double *x, double *restrict found) {
     Shape shape = grid->level->shape;
@@ -54,7 +69,7 @@ static double times(const Grid *grid, const double *x, double *restrict found) {
             for (int j = 0; j < 8; j++) lane[j] += here[k + j] * to[k + j];
         for (; k < count; k++) lane[0] += here[k] * to[k];
     }
-    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+    return sum_of(lane);
 }
 
 /* y = x + share / diagonal (right - A x); a share of 0: y = right - A x. */
@@ -190,27 +205,6 @@ static void cycle(const Grid *grid, int64_t depth) {
     for (int64_t i = 0; i < n; i++) at->x[i] += over * under->x[parent[i]];
     swept(at, at->x, at->right, at->y, second);
     swept(at, at->y, at->right, at->x, first);
-}
-
-/* Sums are always made in the same eight lanes. */
-static double sum_of(const double lane[8]) { return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7])); }
-
-static double dot(int64_t n, const double *a, const double *b) {
-    double lane[8] = {0.0};
-    int64_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];
-    for (; i < n; i++) lane[0] += a[i] * b[i];
-    return sum_of(lane);
-}
-
-static double dot_single(int64_t n, const double *a, const real *b) {
-    double lane[8] = {0.0};
-    int64_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int j = 0; j < 8; j++) lane[j] += a[i + j] * b[i + j];
-    for (; i < n; i++) lane[0] += a[i] * b[i];
-    return sum_of(lane);
 }
 
 /* Divides the work space among the levels: `work` of zeros, eight times the finest's pixels plus two, and (band + 2) times the coarsest's;

@@ -139,8 +139,7 @@ class Judge:
 
     own: Trees
     beside: Mapping[str, float]
-    context: Trees | None
-    """None: regions are judged, and no coarse pixels in their context."""
+    context: Trees
 
     @staticmethod
     @cache
@@ -200,11 +199,10 @@ def in_context(judgement: Judged, view: View, labels: Labels, bright: Image, roo
 
     `bright` and `room` (rows, columns) are the logarithms of the lights' brightness and of the image without lights, where there is one.
     """
-    judge = judge or Judge.fitted()
     clues = clues_in(judgement, view, bright, room)
-    if clues is None or judge.context is None:
+    if clues is None:
         return judgement
-    odds = _odds(judge.context.log_odds(clues)).reshape(judgement.pictures.labels.shape)
+    odds = _odds((judge or Judge.fitted()).context.log_odds(clues)).reshape(judgement.pictures.labels.shape)
     return _judged(odds, view, labels, judgement.pictures, judgement.regions)
 
 

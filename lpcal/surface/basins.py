@@ -10,7 +10,7 @@ The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the
 many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
 which decides where the light hardly determines it. The full solve begins in the likeliest.
 
-Smaller pieces that break off in the full solve are swept as they are (`of_piece`): with the shape kept, their light at each distance.
+Smaller pieces that break off in the full solve are swept (`of_piece`): their shape kept, the cost of their samples at each distance.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ WORKING = 0.3
 STATED = 0.02
 """Odds under which another basin is not reported."""
 PIECE_PIXELS = 600
-"""Pixels of a piece, spread over it, whose light is asked at every distance of a sweep."""
+"""Pixels of a piece, spread over it, whose samples are fitted at every distance of its sweep."""
 PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
-"""Natural logarithms of a piece's distance over its own at which its light is asked, a twentieth apart: basins are wider."""
+"""Natural logarithms of a piece's distance over its own at which its samples are fitted, a twentieth apart: basins are wider."""
 
 
 @dataclass(frozen=True)

@@ -112,17 +112,17 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     scene = scene.closely()
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
-        return swept(scene, _until_settled(scene, once(scene, begin, None, 0), 1, progress))
+        return _swept(scene, _until_settled(scene, once(scene, begin, None, 0), 1, progress))
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid)
 
     def in_blocks(what: str, done: int, total: int) -> None:
         progress(f"{what} in coarse pixels", done, total)
 
-    settled = swept(coarse, _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks))
-    return swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
+    settled = _swept(coarse, _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks))
+    return _swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
 
 
-def swept(scene: Scene, state: State) -> State:
+def _swept(scene: Scene, state: State) -> State:
     """The state with its smaller pieces at the distances that their light supports, and one more round of normals where one has moved.
 
     Rounds move a piece by what its pixels say of its neighbourhood, less where other parts' light is in doubt: a small one stays where it

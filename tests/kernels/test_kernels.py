@@ -351,7 +351,6 @@ def distort(rng: np.random.Generator) -> Array:
 
 def trees(rng: np.random.Generator) -> Array:
     judges = background.Judge.fitted()
-    assert judges.context is not None
     return np.concatenate([one.log_odds({name: 2 * rng.normal(size=500) for name in one.clues}) for one in (judges.own, judges.context)])
 
 
