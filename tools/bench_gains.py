@@ -27,8 +27,8 @@ from lpcal.errors import DisagreementError
 from lpcal.geometry import lambert
 from lpcal.records.calibration import Calibration
 from lpcal.records.sensor import StatedSensor
-from lpcal.surface import sight
 from lpcal.surface.reconstruct import Options, reconstruct
+from lpcal.view import sight
 
 KINDS: dict[str, tuple[Recipe, bool]] = {
     "equal": (Recipe(), False),

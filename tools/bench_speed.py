@@ -27,11 +27,12 @@ from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import Provenance
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
+from lpcal.integration import multigrid, pieces
+from lpcal.integration.integrate import Grid, Own, integrate, settle, steps, system
 from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Calibration, Light
-from lpcal.surface import multigrid, normals, pieces, uncertainty
-from lpcal.surface.integrate import Grid, Own, integrate, settle, steps, system
-from lpcal.surface.sight import Sight
+from lpcal.surface import normals, uncertainty
+from lpcal.view.sight import Sight
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = ROOT / "docs/benchmarks.md"

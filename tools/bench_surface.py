@@ -20,8 +20,8 @@ from lpcal.formats.capture import read_capture
 from lpcal.formats.import_lights import read_lights
 from lpcal.geometry import lambert
 from lpcal.records.calibration import Light
-from lpcal.surface import sight
 from lpcal.surface.reconstruct import Options, reconstruct
+from lpcal.view import sight
 
 DATA = Path(os.environ.get("LPCAL_DATA", Path(__file__).resolve().parents[2] / "shared/data")) / "surface"
 COUNTS = (6, 8, 10, 16, 24, 48, 96)

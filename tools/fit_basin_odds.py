@@ -19,7 +19,8 @@ from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
-from lpcal.surface import basins, sight
+from lpcal.surface import basins
+from lpcal.view import sight
 
 RIGHT = 0.1
 """Difference of log distances within which a basin is the right one."""

@@ -1,7 +1,7 @@
 """Fit what the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
-estimated, as the mask does it. Writes the trees that lpcal.surface.background reads and prints its BESIDE; cross-validated by scene in
+estimated, as the mask does it. Writes the trees that lpcal.segmentation.background reads and prints its BESIDE; cross-validated by scene in
 FOLDS parts, how good the coarse masks are. The judges that were fitted without a part of the scenes go to FILE, for tools/fit_outline.py,
 which must not see odds of scenes that they were fitted to. The regions themselves depend a little on the judge. Needs scikit-learn
 (``uv run --with scikit-learn``); with OMP_NUM_THREADS=1 where other work shares the machine.
@@ -27,9 +27,10 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.surface import background, context, flats, layers, mask, outline, regions, room_light, sight
-from lpcal.surface.coarse import LightTable, coarse_of, factor_of
-from lpcal.surface.regions import Pictures, Regions, View
+from lpcal.segmentation import background, context, flats, layers, mask, outline, regions, room_light
+from lpcal.segmentation.regions import Pictures, Regions, View
+from lpcal.view import sight
+from lpcal.view.coarse import LightTable, coarse_of, factor_of
 
 FOLDS, INNER = 6, 5
 RIDGE = 0.3

@@ -1,9 +1,9 @@
 """Fit the weights by which the automatic mask's outline is judged: ``python tools/fit_outline.py SCENES... --folds FILE [--jobs N]``.
 
 SCENES are folders as tools/fit_mask.py reads them, and FILE is what it has written of judges that were not fitted to them; scenes that are
-not in it are judged as lpcal does. Prints WITH_ROOM and WITHOUT_ROOM of lpcal.surface.outline, and DOUBTED and DOUBT_POWER of
-lpcal.surface.mask; and how good the masks are, coarse and in full size. Each scale's clues depend on the weights before it: run it until
-these stand still. Scenes whose regions are judged so wrong that there is no outline to draw are not fitted to.
+not in it are judged as lpcal does. Prints WITH_ROOM and WITHOUT_ROOM of lpcal.segmentation.outline, and DOUBTED and DOUBT_POWER of
+lpcal.segmentation.mask; and how good the masks are, coarse and in full size. Each scale's clues depend on the weights before it: run it
+until these stand still. Scenes whose regions are judged so wrong that there is no outline to draw are not fitted to.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from scipy import optimize
 
 from fit_mask import WRONG, Seen, iou, line_of, of_scenes
 from lpcal.geometry.raster import block_means
-from lpcal.surface import background, cut, flats, layers, mask, outline
+from lpcal.segmentation import background, cut, flats, layers, mask, outline
 
 RIDGE = 1e-3
 """Penalty on the square of a weight, by a mean weight of 1 for pixels: pixels are many, it keeps the equations solvable."""

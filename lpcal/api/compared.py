@@ -16,15 +16,15 @@ from lpcal import methods
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.integration.mesh import ends_of
+from lpcal.integration.of_normals import UNKNOWN_DISTANCE, surface_of_normals
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Component, Surface
-from lpcal.surface import mask as masks
-from lpcal.surface import sight
-from lpcal.surface.mask import Hints
-from lpcal.surface.mesh import ends_of
-from lpcal.surface.of_normals import UNKNOWN_DISTANCE, surface_of_normals
+from lpcal.segmentation import mask as masks
+from lpcal.segmentation.mask import Hints
+from lpcal.view import sight
 
 OWN = "lpcal"
 """The name of lpcal's own integrator."""

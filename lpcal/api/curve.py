@@ -9,15 +9,15 @@ import numpy as np
 
 from lpcal.api.sensor import sensor_of_capture
 from lpcal.detect.radiometry import over_white
+from lpcal.detect.response import Curve, ShownResponse, stored_curve
 from lpcal.errors import DisagreementError
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.tone_curve import Gamma, decode, worded
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor, ToneClaim
-from lpcal.surface.gains import unmeasured
-from lpcal.surface.response import Curve, ShownResponse, stored_curve
-from lpcal.surface.sight import light_vectors, rays_at
+from lpcal.surface.self_calibration import unmeasured
+from lpcal.view.sight import light_vectors, rays_at
 
 PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""

@@ -21,12 +21,14 @@ from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress
 from lpcal.records.sensor import Sensor
 from lpcal.records.surface import Surface
-from lpcal.surface import cut, sight, uncertainty
+from lpcal.segmentation import cut
+from lpcal.segmentation.mask import Hints, Keep
 from lpcal.surface import full_size as solver
-from lpcal.surface.bands import shared
+from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground, between
-from lpcal.surface.mask import Hints, Keep
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
+from lpcal.view import sight
+from lpcal.view.bands import shared
 
 NOISE_PARTS = 5
 """Parts of the picture, along each side, that the noise is read off: they hold some 400,000 pixels of every image."""

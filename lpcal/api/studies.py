@@ -20,13 +20,15 @@ from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError, LpcalError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
+from lpcal.integration import pieces
+from lpcal.integration.integrate import Grid
 from lpcal.records import screens
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import Sensor
 from lpcal.records.shown import Shown
 from lpcal.simulate.captures import Conditions, capture, ring
-from lpcal.surface import normals, pieces, sight
-from lpcal.surface.integrate import Grid
+from lpcal.surface import normals
+from lpcal.view import sight
 
 PAPER = Conditions()
 PLAIN: Final = "plain least squares"

@@ -8,10 +8,10 @@ import numpy as np
 
 from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.geometry.arrays import Array, Image
+from lpcal.integration.convention import mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.surface.convention import mirrored
 
 VAGUE_DEG = 6.0
 """Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so poorly known is of no use."""

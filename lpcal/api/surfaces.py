@@ -31,6 +31,10 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError
 from lpcal.geometry.arrays import Image, Mask
+from lpcal.integration import convention
+from lpcal.integration import mesh as meshes
+from lpcal.integration.mesh import Mesh
+from lpcal.integration.of_normals import check
 from lpcal.records import given, screens
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
@@ -39,14 +43,10 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.records.placement import Placement
 from lpcal.records.sensor import Sensor, StatedSensor
 from lpcal.records.surface import Surface
-from lpcal.surface import convention
-from lpcal.surface import mesh as meshes
+from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.surface import reconstruct as solver
-from lpcal.surface.crop import Crop
-from lpcal.surface.mask import NO_HINTS, Hints, Keep
-from lpcal.surface.mesh import Mesh
-from lpcal.surface.of_normals import check
 from lpcal.surface.reading import reading_of
+from lpcal.view.crop import Crop
 
 OUTSIDE = (0.5, 2.0)
 """Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""

@@ -9,7 +9,7 @@ from lpcal.api import compared
 from lpcal.errors import DisagreementError, InputError
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
-from lpcal.surface.mask import Hints
+from lpcal.segmentation.mask import Hints
 
 WAYS = ("near", "distant")
 """lpcal's own method, by how lights act."""

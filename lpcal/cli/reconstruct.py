@@ -14,7 +14,7 @@ from lpcal.records.outcome import Outcome, Progress
 if TYPE_CHECKING:
     from lpcal.pipeline.workspace import Workspace
     from lpcal.records.sensor import StatedSensor
-    from lpcal.surface.mask import Hints
+    from lpcal.segmentation.mask import Hints
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -117,7 +117,7 @@ def _sensor(options: argparse.Namespace) -> StatedSensor:
 
 def _hints(options: argparse.Namespace) -> Hints:
     """Where the object is, by the words of the command."""
-    from lpcal.surface.mask import Hints
+    from lpcal.segmentation.mask import Hints
 
     box = None if options.box is None else _whole_numbers(options.box, "--box", 4)
     if box is not None and (min(box[:2]) < 0 or min(box[2:]) < 1):

@@ -30,8 +30,8 @@ from lpcal.geometry import relight_table, relightable
 from lpcal.geometry.arrays import Array, Image
 from lpcal.geometry.relight_table import RelightTable
 from lpcal.geometry.relightable import RelightFit
+from lpcal.integration.mesh import DISPLAY_GAMMA
 from lpcal.records.exchange import ExchangeContent
-from lpcal.surface.mesh import DISPLAY_GAMMA
 
 OUTERMOST = 0.02
 """Percent of the coefficients at either end that are cut off before they become bytes: highlights would take all the steps."""

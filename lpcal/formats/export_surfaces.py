@@ -17,9 +17,9 @@ import numpy.typing as npt
 from lpcal import __version__
 from lpcal.errors import InputError
 from lpcal.formats.surface_files import GLTF_FROM_C, normals_gl, write_meshes
+from lpcal.integration.mesh import build, colours, points_C
 from lpcal.records.exchange import ExchangeContent
 from lpcal.records.surface import Surface
-from lpcal.surface.mesh import build, colours, points_C
 
 MM = 1e3
 """Millimetres in a metre."""

@@ -139,7 +139,7 @@ def settled(raw: RawCapture, sieve: Sieve, full: FullScale, mask: Mask | None) -
 
 def read_all[P](paths: Sequence[P], read: Callable[[P], Numbers], lights: int, first: Numbers, store: Keeper | None = None) -> Sieve:
     """A sieve that has taken the images of these paths, by threads that share them; they are kept in `store`, else in a file of its own."""
-    from lpcal.surface.bands import shared
+    from lpcal.view.bands import shared
 
     sieve = Sieve.of(first, len(paths), lights, store)
     shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))

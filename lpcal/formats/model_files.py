@@ -20,10 +20,10 @@ from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.documents import plain
 from lpcal.formats.outputs import summarised, whole
 from lpcal.formats.record_documents import document_of, known_record_of, record_of
+from lpcal.integration.mesh import DISPLAY_GAMMA
 from lpcal.records.calibration import Calibration
 from lpcal.records.model import Missing, ModelFigures, ObjectModel, RigEvidence, ViewInModel
 from lpcal.records.provenance import Provenance
-from lpcal.surface.mesh import DISPLAY_GAMMA
 
 ARRAYS = ("vertices_A", "normals_A", "faces", "albedo", "sigma_m", "normal_sigma_rad", "disagreement_m", "seen_by")
 SUMMARY = "summary.json"

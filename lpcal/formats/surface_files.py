@@ -33,11 +33,11 @@ from lpcal.formats.reading import reading
 from lpcal.formats.record_documents import document_of, record_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Image
+from lpcal.integration.mesh import DISPLAY_GAMMA, MeshBands
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface, SurfaceSummary
-from lpcal.surface import bands
-from lpcal.surface.mesh import DISPLAY_GAMMA, MeshBands
+from lpcal.view import bands
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
 BAND_ROWS = 512

@@ -1,4 +1,4 @@
-/* Cuts of an image by primal-dual steps. Twins: surface/cut.py (_relaxed) and surface/layers.py (cheapest); to the last bit. */
+/* Cuts of an image by primal-dual steps. Twins: segmentation/cut.py (_relaxed) and segmentation/layers.py (cheapest); to the last bit. */
 
 #include "kernel.h"
 

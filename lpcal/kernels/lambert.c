@@ -1,4 +1,4 @@
-/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), surface/normals.py (_few), surface/coarse.py
+/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), surface/normals.py (_few), view/coarse.py
    (LightTable.at). Light vectors B are (L, P, 3), signals and weights (L, P). */
 
 #include "kernel.h"
@@ -336,7 +336,7 @@ static inline int64_t node_before(double t, int64_t nodes) {
     return node < 1 ? 1 : node > nodes - 3 ? nodes - 3 : node;
 }
 
-/* Values (L, P) of a lattice (nodes, nodes, L) at places (P, 2) in steps, cubic along each side. Twin: surface/planes.py (between). */
+/* Values (L, P) of a lattice (nodes, nodes, L) at places (P, 2) in steps, cubic along each side. Twin: segmentation/planes.py (between). */
 KERNEL void lpcal_lattice(int64_t L, int64_t nodes, int64_t P, const double *lattice, const double *place, double *found) {
     for (int64_t p = 0; p < P; p++) {
         int64_t x = node_before(place[2 * p], nodes), y = node_before(place[2 * p + 1], nodes);

@@ -1,4 +1,4 @@
-/* Conjugate gradients with a multigrid preconditioner on the pixels of a mask. Twin: surface/multigrid.py.
+/* Conjugate gradients with a multigrid preconditioner on the pixels of a mask. Twin: integration/multigrid.py.
 
    A level's matrix is that of its pixels' neighbours: pixels are numbered row by row, so the right neighbour of one is the next, and those
    above and below lie side by side along stretches of a row. Nothing but weights is stored, and every inner loop goes straight through
@@ -362,7 +362,7 @@ static void weighed(const Edges *edges, Shape shape, const double *x, double rob
 
 /* Depth x (pixels) whose differences keep steps by their sigmas (0: no edge), robustly, tied to each pixel's optimum by its curvature times
    strengths in turn; and the last weights of the edges, one where they are `fresh`, else by x. All edges are given at their first pixels, those
-   to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: surface/integrate.py (integrate). */
+   to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: integration/integrate.py (integrate). */
 KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *step,
                              const double *sigma, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
                              const double *strength, double roughly, double finely, double robust, double spread, double least, double *x,

@@ -1,4 +1,4 @@
-/* What hangs together. Twin: surface/pieces.py (_connected). */
+/* What hangs together. Twin: integration/pieces.py (_connected). */
 
 #include "kernel.h"
 

@@ -1,4 +1,4 @@
-/* How well pixels fit a plane. Twin: surface/planes.py (misfit). Signals and those of a white plane are (L, P). */
+/* How well pixels fit a plane. Twin: segmentation/planes.py (misfit). Signals and those of a white plane are (L, P). */
 
 #include "kernel.h"
 

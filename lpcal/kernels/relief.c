@@ -107,7 +107,7 @@ KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const 
 }
 
 /* Whether a way from each place x meets the body within the reaches, shares of its depth, and how far it goes until then, by halvings between
-   the first reach in the body and the last before it. Twin: surface/sides.py (_entries). */
+   the first reach in the body and the last before it. Twin: surface/relief.py (_entries). */
 KERNEL void lpcal_entries(int64_t count, const double *x, const double *way, int64_t reaches, const double *reach, int64_t halvings,
                           int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
                           double thickness, bool *met, double *far) {

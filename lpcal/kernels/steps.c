@@ -1,4 +1,4 @@
-/* Steps of log depth between neighbours by their normals. Twin: surface/integrate.py (steps). */
+/* Steps of log depth between neighbours by their normals. Twin: integration/integrate.py (steps). */
 
 #include "kernel.h"
 

@@ -1,4 +1,4 @@
-/* Sums of decision trees. Twin: surface/background.py (Trees._summed). Clues are (P, C); trees are nodes that ask for a clue, -1 at a leaf. */
+/* Sums of decision trees. Twin: segmentation/background.py (Trees._summed). Clues are (P, C); trees are nodes that ask for a clue, -1 at a leaf. */
 
 #include "kernel.h"
 

@@ -33,6 +33,7 @@ from lpcal.formats.placement_document import stated_place_of
 from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
 from lpcal.formats.zarr_files import is_zarr
+from lpcal.integration.pieces import flatness
 from lpcal.pipeline.placing import NO_RIG, Recorded, made_from, placed, placed_said, recorded_of
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace, within
@@ -41,9 +42,8 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
-from lpcal.surface.bands import cores
-from lpcal.surface.mask import NO_HINTS, Hints, Keep
-from lpcal.surface.pieces import flatness
+from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
+from lpcal.view.bands import cores
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}

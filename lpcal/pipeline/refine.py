@@ -34,7 +34,7 @@ from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
 from lpcal.records.sensor import Sensor
-from lpcal.surface.bands import shared
+from lpcal.view.bands import shared
 
 FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5

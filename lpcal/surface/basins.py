@@ -22,13 +22,15 @@ import numpy as np
 
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import pieces
+from lpcal.integration.integrate import Grid, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
-from lpcal.surface import bands, coarse, distance, normals, pieces
-from lpcal.surface.coarse import LightTable
-from lpcal.surface.crop import Crop
-from lpcal.surface.integrate import Grid, integrate, settle, steps
-from lpcal.surface.sight import Grey, Lit, Sight, light_vectors, look_at
+from lpcal.surface import distance, normals
+from lpcal.view import bands, coarse
+from lpcal.view.coarse import LightTable
+from lpcal.view.crop import Crop
+from lpcal.view.sight import Grey, Lit, Sight, light_vectors, look_at
 
 PIXELS = 1500
 """Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""

@@ -8,7 +8,7 @@ p to j at the distance r. A patch of reflectance a emits its signal, so point p 
 with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
-camera does not see are guessed (surface.sides). s, and the shares of what is guessed, are estimated from the samples in shadow, which show
+camera does not see are guessed (surface.relief). s, and the shares of what is guessed, are estimated from the samples in shadow, which show
 interreflected light alone, and from the lit samples together with the smoothness of the surface (surface.field): posterior means over a
 grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
 Greenberg 1985 (form factors).
@@ -26,12 +26,12 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.surface import bands, sides
 from lpcal.surface import relief as body
 from lpcal.surface.normals import Estimate
-from lpcal.surface.relief import Relief
-from lpcal.surface.sight import Indices, Lit, Sight
+from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches
+from lpcal.view import bands
+from lpcal.view.sight import Indices, Lit, Sight
 
 PATCHES = 2000
 STEPS = 6
@@ -127,7 +127,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     relief = Relief.of(seen, depth)
     albedo = np.zeros(seen.mask.shape)
     albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
-    by_unseen, unseen = sides.thrown(own.x_C, own.n, relief, albedo, lights)
+    by_unseen, unseen = thrown_by_sides(own.x_C, own.n, relief, albedo, lights)
     at_patches = _received(own, own, relief)
     beyond = None
     if around is not None:

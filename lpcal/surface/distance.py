@@ -17,11 +17,12 @@ import numpy as np
 
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.integration.integrate import Own
 from lpcal.kernels.library import kernel
-from lpcal.surface import bands, normals
-from lpcal.surface.integrate import Own
+from lpcal.surface import normals
 from lpcal.surface.normals import Estimate, thrown_share, variances
-from lpcal.surface.sight import Lit, Sight, vectors
+from lpcal.view import bands
+from lpcal.view.sight import Lit, Sight, vectors
 
 FURTHEST = 0.5
 """Most that a pixel's own distance moves log z in a round."""

@@ -24,11 +24,13 @@ import numpy as np
 
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import pieces
+from lpcal.integration.integrate import Grid
 from lpcal.kernels.library import kernel
-from lpcal.surface import bands, gloss, pieces
-from lpcal.surface.integrate import Grid
+from lpcal.surface import gloss
 from lpcal.surface.normals import Estimate, joined
-from lpcal.surface.sight import Lit, Sight
+from lpcal.view import bands
+from lpcal.view.sight import Lit, Sight
 
 TURN = 0.15
 """Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of

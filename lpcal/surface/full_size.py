@@ -20,19 +20,19 @@ import numpy.typing as npt
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
+from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress
-from lpcal.surface import bands, field, reconstruct, sight, uncertainty
-from lpcal.surface.albedo import albedo_of
+from lpcal.surface import field, reconstruct, uncertainty
 from lpcal.surface.field import Field
 from lpcal.surface.gloss import Gloss
 from lpcal.surface.ground import Ground
-from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
-from lpcal.surface.normals import Estimate
-from lpcal.surface.pieces import BREAK_WEIGHT
+from lpcal.surface.normals import Estimate, albedo_of
 from lpcal.surface.rounds import Scene
-from lpcal.surface.sight import Lit
+from lpcal.view import bands, sight
+from lpcal.view.sight import Lit
 
 SAMPLES = 1_500_000
 """Samples, lights times pixels, of a tile: its lists of vectors then take some 200 MB a core."""

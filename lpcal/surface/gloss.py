@@ -22,8 +22,8 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
-from lpcal.surface import bands
-from lpcal.surface.sight import Lit
+from lpcal.view import bands
+from lpcal.view.sight import Lit
 
 MOST_PIXELS, FEWEST_PIXELS = 4000, 1000
 """Pixels of an object that its gloss is fitted to, spread over it, with few lights and with many."""

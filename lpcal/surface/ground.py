@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.integration.integrate import STEEPEST
+from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.surface import rounds
-from lpcal.surface.integrate import STEEPEST
 from lpcal.surface.normals import thrown_share
-from lpcal.surface.pieces import BREAK_WEIGHT
 from lpcal.surface.rounds import Scene, State
-from lpcal.surface.sight import Indices, Lit
+from lpcal.view.sight import Indices, Lit
 
 LOOSE_PX = 1
 """Coarse pixels about a break of the surface in which the coarse depth does not hold the fine one."""

@@ -19,10 +19,10 @@ from itertools import combinations
 import numpy as np
 
 from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
-from lpcal.surface import bands
-from lpcal.surface.sight import Indices, Lit, Sight, vectors
+from lpcal.view import bands
+from lpcal.view.sight import Indices, Lit, Sight, vectors
 
 MODEL = 0.015
 SHADOW = 0.15
@@ -230,3 +230,14 @@ def _median_of_known(values: Array) -> Array:
         np.take_along_axis(ranked, low[None], axis=0)[0] + np.take_along_axis(ranked, np.minimum(high, len(values) - 1)[None], axis=0)[0]
     ) / 2
     return np.nan_to_num(found)
+
+
+def albedo_of(signal: Array | Image, intensity: Array, lit: Lit, n: Array, found: Estimate, seen: Sight) -> Array:
+    """Albedo (P, C): the least-squares factor of the shading, a channel at a time, over the samples that agree.
+
+    `signal` (L, P, C) and `intensity` (L, C) are the channels' own, `n` (P, 3) the normals.
+    """
+    shading = lambert.predicted(lit.B, n)
+    used = np.where(found.used >= LEAST, found.inliers, seen.usable)
+    matte = signal / intensity[:, None] - (0.0 if found.gloss is None else found.gloss[..., None])
+    return np.asarray(np.einsum("kp,kpc->pc", used * shading, matte) / np.maximum(np.sum(used * shading**2, axis=0), 1e-12)[:, None])

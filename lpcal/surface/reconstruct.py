@@ -21,37 +21,35 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.integration import pieces
+from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
+from lpcal.segmentation import mask, planes
+from lpcal.segmentation.background import NOTHING, OBJECT
+from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.surface import (
-    bands,
     basins,
     components,
-    gains,
-    mask,
     normals,
-    pieces,
-    planes,
     reading,
     rounds,
+    self_calibration,
     shadow_anchor,
-    sight,
     surroundings,
     uncertainty,
     without_ambient,
 )
-from lpcal.surface.albedo import albedo_of
-from lpcal.surface.background import NOTHING, OBJECT
 from lpcal.surface.basins import Basins
-from lpcal.surface.exchanged import exchanged
-from lpcal.surface.integrate import Grid
-from lpcal.surface.mask import NO_HINTS, Hints, Keep
+from lpcal.surface.normals import albedo_of
 from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
-from lpcal.surface.sight import Sight
+from lpcal.surface.self_calibration import exchanged
+from lpcal.view import bands, sight
+from lpcal.view.sight import Sight
 
 AGREE_DEG = 2.0
 """A measured normal and that of the depth are averaged where they agree this well."""
@@ -114,7 +112,7 @@ def reconstruct(
     if begin is None:
         begin = distance_m(maps, rays_C, lights, _given(radiance, options)) if near else DISTANCE_M
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
-    if not options.ambient_known and not gains.unmeasured(lights):
+    if not options.ambient_known and not self_calibration.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
         known = replace(options, ambient_known=True)
 
@@ -129,7 +127,7 @@ def reconstruct(
     progress(f"{radiance.name}: which pixels are the object", 1, 1)
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
     seen = sight.look_at(maps, rays_C, object_mask, central=central)
-    gain = gains.intensities(seen, lights) if options.linear and gains.unmeasured(lights) else None
+    gain = self_calibration.intensities(seen, lights) if options.linear and self_calibration.unmeasured(lights) else None
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         maps = sight.grey(radiance, lights)

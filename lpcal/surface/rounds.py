@@ -14,18 +14,20 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import pieces
+from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import bands, basins, bounce, distance, field, normals, pieces, sight
-from lpcal.surface.crop import Crop
+from lpcal.surface import basins, bounce, distance, field, normals
 from lpcal.surface.field import Field
-from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
-from lpcal.surface.sight import Lit, Sight
 from lpcal.surface.surroundings import Around
+from lpcal.view import bands, sight
+from lpcal.view.crop import Crop
+from lpcal.view.sight import Lit, Sight
 
 ROUNDS = 9
 """Rounds at most: two settle the depth, the others what depends on it."""

@@ -13,9 +13,9 @@ import numpy.typing as npt
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
-from lpcal.surface.integrate import LEAST_WEIGHT, STEEPEST, Grid, Own
+from lpcal.integration.integrate import LEAST_WEIGHT, STEEPEST, Grid, Own
 from lpcal.surface.normals import Estimate
-from lpcal.surface.sight import Indices, Lit, Sight
+from lpcal.view.sight import Indices, Lit, Sight
 
 PIXELS = 8000
 """Blocks, about, that an object is joined to: enough for distance and gloss, and for 2000 patches that reflect light."""

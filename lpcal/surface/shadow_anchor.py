@@ -1,6 +1,6 @@
 r"""The distance of a piece from the edge of its shadow on the plane behind it; no intensities enter.
 
-Symbols: plane ``q . y = 1`` (see surface.planes), point X of the piece, d the direction to the light there; its shadow falls on
+Symbols: plane ``q . y = 1`` (see segmentation.planes), point X of the piece, d the direction to the light there; its shadow falls on
 ``y = X - t d`` with ``t = (q.X - 1) / (q.d)``. The piece is scaled about the camera by s and the shadow that its pixels would throw is
 compared with the one that is seen, over the plane's pixels and the lights: ``cost(s) = sum(predicted and lit) + sum(dark, not
 predicted, beyond)``. Only the side of a shadow away from its object is cast by parts that the camera sees; what is dark on the near side
@@ -23,8 +23,8 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Camera, Light
 from lpcal.records.figures import Anchor
-from lpcal.surface import planes
-from lpcal.surface.sight import Sight, second
+from lpcal.segmentation import planes
+from lpcal.view.sight import Sight, second
 
 SCALES = np.linspace(0.955, 1.045, 31)
 RIM = 4

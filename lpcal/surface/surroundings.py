@@ -16,9 +16,9 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import mask, planes
+from lpcal.segmentation import mask, planes
 from lpcal.surface.relief import Relief
-from lpcal.surface.sight import Grey, Indices, Sight, light_vectors, look_at
+from lpcal.view.sight import Grey, Indices, Sight, light_vectors, look_at
 
 PATCHES = 600
 MARGIN = 2

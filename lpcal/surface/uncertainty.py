@@ -20,10 +20,10 @@ import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
-from lpcal.surface.integrate import Grid
 from lpcal.surface.normals import Estimate, thrown_share
-from lpcal.surface.sight import Lit
+from lpcal.view.sight import Lit
 
 FACTORS = (0.276, 0.0865, 0.70, 1.3, 98.0, 530.0, 0.01, 87.0, 3.1)
 """What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by

@@ -1,8 +1,8 @@
 r"""A capture without an ambient image: the room's light is estimated, taken away, and counted as doubt.
 
-That of all that is seen first (see surface.room_light), so that the mask can be found; then the object's, at the working distance and again
-at the depth that this gave. A last time with more of it shows how far normals, depth and distance depend on it: that is added to their
-standard deviations.
+That of all that is seen first (see segmentation.room_light), so that the mask can be found; then the object's, at the working distance and
+again at the depth that this gave. A last time with more of it shows how far normals, depth and distance depend on it: that is added to
+their standard deviations.
 
 Symbols: signal ``I_k = B_k . b + A / h_k`` where light k (of intensity h_k, which signals are divided by) reaches a pixel, ``A / h_k``
 where it does not; ``b = rho n``. Light that comes from all over a room acts on a matte surface as its first harmonics::
@@ -30,9 +30,11 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.surface import background, mask, normals, planes, room_light, room_samples, sight
-from lpcal.surface.room_light import RoomLight
-from lpcal.surface.sight import Grey, Sight, light_vectors, look_at
+from lpcal.segmentation import background, mask, planes, room_light, room_samples
+from lpcal.segmentation.room_light import RoomLight
+from lpcal.surface import normals
+from lpcal.view import sight
+from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
 """The surface of images without room light; a mask is kept, None leaves it to be found."""
@@ -165,7 +167,7 @@ class Wall:
     """The plane behind the object and its room light."""
 
     q: Array
-    """See surface.planes."""
+    """See segmentation.planes."""
     ratio: float
     """a: room light on it over its albedo."""
     n_C: Array

@@ -17,9 +17,9 @@ from bilateral_twin import depth_of
 from lit_scene import SIZE, K, Scene, calibration, truth
 from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.formats.surface_files import read_surface
+from lpcal.integration.of_normals import surface_of_normals
 from lpcal.records.calibration import Camera
 from lpcal.records.provenance import Provenance
-from lpcal.surface.of_normals import surface_of_normals
 
 
 def diligent(folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -10,7 +10,7 @@ import pytest
 
 from lpcal.cli.engine_words import add_cores, jobs_of
 from lpcal.errors import UsageError
-from lpcal.surface.bands import cores, shared, workers
+from lpcal.view.bands import cores, shared, workers
 
 
 def asked(*words: Any) -> Any:

@@ -18,6 +18,8 @@ from lpcal.cli.main import COMMANDS
 REPOSITORY = Path(__file__).resolve().parents[2]
 MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
 MODULE_LINES, FUNCTION_LINES = 400, 60
+SURFACE_MODULES = 20
+"""Modules of the surface stage, its ``__init__`` counted."""
 MOST_SINGLE = 20.0
 """Per cent of the lines that may stand in modules that exactly one other module imports."""
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
@@ -66,6 +68,12 @@ def test_rooms_are_small() -> None:
     assert not long, f"functions of {FUNCTION_LINES} lines or more"
 
 
+def test_the_surface_stage_reads_as_its_method() -> None:
+    """What it stands on (the view of a capture, masks, integration) has packages of its own."""
+    rooms = [name_of(path) for path in MODULES if path.is_relative_to(REPOSITORY / "lpcal" / "surface")]
+    assert 10 < len(rooms) <= SURFACE_MODULES, rooms
+
+
 def test_a_module_says_what_it_is() -> None:
     assert not [name_of(path) for path in MODULES if not ast.get_docstring(tree_of(path))]
 
@@ -93,7 +101,7 @@ def annotations(tree: ast.Module) -> Iterator[ast.expr]:
 
 
 UNTYPED = re.compile(r"(dict|Mapping)\[str, (object|Any)\]")
-TYPED_ROOMS = ("chain", "surface", "report", "records")
+TYPED_ROOMS = ("chain", "surface", "segmentation", "integration", "view", "report", "records")
 OPEN_DOCUMENTS = {"records/outcome.py": 1, "records/provenance.py": 1}
 """The JSON that a command prints and the options that it was run with, which differ by command; nothing else may hold an untyped mapping.
 What a page's script is given is typed in report/page_data.py."""
@@ -176,9 +184,11 @@ def test_reconstruct_imports_only_what_it_uses() -> None:
     used = imported_by("reconstruct", "--help")
     assert "numpy" not in used
     program = (
-        "import importlib, pkgutil, sys, lpcal.surface\n"
+        "import importlib, pkgutil, sys, lpcal.surface, lpcal.segmentation, lpcal.integration, lpcal.view\n"
         "import lpcal.pipeline.reconstruct, lpcal.formats.surface_files, lpcal.report.relight_page\n"
-        "[importlib.import_module(one.name) for one in pkgutil.iter_modules(lpcal.surface.__path__, 'lpcal.surface.')]\n"
+        "rooms = (lpcal.surface, lpcal.segmentation, lpcal.integration, lpcal.view)\n"
+        "parts = [one.name for room in rooms for one in pkgutil.iter_modules(room.__path__, room.__name__ + '.')]\n"
+        "[importlib.import_module(name) for name in parts]\n"
         "print(*{name.partition('.')[0] for name in sys.modules})"
     )
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

@@ -15,34 +15,18 @@ from scipy import ndimage
 
 from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import integrate, multigrid, pieces
+from lpcal.integration.integrate import Grid, system
+from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.surface import (
-    background,
-    bounce,
-    cut,
-    distance,
-    field,
-    flats,
-    gloss,
-    integrate,
-    layers,
-    multigrid,
-    normals,
-    pieces,
-    planes,
-    room_samples,
-    samples,
-    sides,
-)
-from lpcal.surface.coarse import LightTable
-from lpcal.surface.integrate import Grid, system
-from lpcal.surface.multigrid import Matrix, Pyramid
+from lpcal.segmentation import background, cut, flats, layers, planes, room_samples, samples
+from lpcal.surface import bounce, distance, field, gloss, normals
 from lpcal.surface.normals import Estimate
-from lpcal.surface.relief import Relief
-from lpcal.surface.room_samples import RoomPrior
-from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
+from lpcal.view.coarse import LightTable, RoomPrior
+from lpcal.view.sight import Lit, Sight
 
 PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
 
@@ -72,7 +56,7 @@ def behind(rng: np.random.Generator) -> Array:
 
 def entries(rng: np.random.Generator) -> Array:
     places = np.concatenate([points(rng, 3000), points(rng, 1000) * [1, 1, 1.1]])
-    at, y_C = sides._entries(places, lambert.unit(rng.normal(size=(4000, 3)))[0], relief(rng))
+    at, y_C = _entries(places, lambert.unit(rng.normal(size=(4000, 3)))[0], relief(rng))
     return np.concatenate([at.astype(float), y_C.ravel()])
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.observations import Radiance
-from lpcal.surface import sight
 from lpcal.surface.basins import Basin, Basins, odds_of, search
+from lpcal.view import sight
 
 
 @pytest.mark.parametrize("about", [*(pytest.param(one, marks=pytest.mark.slow) for one in (0.6, 1.0)), 1.9])

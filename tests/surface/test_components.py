@@ -7,7 +7,8 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.surface import basins, sight
+from lpcal.surface import basins
+from lpcal.view import sight
 
 GIVEN = calibration()
 SCENE = Scene(centre=(0.03, 0.02, 0.36), radius=0.03)

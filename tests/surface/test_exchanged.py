@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lpcal.surface.exchanged import exchanged
+from lpcal.surface.self_calibration import exchanged
 
 NAMES = pytest.mark.parametrize("seed", range(4))
 USUAL = [(0, 0.0), (1, 0.3), (2, 1.0), (3, 0.3)]

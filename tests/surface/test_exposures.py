@@ -13,9 +13,9 @@ from lpcal.detect.ambient import ambient_notes
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.formats.documents import plain
+from lpcal.integration.pieces import flatness
 from lpcal.pipeline.reconstruct import _flat_said
 from lpcal.records.observations import RawCapture
-from lpcal.surface.pieces import flatness
 from lpcal.surface.reconstruct import Options, reconstruct
 
 

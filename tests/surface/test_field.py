@@ -10,9 +10,9 @@ import pytest
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration.integrate import Grid
 from lpcal.surface import field, gloss, normals
-from lpcal.surface.integrate import Grid
-from lpcal.surface.sight import Lit, Sight
+from lpcal.view.sight import Lit, Sight
 
 SIZE = 70
 ALBEDO = 0.5

@@ -19,8 +19,9 @@ from lpcal.formats.calibration_yaml import write_calibration
 from lpcal.geometry import lambert
 from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
-from lpcal.surface import gains, sight
+from lpcal.surface import self_calibration
 from lpcal.surface.reconstruct import Options, reconstruct
+from lpcal.view import sight
 
 SMALL = Recipe(size=56)
 EQUAL = {
@@ -57,14 +58,14 @@ def error_deg(n: np.ndarray, truth: np.ndarray) -> float:
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", EQUAL)
 def test_equal_powers_stay_equal(kind: str, seed: int) -> None:
-    assert gains.intensities(*seen_by(draw(EQUAL[kind], seed))) is None
+    assert self_calibration.intensities(*seen_by(draw(EQUAL[kind], seed))) is None
 
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", UNEQUAL)
 def test_unequal_powers_are_found_nearer_than_equal_ones(kind: str, seed: int) -> None:
     drawn = draw(UNEQUAL[kind], seed)
-    found = gains.intensities(*seen_by(drawn))
+    found = self_calibration.intensities(*seen_by(drawn))
     assert found is not None
     assert found.mean() == pytest.approx(1.0)
     assert np.std(np.log(found / drawn.intensity)) < 0.5 * np.std(np.log(drawn.intensity))
@@ -95,9 +96,9 @@ def test_a_curve_is_not_taken_up_by_powers(seed: int) -> None:
 def test_powers_that_somebody_measured_are_no_matter() -> None:
     drawn = draw(UNEQUAL["much"], 0)
     lights = drawn.calibration.lights
-    assert gains.unmeasured(lights)
-    assert not gains.unmeasured([replace(light, intensity_std=0.01) for light in lights])
-    assert not gains.unmeasured([replace(lights[0], intensity=np.array([1.1])), *lights[1:]])
+    assert self_calibration.unmeasured(lights)
+    assert not self_calibration.unmeasured([replace(light, intensity_std=0.01) for light in lights])
+    assert not self_calibration.unmeasured([replace(lights[0], intensity=np.array([1.1])), *lights[1:]])
 
 
 @pytest.mark.parametrize(("kind", "recipe"), [("found", UNEQUAL["gloss"]), ("equal", EQUAL["gloss"]), ("equal", EQUAL["six lights"])])

@@ -9,14 +9,14 @@ import pytest
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration.integrate import Grid, Own
 from lpcal.records.calibration import Light
-from lpcal.surface import bounce, distance, field, normals, rounds, sides
+from lpcal.segmentation.planes import Plane, predicted
+from lpcal.surface import bounce, distance, field, normals, rounds
 from lpcal.surface.field import Field
-from lpcal.surface.integrate import Grid, Own
-from lpcal.surface.planes import Plane, predicted
-from lpcal.surface.relief import Relief
-from lpcal.surface.sight import Lit, Sight
+from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
+from lpcal.view.sight import Lit, Sight
 
 FOCAL = 260.0
 
@@ -163,7 +163,7 @@ def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind() 
     x_C, n = seen.points_C(depth), np.array([[0.0, 0.0, -1.0]])
     lights = [lamp("right", [0.18, 0.0, 0.03]), lamp("left", [-0.18, 0.0, 0.03])]
     beside = np.flatnonzero(~near & (x_C[:, 0] > 0.012) & (x_C[:, 0] < 0.030) & (np.abs(x_C[:, 1]) < 0.01))
-    J, share = sides.thrown(x_C[beside], np.repeat(n, len(beside), axis=0), Relief.of(seen, depth), np.full(mask.shape, albedo), lights)
+    J, share = thrown_by_sides(x_C[beside], np.repeat(n, len(beside), axis=0), Relief.of(seen, depth), np.full(mask.shape, albedo), lights)
     z, y = np.meshgrid(np.linspace(0.30, 0.35, 201), np.linspace(-0.045, 0.045, 361), indexing="ij")
     side_C = np.stack([np.zeros(z.size), y.ravel(), z.ravel()], axis=1)  # the true side of the step, at x = 0, seen edge on by the camera
     to_light = lights[0].source_C - side_C

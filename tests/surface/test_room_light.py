@@ -12,14 +12,17 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
 from lpcal.records.observations import RawCapture
-from lpcal.surface import mask as mask_of
-from lpcal.surface import planes, room_samples, sight, without_ambient
-from lpcal.surface import room_light as whole
+from lpcal.segmentation import mask as mask_of
+from lpcal.segmentation import planes, room_samples
+from lpcal.segmentation import room_light as whole
+from lpcal.segmentation.mask import Found
+from lpcal.segmentation.room_light import RoomLight
+from lpcal.surface import without_ambient
 from lpcal.surface import without_ambient as room
-from lpcal.surface.mask import Found
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.surface.room_light import RoomLight
-from lpcal.surface.sight import Grey
+from lpcal.view import sight
+from lpcal.view.coarse import RoomPrior
+from lpcal.view.sight import Grey
 
 LIT = Scene(centre=(0.004, -0.003, 0.36), room=0.25)
 
@@ -143,7 +146,7 @@ def test_samples_tell_their_room_light(shadowed: int) -> None:
     B = np.repeat((ways / np.linalg.norm(ways, axis=1, keepdims=True))[:, None], 200, axis=1)
     n = rng.normal(size=(200, 3)) * [0.3, 0.3, 0] + [0, 0, -1]
     b = rng.uniform(0.3, 1, (200, 1)) * n / np.linalg.norm(n, axis=1, keepdims=True)
-    known = room_samples.RoomPrior(rng.uniform(0.8, 1.25, 8), 0.3)
+    known = RoomPrior(rng.uniform(0.8, 1.25, 8), 0.3)
     A = 0.3 * np.linalg.norm(b, axis=1) * rng.uniform(0.8, 1.2, 200)
     m = np.maximum(np.einsum("lpi,pi->lp", B, b), 0)
     m[:shadowed] = 0

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from lpcal.integration.integrate import LEAST_WEIGHT, Grid
 from lpcal.surface import scales
-from lpcal.surface.integrate import LEAST_WEIGHT, Grid
 from lpcal.surface.scales import Blocks
-from lpcal.surface.sight import Sight
+from lpcal.view.sight import Sight
 
 SHAPE = (60, 80)
 MIDDLE = np.array([40.0, 30.0])

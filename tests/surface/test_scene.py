@@ -15,9 +15,12 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.capture import read_capture
 from lpcal.formats.import_lights import read_lights
+from lpcal.integration import mesh
 from lpcal.records.surface import Surface
-from lpcal.surface import mesh, planes, shadow_anchor, sight
+from lpcal.segmentation import planes
+from lpcal.surface import shadow_anchor
 from lpcal.surface.reconstruct import Options, reconstruct
+from lpcal.view import sight
 from relight_ball import ball
 
 

@@ -9,11 +9,12 @@ from hypothesis import strategies as st
 from scipy.sparse.linalg import spsolve
 
 from lpcal.geometry import lambert
+from lpcal.integration import multigrid, pieces
+from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
+from lpcal.integration.multigrid import Matrix
 from lpcal.records.calibration import Light
-from lpcal.surface import gains, multigrid, normals, pieces
-from lpcal.surface.integrate import Grid, Own, integrate, settle, steps
-from lpcal.surface.multigrid import Matrix
-from lpcal.surface.sight import Sight
+from lpcal.surface import normals, self_calibration
+from lpcal.view.sight import Sight
 
 
 @given(st.integers(0, 10_000))
@@ -178,6 +179,6 @@ def test_intensities_that_nobody_measured_are_found_from_the_object() -> None:
     seen.signal[:] *= true[:, None]
     seen.signal[0, :400] *= 0.01  # shadows
     lights = [Light(f"L{k}", direction, np.ones(1)) for k, direction in enumerate(B[:, 0])]
-    assert gains.unmeasured(lights)
-    assert gains.intensities(seen, lights) == pytest.approx(true, rel=0.01)
-    assert gains.intensities(seen, lights[:4]) is None
+    assert self_calibration.unmeasured(lights)
+    assert self_calibration.intensities(seen, lights) == pytest.approx(true, rel=0.01)
+    assert self_calibration.intensities(seen, lights[:4]) is None

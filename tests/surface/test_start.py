@@ -10,7 +10,8 @@ import pytest
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.calibration import Lobe
 from lpcal.records.observations import Radiance
-from lpcal.surface import reconstruct, sight
+from lpcal.surface import reconstruct
+from lpcal.view import sight
 
 
 @pytest.mark.parametrize("kind", ["aimed", "parallel", "isotropic"])

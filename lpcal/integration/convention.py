@@ -1,0 +1,167 @@
+r"""Which way the green channel of a normal map points, by the curl of its slopes.
+
+Symbols: u(column, row) the depth, in pixels or (with a camera) its logarithm; slopes ``p = du/dcolumn, q = du/drow`` follow from the
+normals. Of a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same number, the twist. With the vertical component turned over, b has
+the other sign. So the likeness ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 the right way up and -1 the wrong way, noise or not: a' is
+a of the next column and b' is b of the next row, whose noise is independent of theirs. Large values are cut, so that edges of depth, where
+neither holds, do not decide. Where noise hides the twist of neighbours, means of blocks of pixels are asked. The curl does not distinguish
+a hollow from a bump: with both components turned over the map is that of another surface, as good.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Camera
+from lpcal.records.figures import Curl
+from lpcal.view.sight import ray_map
+
+GRAZING = 0.2
+"""Cosine between normal and ray below which a pixel's slope, which grows without bound there, is not asked."""
+CUT = 90.0
+"""Percentile of the size of a and b at which larger ones are cut: depth breaks are a smaller share of any map worth integrating."""
+CLEAR = 0.3
+"""Likeness, of 1, from which the direction is taken as decided."""
+WILD = 0.5
+"""Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
+BLOCKS = (1, 4, 12)
+"""Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
+SURE = 6.0
+"""Standard errors by which the likeness must differ from nothing; neighbours are not independent, so three would not be enough."""
+FACING = 0.9
+"""Share of normals that face the camera from which the channels' order is believed."""
+
+
+@dataclass(frozen=True)
+class Convention:
+    """Normals (H, W, 3) in C, whether green was turned over for it, how the map reads both ways, and notes."""
+
+    normals_C: Image
+    flipped: bool
+    as_is: Curl
+    turned: Curl
+    note: str | None = None
+
+
+def settled(name: str, normals_C: Image, mask: Mask, camera: Camera | None, stated: str = "auto") -> Convention:
+    """Normals (H, W, 3) read in C turned over vertically where their curl says so; `stated`: auto, as-is or flipped.
+
+    Raises
+    ------
+    DisagreementError
+        The channels are in another order.
+    DegenerateError
+        The map is of no surface, whichever way it is read.
+    """
+    rays_C = ray_map(mask.shape, camera)
+    turned = normals_C * np.array([1, -1, 1], np.float32)
+    if stated == "auto":
+        _refuse_swapped(name, normals_C, mask, rays_C)
+    as_is, flipped = (curl(one, mask, rays_C) for one in (normals_C, turned))
+    if stated != "auto":
+        chosen = stated == "flipped"
+        return Convention(turned if chosen else normals_C, chosen, as_is, flipped)
+    good, better = _tells(as_is), _tells(flipped)
+    if better and (not good or flipped.likeness > as_is.likeness + CLEAR):
+        likeness = f"likeness of its slopes {as_is.likeness:.2f} as it is, {flipped.likeness:.2f} turned over"
+        return Convention(turned, True, as_is, flipped, f"green points down in this map ({likeness}): it was turned over")
+    if good:
+        return Convention(normals_C, False, as_is, flipped)
+    if min(as_is.twist_sure, flipped.twist_sure) > SURE or min(as_is.median, flipped.median) > WILD:
+        raise DegenerateError(
+            f"the normals are of no surface: their slopes' changes agree by {as_is.likeness:.2f} as they are, {flipped.likeness:.2f} with"
+            " green turned over (1: a surface)",
+            where=name,
+            needed="a normal map that integrates: x in red, y in green, z in blue",
+            todo="export it again, or state --green as-is or --green flipped",
+        )
+    note = "the normals do not show whether green points up or down (too little twist): taken as they are; --green states it"
+    return Convention(normals_C, False, as_is, flipped, note)
+
+
+def mirrored(normals_C: Image, mask: Mask, rays_C: Array) -> bool:
+    """Whether normals (H, W, 3) along rays (H, W, 3) are clearly those of a surface with one axis turned over, and not as they are."""
+    if not mask.any():
+        return False
+    as_is, turned = (curl(one, mask, rays_C) for one in (normals_C, normals_C * np.array([1, -1, 1], np.float32)))
+    return _tells(turned) and not _tells(as_is) and as_is.likeness < -CLEAR
+
+
+def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
+    """What the curl of normals (H, W, 3) says along rays (H, W, 3)."""
+    n = normals_C.astype(float)
+    facing = -np.einsum("...i,...i->...", n, rays_C)
+    length = np.linalg.norm(n, axis=-1) * np.linalg.norm(rays_C, axis=-1)
+    good = mask & (facing > GRAZING * length)
+    size = np.where(good, facing, 1.0)
+    if rays_C[..., :2].any():
+        along, down = (np.gradient(rays_C, axis=axis) for axis in (1, 0))
+        p, q = (np.einsum("...i,...i->...", n, step) / size for step in (along, down))
+    else:
+        p, q = n[..., 0] / size, n[..., 1] / size
+    found = _asked(p, q, good)
+    for side in BLOCKS[1:]:
+        if (abs(found.likeness) > CLEAR and abs(found.sure) > SURE) or found.twist_sure > SURE:
+            break
+        coarse = _asked(*_blocks(p, q, good, side))
+        found = replace(coarse, median=found.median)
+    return found
+
+
+def _blocks(p: Array, q: Array, good: Mask, side: int) -> tuple[Array, Array, Mask]:
+    """Means of slopes (H, W) over blocks of pixels, and the blocks whose pixels are all good."""
+    rows, columns = (length // side for length in p.shape)
+
+    def mean(values: Array) -> Array:
+        return np.asarray(values[: rows * side, : columns * side].reshape(rows, side, columns, side).mean(axis=(1, 3)))
+
+    return mean(p), mean(q), mean(good.astype(float)) > 1 - 1e-9
+
+
+def _asked(p: Array, q: Array, good: Mask) -> Curl:
+    """What the curl of slopes (H, W) says, where they are good."""
+    whole = good[:-1, :-1] & good[:-1, 1:] & good[1:, :-1] & good[1:, 1:]
+    a, b = (p[1:] - p[:-1])[:, :-1], (q[:, 1:] - q[:, :-1])[:-1]
+    if whole.sum() < 2:
+        return Curl(0.0, 0.0, 0.0, 0.0)
+    median = float(np.median(np.abs(a - b)[whole]))
+    top = float(np.percentile(np.abs(np.concatenate([a[whole], b[whole]])), CUT))
+    a, b = (np.where(whole, np.clip(one, -top, top), 0.0) for one in (a, b))
+    beside, below = a[:, :-1] * a[:, 1:], b[:-1] * b[1:]
+    twist = np.sqrt(max(float(beside.sum()), 0.0) * max(float(below.sum()), 0.0))
+    all_of_it = float(np.sum(a * a + b * b)) / 2
+    scale = twist if min(_sure(beside), _sure(below)) > SURE else all_of_it
+    likeness = float(np.sum(a * b)) / scale if scale > 0 else 0.0
+    return Curl(float(np.clip(likeness, -1, 1)), _sure(a * b), min(_sure(beside), _sure(below)), median)
+
+
+def _sure(products: Array) -> float:
+    """The sum of products by its standard error if they had no mean."""
+    error = float(np.sqrt(np.sum(products**2)))
+    return float(products.sum()) / error if error > 0 else 0.0
+
+
+def _tells(found: Curl) -> bool:
+    return found.likeness > CLEAR and found.sure > SURE
+
+
+def _refuse_swapped(name: str, normals_C: Image, mask: Mask, rays_C: Array) -> None:
+    """Refuse a map whose third channel does not face the camera while another is of one sign."""
+    n = normals_C[mask]
+    facing = -np.einsum("pi,pi->p", n, rays_C[mask])
+    towards = float(np.mean(facing > 0))
+    if max(towards, 1 - towards) >= FACING and np.median(np.abs(facing)) > GRAZING:
+        return
+    shares = [max(float(np.mean(n[:, k] > 0)), float(np.mean(n[:, k] < 0))) for k in range(2)]
+    k = int(np.argmax(shares))
+    if shares[k] > FACING and float(np.median(np.abs(n[:, k]))) > float(np.median(np.abs(n[:, 2]))):
+        raise DisagreementError(
+            f"the {('red', 'green')[k]} channel has one sign all over the map and the blue one is near 0: the channels are swapped",
+            where=name,
+            needed="x in red, y in green, z (towards the camera) in blue",
+            todo="swap red and blue, or export it as RGB" if k == 0 else "put the channels in that order",
+        )

@@ -1,0 +1,157 @@
+r"""Depth from normals, in the mask, with its steps kept, tied to what each pixel knows of its own distance.
+
+Symbols: u = log z (central) or z (parallel rays); neighbours a, b with the mean m of their normals::
+
+    g_ab = log((m . r_a) / (m . r_b))                                   central: both rays meet one plane
+    g_ab = -m_x / m_z  (columns),  -m_y / m_z  (rows)                   parallel
+
+minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s_ab)^2  +  sum_p H_p (u_p - h_p)^2
+
+s_ab is what an error of the normal makes of a step, H_p and h_p the curvature and place of the pixel's own optimum (surface.distance).
+The weights ``w = (C^2 / (C^2 + e^2))^2`` with e the step's residual in sigmas belong to Geman and McClure's cost; the own distances begin
+GRADUATION times too strong, so that jumps show before the steps smear them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and
+Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J. Computer Vision 19 (weights, graduation).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import multigrid
+from lpcal.integration.multigrid import Matrix, Pyramid
+from lpcal.kernels.library import kernel
+from lpcal.view.sight import Indices
+
+STEEPEST = 0.03
+"""Smallest n . v used when normals become depth steps."""
+GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
+AGAIN = (100.0, 10.0, 1.0, 1.0)
+"""Where the depth is known already."""
+ROUGHLY, FINELY = 1e-4, 1e-6
+"""Precision of the solves, of all but the last and of the last."""
+NORMAL_ERROR_RAD = 0.035
+UNEVEN = 0.2
+"""Standard deviation of a step, as a share of the difference between the steps that the two normals of an edge predict."""
+ROBUST = 3.0
+LEAST_WEIGHT = 1e-6
+SPREAD = 6.0
+"""C is no less than this many medians of the residuals."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Which pixels of a mask are neighbours; edges run to the right, then down."""
+
+    a: Indices
+    b: Indices
+    horizontal: Mask
+    rows: Indices
+    columns: Indices
+    pyramid: Pyramid
+
+    @staticmethod
+    def of(mask: Mask) -> Grid:
+        """The grid of a mask (H, W)."""
+        number = np.full(mask.shape, -1, np.int64)
+        number[mask] = np.arange(mask.sum())
+        across, down = mask[:, :-1] & mask[:, 1:], mask[:-1] & mask[1:]
+        a = np.concatenate([number[:, :-1][across], number[:-1][down]])
+        b = np.concatenate([number[:, 1:][across], number[1:][down]])
+        rows, columns = (index.astype(np.int64) for index in np.nonzero(mask))
+        return Grid(a, b, np.arange(len(a)) < across.sum(), rows, columns, Pyramid.of(rows, columns))
+
+
+@dataclass(frozen=True)
+class Own:
+    """What each pixel says of its own u by itself: curvature H (P,) and optimum h (P,)."""
+
+    curvature: Array
+    optimum: Array
+
+
+def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad: Array | None = None) -> tuple[Array, Array]:
+    """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD, and by `tilt_rad` (P,) of their own besides.
+
+    With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is uncertain where
+    the surface bends, and where one of the two is the rim of something in front.
+    """
+    if central and (run := kernel("steps")):
+        found = np.empty(len(grid.a)), np.empty(len(grid.a))
+        tilt2 = np.zeros(len(normals)) if tilt_rad is None else np.ascontiguousarray(tilt_rad**2, float)
+        given = (np.ascontiguousarray(one, float) for one in (normals, rays_C))
+        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, STEEPEST, *found)
+        return found
+    mean = normals[grid.a] + normals[grid.b]
+    mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+    error = np.full(len(grid.a), NORMAL_ERROR_RAD)
+    if tilt_rad is not None:
+        error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
+    if not central:
+        slope = np.minimum(mean[:, 2], -STEEPEST)
+        return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2
+    r_a, r_b = rays_C[grid.a], rays_C[grid.b]
+    off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
+    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -STEEPEST)
+    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -STEEPEST)
+    return np.log(towards_a / towards_b), np.hypot(off, error * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b))
+
+
+def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
+    """The step (edges,) from ray a to ray b on planes of normals n (edges, 3)."""
+    return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -STEEPEST) / np.minimum(lambert.dot(n, r_b), -STEEPEST)))
+
+
+def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
+    """u (P,) and the final weights w (edges,); a jump is an edge of little weight."""
+    strengths = GRADUATION if graduated else AGAIN
+    if run := kernel("integrated"):
+        return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
+    u = start
+    weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
+    for k, strength in enumerate(strengths):
+        A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
+        u = multigrid.solve(A, right, u, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
+        weight = _weight(grid, u, step, sigma)
+    return u, weight
+
+
+def _integrated(
+    run: Callable[..., None], grid: Grid, step: Array, sigma: Array, own: Own, start: Array, strengths: Sequence[float], *, fresh: bool
+) -> tuple[Array, Array]:
+    """`integrate` by its kernel."""
+    finest, (sizes, parents, stretches, band) = grid.pyramid.levels[0], grid.pyramid.laid_out
+    by_pixel = [np.stack(finest.by_pixel(one)) for one in (step, sigma)]
+    u, weight = np.array(start, float), np.empty_like(by_pixel[0])
+    work, singles = grid.pyramid.work_space(7)
+    given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
+    robustly = (ROUGHLY, FINELY, ROBUST, SPREAD, LEAST_WEIGHT)
+    way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, multigrid.ROUNDING)
+    levels = (len(sizes), sizes, parents, stretches)
+    run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, work, singles, band, *way)
+    first = finest.to_the_right
+    return u, np.concatenate([weight[0, grid.a[:first]], weight[1, grid.a[first:]]])
+
+
+def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
+    """u (P,) with the weights (edges,) as they are."""
+    A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    return multigrid.solve(A, right, start, precision=FINELY)
+
+
+def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
+    """Weight of each edge, by how well u keeps its step."""
+    residual = (u[grid.b] - u[grid.a] - step) / sigma
+    scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
+    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)
+
+
+def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Matrix, Array]:
+    """Matrix and right side of the normal equations."""
+    pull, count = weight * step, len(curvature)
+    right = curvature * optimum + np.bincount(grid.b, pull, count) - np.bincount(grid.a, pull, count)
+    return Matrix(grid.pyramid, curvature, weight), right

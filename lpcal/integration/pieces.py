@@ -1,0 +1,157 @@
+"""The pieces of a surface: where it breaks, what is connected, the filling of gaps in between, and how flat the largest one is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lpcal.geometry import raster
+from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.integration import multigrid
+from lpcal.integration.integrate import LEAST_WEIGHT, Grid
+from lpcal.integration.multigrid import Matrix, Pyramid
+from lpcal.kernels.library import kernel
+from lpcal.records.figures import Flatness
+from lpcal.records.surface import Surface
+from lpcal.view.sight import Indices
+
+BREAK_WEIGHT = 0.02
+SMALLEST_SHARE = 0.02
+SLIVER_PX = 4
+SMALLEST_PIXELS = 60
+FAINT = 1e-6
+NEARLY = 0.2
+"""Share of its extent: a piece whose points deviate more from a plane is not meant to be flat."""
+RIM_PX = 3
+FEWEST = 100
+MOST = 2_000_000
+"""Pixels of a piece at most that take part, spread over it."""
+
+
+def fill(grid: Grid, values: Array, known: Mask) -> Array:
+    """Values (P, C), those not known (P,) taken from their neighbours in the mask as a soap film would; 0 where none is near."""
+    if known.all() or not known.any():
+        return np.nan_to_num(values)
+    unknown = np.flatnonzero(~known)
+    number = np.full(len(values), -1, np.int64)
+    number[unknown] = np.arange(len(unknown))
+    pyramid = Pyramid.of(grid.rows[unknown], grid.columns[unknown])
+    here, there = np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a])
+    rim = ~known[here] & known[there]
+    here, there = number[here[rim]], there[rim]
+    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + FAINT, float)
+    A = Matrix(pyramid, hold, np.ones(len(pyramid.levels[0].a)))
+    found = np.where(known[:, None], values, 0.0)
+    for channel in range(values.shape[1]):
+        right = np.bincount(here, values[there, channel], len(unknown))
+        start = np.full(len(unknown), values[known, channel].mean())
+        found[unknown, channel] = multigrid.solve(A, right, start, precision=1e-4)
+    return found
+
+
+def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
+    """Breaks (2, H, W) of a mask, from the weights of its edges."""
+    holds = np.zeros((2, *mask.shape), bool)
+    number_of_first = np.flatnonzero(mask.ravel())[grid.a]
+    whole = weight > BREAK_WEIGHT
+    for axis, edges in enumerate((grid.horizontal, ~grid.horizontal)):
+        holds[axis].ravel()[number_of_first[edges & whole]] = True
+    return ~holds
+
+
+def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
+    """Labels (P,) from 1, the largest first, of what is connected over edges that are no breaks; crumbs join the nearest piece.
+
+    A bridge of a pixel or two between the ends of a break does not hold two pieces together.
+    """
+    label = _connected(grid, np.where(_beside_breaks(grid, weight, mask), 0.0, weight), mask)
+    size = np.bincount(label)
+    smallest = max(SMALLEST_PIXELS, SMALLEST_SHARE * len(label))
+    return _joined(label, np.flatnonzero(size >= smallest), mask)
+
+
+def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
+    """The weights (edges,) with slivers joined to the piece that is nearest to each of their pixels.
+
+    A jump between two pieces may have been taken in two: a strip of a few pixels is left in between, that belongs half to either.
+    """
+    label = _connected(grid, weight, mask)
+    kept = []
+    for one in np.flatnonzero(np.bincount(label) > SLIVER_PX**2):
+        place = np.zeros(mask.shape, bool)
+        place[mask] = label == one
+        rows, columns = np.nonzero(place)
+        close = place[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+        if raster.shrunk(close, SLIVER_PX // 2).any():
+            kept.append(one)
+    if not kept:
+        return weight
+    joined = _joined(label, np.array(kept), mask)
+    sliver = ~np.isin(label, kept)
+    touched = sliver[grid.a] | sliver[grid.b]
+    same = joined[grid.a] == joined[grid.b]
+    return np.where(touched, np.where(same, 1.0, LEAST_WEIGHT), weight)
+
+
+def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
+    """Whether an edge (edges,) touches a pixel at a break or next to one."""
+    broken = weight <= BREAK_WEIGHT
+    at = np.zeros(int(mask.sum()), bool)
+    at[grid.a[broken]] = at[grid.b[broken]] = True
+    place = np.zeros(mask.shape, bool)
+    place[mask] = at
+    near = raster.grown(place)[mask]
+    return np.asarray(near[grid.a] | near[grid.b])
+
+
+def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
+    """A label (P,) for each set of pixels that are connected over edges that are no breaks."""
+    whole = weight > BREAK_WEIGHT
+    if run := kernel("connected"):
+        label = np.empty(int(mask.sum()), np.int64)
+        run(len(label), len(whole), grid.a, grid.b, whole, label)
+        return label
+    from scipy import sparse
+    from scipy.sparse.csgraph import connected_components
+
+    links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(int(mask.sum()), int(mask.sum())))
+    return np.asarray(connected_components(links, directed=False)[1], np.int64)
+
+
+def _joined(label: Indices, kept: Indices, mask: Mask) -> Labels:
+    """Labels (P,) from 1, the largest of `kept` first; pixels of the others take that of the nearest kept pixel."""
+    size = np.bincount(label)
+    order = sorted(kept, key=lambda one: -size[one])[:255] or [int(np.argmax(size))]
+    rank = np.zeros(len(size), np.uint8)
+    rank[order] = np.arange(1, len(order) + 1)
+    labels = np.zeros(mask.shape, np.uint8)
+    labels[mask] = rank[label]
+    return np.asarray(labels.ravel()[raster.nearest(labels > 0)[mask]])
+
+
+def flatness(surface: Surface) -> Flatness | None:
+    """Deviation of the largest piece from a plane, mm, its bowl and extent; None where it is not nearly flat, or depth is in pixels.
+
+    Plane by total least squares on the points of the piece, its outermost pixels left out; deviations w along its normal. Bowl: what the
+    best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
+    """
+    inside = raster.shrunk(surface.component == 1, RIM_PX)
+    if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
+        return None
+    places = np.flatnonzero(inside)
+    places = places[:: max(1, len(places) // MOST)]
+    points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
+    centred = points - points.mean(axis=0)
+    along = np.linalg.svd(centred.T @ centred)[0]
+    deviation = centred @ along[:, 2]
+    extent = float(np.ptp(centred @ along[:, 0]))
+    low, high = np.percentile(deviation, [0.5, 99.5])
+    if high - low > NEARLY * extent:
+        return None
+    round_C = np.sum((centred @ along[:, :2]) ** 2, axis=1)
+    k = np.linalg.lstsq(np.stack([np.ones_like(round_C), round_C], axis=1), deviation, rcond=None)[0][1]
+    return Flatness(
+        bowl_mm=float(1e3 * abs(k) * (extent / 2) ** 2),
+        plane_rms_mm=float(1e3 * deviation.std()),
+        plane_peak_to_valley_mm=float(1e3 * (high - low)),
+        extent_mm=1e3 * extent,
+    )

@@ -1,0 +1,1 @@
+"""Which pixels of a capture are the object, its support and the wall: layers in coarse pixels, judged, and outlined in full size."""

@@ -1,0 +1,243 @@
+r"""Every coarse pixel's layer: matter of any normal, one of the planes, other matter like theirs, or nothing.
+
+Each layer states a cost (see segmentation.samples) and an appearance, the histogram of log albedo over its own pixels; the labels
+minimise::
+
+    sum_p  cost_l(p) - 2 log(appearance_l(p))   +   sum_ab  w_ab [l_a != l_b]
+
+with w low across edges of the picture, by a convex relaxation whose indicators lie on the simplex. Appearances and planes are estimated
+again from the labels, in rounds. Sources: Zach, Gallup, Frahm and Niethammer 2008, Vision, Modeling and Visualization (the relaxation);
+Isack and Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (appearances in turn).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import raster
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.kernels.library import kernel
+from lpcal.segmentation import background, flats, samples
+from lpcal.segmentation.regions import View
+from lpcal.view.coarse import LightTable
+from lpcal.view.sight import Indices, strength
+
+FREE_PRICE = 10.0
+"""Cost of a normal of one's own: twice the logarithm of how many normals the samples can distinguish."""
+OTHER_PRICE = 2.0
+"""Cost of matter like a plane's that lies in none of the planes, above that of the object's matter."""
+NOTHING_PRICE = 6.0
+"""Cost of the label matter where no light comes back."""
+LEAST_NOTHING = 0.003
+"""Share of the image's rim that is taken to show nothing at least."""
+BOUNDARY = 10.0
+"""Cost of a boundary between two layers along one pixel, where the picture shows no edge."""
+EDGE = 6.0
+"""Medians of the picture's log steps at which a step halves the cost of a boundary."""
+PLANE_SAYS, OBJECT_SAYS = 4.0, 8.0
+"""Most that an appearance adds to a cost: by the albedo in a plane, and by the brightest shading for and against the object."""
+ROUNDS = 4
+"""Times that labels are found, planes and appearances estimated again in between: further rounds change next to nothing."""
+STEPS = 250
+"""Steps of the primal-dual method: labels then no longer change."""
+BINS = 40
+"""Cells of an appearance."""
+RARE = 0.02
+"""Share of an appearance that is spread over all albedos: none is impossible."""
+BRIGHTEST = 75
+"""Percentile of the object's brightest shading that stands for its matter in full light; at first the median of all that is lit does."""
+FEWEST = 30
+"""Pixels from which an appearance is learnt."""
+KEPT = 0.006
+"""Share of the image under which a plane is dropped."""
+CEILING = 30.0
+"""Cost over a pixel's cheapest layer beyond which layers are all alike."""
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """A histogram of logarithms."""
+
+    low: float
+    high: float
+    density: Array
+    """By bins, of mean 1."""
+
+    @staticmethod
+    def of(values: Array, low: float, high: float) -> Appearance:
+        """The appearance of log values (N,), smoothed over a bin."""
+        count, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
+        smooth = raster.blurred(count.astype(float), 1.0)
+        return Appearance(low, high, (1 - RARE) * BINS * smooth / max(smooth.sum(), 1e-12) + RARE)
+
+    def at(self, values: Array) -> Array:
+        """Density at log values (P,)."""
+        k = (np.clip(values, self.low, self.high) - self.low) / (self.high - self.low) * BINS
+        return self.density[np.minimum(k.astype(int), BINS - 1)]
+
+
+@dataclass(frozen=True)
+class Layers:
+    """What the layers of a picture are."""
+
+    planes: list[Array]
+    """q (3,) each."""
+    of_plane: list[Appearance | None]
+    """The appearance of each plane, by log albedo; None where too few pixels show it."""
+    brightest: float
+    """Log of the shading of the brightest matter."""
+    of_object: Appearance | None = None
+    of_rest: list[Appearance] | None = None
+    """The appearances of all else, by the log of the brightest shading, as that of the object."""
+    nothing: float = 0.0
+    """Cost of a place that no light comes back from: twice the negative logarithm of how much of the image's rim is such."""
+
+
+@dataclass(frozen=True)
+class Pixels:
+    """Pixels whose costs are asked for: Q of them, each in a coarse pixel."""
+
+    signal: Array
+    sigma: Array
+    usable: Mask
+    rays_C: Array
+    coarse: Indices
+    """(Q,) number of the coarse pixel."""
+
+
+def costs(layers: Layers, at: Pixels, table: LightTable, u_free: Array) -> Array:
+    """Cost (2 + planes + 1, Q): the object's matter, each plane, nothing, other matter; `u_free` (Q,) is where matter is taken to be."""
+    B, doubt = table.at(u_free, at.coarse)
+    free = samples.free(at.signal, at.sigma, at.usable, B, doubt)[1]
+    return with_planes(layers, at, table, free, np.linalg.norm(B, axis=2))
+
+
+def shine(at: Pixels, E: Array) -> Array:
+    """Log (Q,) of the brightest shading by irradiances E (L, Q)."""
+    return np.asarray(np.log(np.maximum(np.max(np.where(at.usable, at.signal, 0.0) / np.maximum(E, 1e-12), axis=0), 1e-12)))
+
+
+def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: Array) -> Array:
+    """Costs from those of free matter (Q,), by irradiances E (L, Q) at the working distance."""
+    bright = shine(at, E)
+    nothing = samples.nothing(at.signal, at.sigma, at.usable, np.exp(layers.brightest) * E)
+    matter = NOTHING_PRICE * (nothing < samples.DARK)
+    ratio = np.zeros(len(free))
+    if layers.of_object is not None and layers.of_rest:
+        rest = np.max([one.at(bright) for one in layers.of_rest], axis=0)
+        ratio = np.clip(2 * np.log(layers.of_object.at(bright) / rest), -OBJECT_SAYS, OBJECT_SAYS)
+    found = [free + FREE_PRICE + matter - ratio]
+    for q, appearance in zip(layers.planes, layers.of_plane, strict=True):
+        m, doubt = flats.white(q, at.rays_C, at.coarse, table)
+        cost, albedo, _ = samples.planar(at.signal, at.sigma, at.usable, m, doubt)
+        if appearance is not None:
+            cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
+        found.append(cost + matter)
+    other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
+    total = np.stack([*found, nothing + layers.nothing, other])
+    blind = at.usable.sum(axis=0) < 3
+    total[:, blind], total[-2, blind] = NOTHING_PRICE, 0.0  # brighter than the camera holds: none of the object
+    return np.asarray(np.minimum(total, total.min(axis=0) + CEILING))
+
+
+def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
+    """Labels (rows, columns), what they are, and the last costs (layers, rows, columns).
+
+    Label 0 is the object's matter, 1.. the planes that are left, then nothing, then other matter.
+    """
+    image, table = view.image, view.table
+    everywhere = np.arange(len(image.rays_C))
+    at = Pixels(image.signal, image.sigma, image.usable, image.rays_C, everywhere)
+    E = np.linalg.norm(table.at(np.full(len(everywhere), u_free), everywhere)[0], axis=2)
+    bright = shine(at, E)
+    weights = boundary(strength(image.maps))
+    cost = np.empty((0, *image.shape))
+    layers, labels = Layers(planes, [None] * len(planes), float(np.median(bright[lit]))), np.zeros(image.shape, int)
+    for k in range(ROUNDS):
+        cost = with_planes(layers, at, table, view.swept.least, E).reshape(-1, *image.shape)
+        labels = cheapest(cost, *weights)
+        if k + 1 < ROUNDS:
+            labels, layers = _learnt(view, layers, labels, cost, lit, bright)
+    return labels, layers, cost
+
+
+def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
+    """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
+    image, table = view.image, view.table
+    flat, count = labels.ravel(), len(layers.planes)
+    kept = [k for k in range(count) if np.sum(flat == k + 1) >= KEPT * flat.size]
+    planes, of_plane = [], []
+    for k in kept:
+        own = (flat == k + 1) & lit
+        q = flats.fitted(image, table, layers.planes[k], own, rounds=2)
+        planes.append(q)
+        albedo = np.log(np.maximum(flats.explained(image, table, q)[1][own], 1e-12))
+        of_plane.append(_appearance(albedo, albedo))
+    new = np.full(count + 3, 0)
+    new[[k + 1 for k in kept]] = np.arange(1, len(kept) + 1)
+    new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
+    labels = new[labels]
+    of_object, of_rest = None, None
+    of_kept = cost[[0, *(k + 1 for k in kept), -2, -1]]
+    mine = background.judged(view, labels, planes, of_kept).mask.ravel()
+    free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
+    if free.sum() > FEWEST and rest.sum() > FEWEST:
+        both = bright[free | rest]
+        of_object = _appearance(bright[free], both)
+        each = [_appearance(bright[rest & (labels.ravel() == k + 1)], both) for k in range(len(kept))]
+        of_rest = [one for one in each if one is not None]
+    brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST else layers.brightest
+    rim = labels[background.rim_of(labels.shape)]
+    nothing = -2 * np.log(max(float(np.mean(rim == len(kept) + 1)), LEAST_NOTHING))
+    return labels, Layers(planes, of_plane, brightest, of_object, of_rest, nothing)
+
+
+def _appearance(values: Array, over: Array) -> Appearance | None:
+    if len(values) <= FEWEST:
+        return None
+    low, high = np.percentile(over, [0.5, 99.5])
+    return Appearance.of(values, float(low) - 1.5, float(high) + 1.5)
+
+
+def boundary(bright: Image) -> tuple[Image, Image]:
+    """Cost of a boundary between a pixel and its neighbour to the right, and below, by the picture `bright` (rows, columns)."""
+    picture = np.log(np.maximum(bright, 1e-3 * np.percentile(bright, 99)))
+    steps = [np.abs(np.diff(picture, axis=axis)) for axis in (1, 0)]
+    middle = np.median(np.concatenate([one.ravel() for one in steps])) + 1e-6
+    across, down = (1 + BOUNDARY / (1 + (one / (EDGE * middle)) ** 2) for one in steps)
+    return across, down
+
+
+def cheapest(cost: Array, across: Image, down: Image) -> Labels:
+    """Labels (rows, columns) of least cost (layers, rows, columns), boundaries counted: a primal-dual method (Chambolle and Pock 2011)."""
+    return np.asarray(np.argmax(_relaxed(cost, across, down), axis=0))
+
+
+def _relaxed(cost: Array, across: Image, down: Image) -> Array:
+    """Indicators (layers, rows, columns) of the labels, on the simplex."""
+    layers, rows, columns = cost.shape
+    x = (np.argmin(cost, axis=0) == np.arange(layers)[:, None, None]).astype(float)
+    step, scale = 1 / np.sqrt(8), float(np.median(across))
+    if run := kernel("many_labels"):
+        half = (np.ascontiguousarray(one / 2, float) for one in (across, down))
+        run(*cost.shape, np.ascontiguousarray(cost, float), *half, STEPS, step * scale, step / scale, np.empty((3, *cost.shape)), x)
+        return x
+    ahead, right, below = x.copy(), np.zeros((layers, rows, columns - 1)), np.zeros((layers, rows - 1, columns))
+    rank = np.arange(1, layers + 1)[:, None, None]
+    for _ in range(STEPS):
+        right = np.clip(right + step * scale * np.diff(ahead, axis=2), -across / 2, across / 2)
+        below = np.clip(below + step * scale * np.diff(ahead, axis=1), -down / 2, down / 2)
+        pull = -cost
+        pull[:, :, :-1] += right
+        pull[:, :, 1:] -= right
+        pull[:, :-1] += below
+        pull[:, 1:] -= below
+        moved = x + step / scale * pull
+        ordered = -np.sort(-moved, axis=0)
+        over = np.cumsum(ordered, axis=0) - 1
+        last = np.sum(ordered - over / rank > 0, axis=0)
+        before, x = x, np.maximum(moved - np.take_along_axis(over, last[None] - 1, axis=0) / last, 0)
+        ahead = 2 * x - before
+    return x

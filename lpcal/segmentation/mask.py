@@ -1,0 +1,270 @@
+"""Which pixels are the object: not the wall behind it, not the support under it, not the dark.
+
+Where lights are near, all that is lit is segmented at a coarse scale into planes and matter of any shape (segmentation.layers), whose
+regions are judged by clues (segmentation.background). The outline is then carried to full resolution, from scale to scale, in a band about
+it. Without near light the strength of the signal decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from lpcal.geometry import raster
+from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.records.calibration import Light
+from lpcal.segmentation import background, cut, flats, layers, outline, planes
+from lpcal.segmentation.regions import View
+from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of
+from lpcal.view.sight import Grey, Sight, strength
+
+COARSE_PIXELS = 5200
+"""Pixels of the scale at which planes and layers are found: the picture of a 4:3 camera is then some 80 across."""
+MEDIUM_PIXELS = 110_000
+"""Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
+MOST_LIGHTS = 16
+"""Lights that the mask is found by, spread over all: more do not improve it."""
+LIT_SIGMAS = 6.0
+"""Standard deviations of its noise over which a sample is lit."""
+FIT_SIGMAS = 3.0
+"""Misfit under which a plane explains the rim of an image whose room light is not known."""
+SMALLEST_SHARE = 0.02
+"""Pieces under this share of the largest are dropped."""
+HOLE_SHARE = 0.004
+"""Share of the object under which a hole in it is filled."""
+LEAST_OF_IMAGE = 0.003
+"""Share of the image under which what is found is no object."""
+BESIDE_POINT = 0.02
+"""Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
+DOUBTED, DOUBT_POWER = 0.19, 2.2
+"""Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_outline.py."""
+
+
+@dataclass(frozen=True)
+class Hints:
+    """Where the user says that the object is, in pixels."""
+
+    box: tuple[int, int, int, int] | None = None
+    """x, y, width and height of a box that holds it."""
+    points: tuple[tuple[int, int], ...] = ()
+    """x and y of places that show it."""
+
+    def allowed(self, shape: tuple[int, ...]) -> Mask | None:
+        """The box as a mask (H, W); None where there is none."""
+        if self.box is None:
+            return None
+        x, y, width, height = self.box
+        inside = np.zeros(shape[:2], bool)
+        inside[y : y + height, x : x + width] = True
+        return inside
+
+    def shrunk(self, factor: int) -> Hints:
+        """The same in coarse pixels of `factor` pixels a side."""
+        box = None
+        if self.box is not None:
+            (x, y), (right, below) = (np.array(self.box[:2]) // factor, -(-(np.array(self.box[:2]) + self.box[2:]) // factor))
+            box = (int(x), int(y), int(right - x), int(below - y))
+        return Hints(box, tuple((x // factor, y // factor) for x, y in self.points))
+
+    def of(self, mask: Mask) -> Mask:
+        """The part of a mask (H, W) in the box, and of that the connected components that the points lie on or close to."""
+        allowed = self.allowed(mask.shape)
+        mask = mask if allowed is None else mask & allowed
+        if not self.points:
+            return mask
+        piece, _ = raster.labelled(mask)
+        far, nearest = raster.away(mask), raster.nearest(mask)
+        close = [(y, x) for x, y in self.points if far[y, x] <= BESIDE_POINT * min(mask.shape)]
+        return np.asarray(mask & np.isin(piece, [piece.ravel()[nearest[y, x]] for y, x in close]))
+
+
+NO_HINTS = Hints()
+Keep = Literal["object", "support", "all"]
+"""What of the layers is reconstructed: the object; the object and what carries it; all that is lit."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A mask and how it was found, in words."""
+
+    mask: Mask
+    how: str
+    planes: tuple[planes.Plane, ...] = ()
+    """Wall and supports; the first is the largest."""
+    expected_wrong: float | None = None
+    """Area that is expected to be on the wrong side, as a share of the object's; None where no layers were labelled."""
+    why: str = ""
+    """What the area in doubt may be instead, and where it is."""
+    layer: Labels | None = None
+    """(H, W) of segmentation.background's values: nothing, object, support, wall; None where no layers were labelled."""
+
+    def kept(self, keep: Keep) -> Mask:
+        """The layers (H, W) to be reconstructed."""
+        if self.layer is None or keep == "object":
+            return self.mask
+        return np.asarray(self.mask | (self.layer == background.SUPPORT) if keep == "support" else self.layer > background.NOTHING)
+
+    @property
+    def doubt(self) -> float | None:
+        """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where they are not known."""
+        if self.expected_wrong is None:
+            return None
+        return float(1 / (1 + (DOUBTED / max(self.expected_wrong, 1e-3)) ** DOUBT_POWER))
+
+
+def automatic(
+    maps: Grey,
+    rays_C: Array,
+    lights: Sequence[Light],
+    distance_m: float | None,
+    hints: Hints = NO_HINTS,
+    room: Image | None = None,
+    *,
+    drawn: bool = True,
+) -> Found:
+    """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes.
+
+    `room` (H, W) is the image without lights, where there is one. Where the outline need not be `drawn`, the mask is that of coarse pixels:
+    its planes are what is asked for.
+    """
+    if distance_m is not None:
+        some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
+        fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
+        found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room, drawn=drawn)
+        if found is not None:
+            return found
+    return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
+
+
+def _by_strength(maps: Grey) -> Mask:
+    """Otsu 1979 on the logarithm of the strength, then the seam."""
+    lit = strength(maps)
+    noise = np.median(maps.sigma, axis=0)
+    level = np.log(np.maximum(lit, noise))
+    mask = level > _otsu(level)
+    mask &= lit > LIT_SIGMAS * noise
+    return tidy(cut.along_the_seam(tidy(mask), _picture(maps)))
+
+
+def _by_layers(
+    maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None, *, drawn: bool
+) -> Found | None:
+    image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
+    lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
+    if lit.mean() < LEAST_OF_IMAGE:
+        return None
+    table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
+    view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
+    labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
+    count = len(found.planes)
+    judged = background.judged(view, labels, found.planes, cost)
+    judged = background.in_context(judged, view, labels, *outline.levels_of(image, room))
+    alone = judged.mask.sum() < LEAST_OF_IMAGE * judged.mask.size
+    if alone:
+        judged = background.all_of(judged, image.image(lit))
+    mask, behind = judged.mask, judged.behind
+    area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
+    seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
+    walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
+    how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
+    how = "all that is lit lies in one plane: that is the object" if alone else how
+    if not drawn:
+        return Found(hints.of(outline.enlarged(mask, image.factor, shape)), how, walls)
+    u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
+    kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
+    doubt = background.doubt_of(judged, labels)
+    log_odds = background.logit(judged.odds.ravel()).reshape(image.shape)
+    apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
+    fine = tidy(outline.drawn(apart, maps, rays_C, room))
+    fine = hints.of(fine & ~outline.openings(maps, rays_C, lights, fine, walls))
+    why = _in_words(doubt, kinds[doubt.rival], image.factor)
+    layer = _layer(fine, labels, behind, kinds, image.factor)
+    return Found(fine, how, walls, layer=layer) if alone else Found(fine, how, walls, doubt.share, why, layer)
+
+
+def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
+    """What labels are judged by, the hints in coarse pixels."""
+    rows, columns = image.shape
+    allowed = hints.allowed(shape)
+    if allowed is not None:
+        blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
+        allowed = blocks.any(axis=(1, 3))
+    points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
+    return View(image, table, swept, allowed, points)
+
+
+def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
+    """The map of layers (H, W) by the mask (H, W) and the coarse labels; outside the mask that of the nearest background."""
+    value = {"support": background.SUPPORT, "wall": background.WALL, "dark": background.NOTHING, "other": background.WALL}
+    nearest = raster.nearest(behind) if behind.any() else None
+    coarse = np.array([value[kind] for kind in kinds])[labels if nearest is None else labels.ravel()[nearest]]
+    row, column = (np.minimum(np.arange(side) // factor, most - 1) for side, most in zip(mask.shape, labels.shape, strict=True))
+    found = coarse[np.ix_(row, column)] if nearest is not None else np.zeros(mask.shape, int)
+    return np.asarray(np.where(mask, background.OBJECT, found), np.uint8)
+
+
+def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> str:
+    """What the area in doubt may be and the box that holds the most of it, for messages; nothing where there is none."""
+    if not doubt.place.any():
+        return ""
+    piece, _ = raster.labelled(doubt.place)
+    size = np.bincount(piece.ravel())
+    size[0] = 0
+    row, column = (factor * np.array([one.min(), one.max() + 1]) for one in np.nonzero(piece == np.argmax(size)))
+    what = {
+        "support": "the support under it",
+        "wall": "the wall behind it",
+        "dark": "background that no light reaches",
+        "other": "other matter of the background",
+    }[rival]
+    return f"{100 * doubt.open:.0f} % of its area may be {what}, most of it in x {column[0]} to {column[1]}, y {row[0]} to {row[1]}"
+
+
+def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:
+    some = planes.thinned(seen.at(np.flatnonzero(own)))
+    square, _ = planes.misfit(some, planes.predicted(q, some.rays_C, lights))
+    return planes.Plane(q, float(np.sqrt(np.median(square))))
+
+
+def tidy(mask: Mask) -> Mask:
+    """Without crumbs and small holes."""
+    label, count = raster.labelled(raster.opened(mask))
+    if not count:
+        return np.asarray(mask & False)
+    size = np.bincount(label.ravel())
+    size[0] = 0
+    kept = np.isin(label, np.flatnonzero(size >= SMALLEST_SHARE * size.max()))
+    holes, _ = raster.labelled(~kept)
+    area = np.bincount(holes.ravel())
+    small = np.flatnonzero(area < HOLE_SHARE * kept.sum())
+    return np.asarray(kept | np.isin(holes, small[small > 0]))
+
+
+def _picture(maps: Grey) -> Image:
+    """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
+    ordered = np.sort(maps.signal, axis=0)
+    three = np.stack([ordered[-2], ordered.mean(axis=0), ordered[len(ordered) // 3]], axis=-1)
+    top = np.percentile(three, 99.5, axis=(0, 1))
+    return np.asarray(np.sqrt(np.clip(three / np.maximum(top, 1e-12), 0, 1)), np.float32)
+
+
+def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
+    """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
+    f = factor_of(maps, MEDIUM_PIXELS)
+    image = coarse_of(maps, rays_C, f)
+    return image.maps, image.image(image.rays_C), f
+
+
+def _otsu(values: Image) -> float:
+    """The threshold that parts values into the two classes furthest apart."""
+    count, edges = np.histogram(values, 256)
+    middle = (edges[1:] + edges[:-1]) / 2
+    below = np.cumsum(count)
+    total = below[-1]
+    mean = np.cumsum(count * middle)
+    parted = np.clip(below * (total - below), 1, None).astype(float)
+    between = (mean[-1] * below - mean * total) ** 2 / parted
+    return float(middle[np.argmax(between)])

@@ -1,0 +1,223 @@
+r"""What an object says of its lights itself: relative powers that were not measured, and images that are of another light.
+
+How far the signals of matte pixels lie from what their lights can make of any normal, and factors of the lights that bring them there:
+symbols: signals I (L, P), light vectors B (L, P, n), weights w (0 where a sample is in shadow), factors h (L,) of the lights. The misfit
+of a pixel p is what is left of ``h I_p`` beside all ``B_p b``, as a share of it. With the b eliminated the squares of all pixels are
+h' M h, of h' D h in all::
+
+    M = D - sum_p (w I B)_p (B' w B)_p^-1 (w I B)_p'        D = diag(sum_p w I^2), each pixel at length 1
+
+so the factors that suit best are the generalised eigenvector of the least eigenvalue. Source: the linear subspace of Lambertian images
+(Shashua 1997), with the lights' directions known.
+
+Whatever the model lacks (gloss, shadows, a tone curve) bends such factors too, but otherwise on one side of the object than on the other,
+while lamps have one power for all. So factors are tried on the half of the object that they were not found from: halves to the left and
+right, above and below, facing and slanting.
+
+Powers of distant lights that nobody measured are what brings the signals into those spaces, and believed where those that one half of the
+object gives explain the other half clearly better than equal ones.
+
+Which light each image is of, by the surface that most of the images agree on (two cables, files or lines of a list exchanged):
+signal I_i of image i, light vectors B_j of light j, the surface's b. What image i misses by, taken for light j, is::
+
+    m_ij = median over the pixels of |I_i - B_j b / h|, over that of I_i        h = median of B_j b / I_i
+
+with h for a lamp's power, which is not of its place; the images' lights are the assignment of least ``sum log m``, the likeliest where
+each image has noise of its own size. The robust solve leaves the samples of two exchanged lights of a dozen out, so that b is right and
+nothing else shows it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.records.calibration import Light
+from lpcal.surface import normals
+from lpcal.view.sight import Lit, Sight, vectors
+
+CONDITION = 1e5
+"""Condition of a pixel's normal matrix over which its lights determine no normal."""
+LIGHTS_NEEDED, PIXELS_NEEDED = 5, 300
+"""Lights and pixels from which powers are looked for."""
+MOST_PIXELS = 3000
+"""Pixels that are looked at, spread over the object: they give powers to a fraction of a per cent."""
+SHADED, SHINING = 0.25, 0.1
+"""Shares of a pixel's samples, its darkest and its brightest, that may lie in shadow and hold a highlight."""
+SPARE = 2
+"""Samples more than three that a pixel needs."""
+NEEDED_GAIN = 1.2
+"""A half's misfit must fall by this factor under the intensities of the other half, in the geometric mean over the halves.
+
+Simulated equal lights give 1.003 at most, whatever the gloss and the shadows; unequal ones 1.1 or more wherever what is found is nearer
+than equal ones."""
+TRIMS = 4
+"""Rounds in which the worse half of the pixels is left out: gloss then biases two to four times less, and no less in further rounds."""
+ACCEPTED = (0.2, 5.0)
+LIGHTS_TO_EXCHANGE = 6
+"""Lights from which two that are exchanged leave four that agree on a surface."""
+FEW_PIXELS, MOST_PAIRS = 800, 3_000_000
+"""Pixels that are looked at where the lights are many, and how many pairs of lights at pixels: each image is held against every light."""
+PIXELS_A_HALF = 50
+"""Pixels of a half of the object from which its median is one."""
+NEEDED_FALL = 2.0
+"""By what factor the misses of images that change places must fall at least, in the geometric mean and in every half of the object: what
+the model lacks of a light's own image (gloss, shadows, interreflection) makes another light fit it as well, never twice as well."""
+
+
+@dataclass(frozen=True)
+class LightSpace:
+    """The spaces of pixels' light vectors."""
+
+    weight: Array
+    """(L, P)."""
+    spanned: Array
+    """(L, P, n) an orthonormal base of each pixel's weighted light vectors, times the weights."""
+
+    @staticmethod
+    def of(weight: Array, B: Array) -> LightSpace:
+        """From weights (L, P), each pixel's good for n light vectors, and light vectors (L, P, n)."""
+        inverse = np.linalg.inv(np.einsum("lpi,lpj->pij", weight[..., None] * B, B))
+        root = np.linalg.cholesky((inverse + inverse.swapaxes(1, 2)) / 2)
+        return LightSpace(weight, weight[..., None] * np.einsum("lpi,pij->lpj", B, root))
+
+    def at(self, some: Mask) -> LightSpace:
+        """At some of the pixels."""
+        return LightSpace(self.weight[:, some], self.spanned[:, some])
+
+    def misfit(self, signal: Array) -> float:
+        """Median over the pixels of their signals' (L, P) misfit."""
+        return float(np.median(self.misfits(signal)))
+
+    def misfits(self, signal: Array) -> Array:
+        """Misfit (P,) of signals (L, P), the lost freedom counted."""
+        whole = np.maximum(np.sum(self.weight * signal**2, axis=0), 1e-300)
+        inside = np.sum(np.einsum("lpi,lp->pi", self.spanned, signal) ** 2, axis=1)
+        count = self.weight.sum(axis=0)
+        spare = np.maximum(count - self.spanned.shape[2], 1)
+        return np.asarray(np.sqrt(np.maximum(1 - inside / whole, 0) * count / spare))
+
+    def factors(self, signal: Array) -> Array:
+        """Factors h (L,) of mean 1 that suit the signals (L, P) best."""
+        unit = signal / np.sqrt(np.maximum(np.sum(self.weight * signal**2, axis=0), 1e-300))
+        total = np.maximum(np.sum(self.weight * unit**2, axis=1), 1e-12)
+        scale = 1 / np.sqrt(total)
+        spanned = (self.spanned * unit[..., None]).reshape(len(signal), -1)
+        left = np.eye(len(signal)) - scale[:, None] * (spanned @ spanned.T) * scale
+        h = np.linalg.eigh(left)[1][:, 0] * scale
+        return np.asarray(h / h.mean())
+
+    def misfit_by_halves(self, signal: Array, upper: list[Mask]) -> float:
+        """Misfit of signals (L, P) under the factors of the other half, geometric mean over the halves: `upper` (P,) each, and the rest."""
+        found = []
+        for half in upper:
+            for own, other in ((half, ~half), (~half, half)):
+                h = self.at(other).factors(signal[:, other])
+                found.append(max(self.at(own).misfit(h[:, None] * signal[:, own]), 1e-12))
+        return float(np.exp(np.mean(np.log(found))))
+
+
+def spans(weight: Array, B: Array) -> Mask:
+    """Pixels (P,) whose light vectors B (L, P, n) of weights (L, P) span their space."""
+    return np.asarray(np.linalg.cond(np.einsum("lpi,lpj->pij", weight[..., None] * B, B)) < CONDITION)
+
+
+def halves(signal: Array, weight: Array, B: Array) -> list[Mask]:
+    """The object's pixels (P,) in halves by their normals: rightward, upward, slanting."""
+    n = lambert.unit(lambert.weighted(B[..., :3], signal, weight)[0])[0]
+    sides = (n[:, 0], n[:, 1], np.hypot(n[:, 0], n[:, 1]))
+    return [np.nan_to_num(side) > np.nanmedian(side) for side in sides]
+
+
+def unmeasured(lights: Sequence[Light]) -> bool:
+    """Whether lights are distant, of one intensity, with no statement of how well that is known."""
+    same = np.ptp(np.concatenate([light.intensity for light in lights])) == 0
+    return bool(same and all(light.source_C is None and not np.isfinite(light.intensity_std) for light in lights))
+
+
+def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
+    """Intensities (L,) of mean 1; None where too few lights or pixels show them, or the halves of the object disagree."""
+    if len(lights) < LIGHTS_NEEDED:
+        return None
+    shown = _shown(seen, np.stack([light.direction_C for light in lights]))
+    if shown is None:
+        return None
+    signal, weight, B = shown
+    space = LightSpace.of(weight, B)
+    h = space.factors(signal)
+    for _ in range(TRIMS):
+        left_out = space.misfits(h[:, None] * signal)
+        matte = left_out <= np.median(left_out)
+        h = space.at(matte).factors(signal[:, matte])
+    found = (1 / h) / np.mean(1 / h) if np.all(h > 0) else np.zeros(len(h))
+    if not (ACCEPTED[0] < found.min() and found.max() < ACCEPTED[1]):
+        return None
+    equal, theirs = space.misfit(signal), space.misfit_by_halves(signal, halves(h[:, None] * signal, weight, B))
+    return found if equal > NEEDED_GAIN * theirs else None
+
+
+def _shown(seen: Sight, S: Array) -> tuple[Array, Array, Array] | None:
+    """Signals, weights and light vectors (L, P, ...) of pixels that enough lights reach."""
+    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MOST_PIXELS, seen.pixels)).astype(int)))
+    count = len(S)
+    usable = normals.candidates(some, np.ones(some.signal.shape))
+    rank = np.argsort(np.argsort(np.where(usable, some.signal, -np.inf), axis=0), axis=0)
+    weight = usable & (rank >= min(int(SHADED * count), count - 3 - SPARE)) & (rank < count - int(SHINING * count))
+    good = weight.sum(axis=0) >= 3 + SPARE
+    B = np.repeat(S[:, None], some.pixels, axis=1)
+    good[good] = spans(weight[:, good].astype(float), B[:, good])
+    if good.sum() < PIXELS_NEEDED or np.any(weight[:, good].sum(axis=1) < PIXELS_NEEDED // 5):
+        return None
+    return some.signal[:, good], weight[:, good].astype(float), B[:, good]
+
+
+def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict[int, int]:
+    """The light that each image fits, of those that fit another one than their own; empty where all fit their own, or it is not clear.
+
+    Parameters
+    ----------
+    signal : (L, P), the gloss taken off
+    light : the light, or its vectors (L, P, 3)
+    b : (P, 3), NaN where it is not known
+    usable : (L, P) where the signal is not saturated
+    """
+    if len(signal) < LIGHTS_TO_EXCHANGE:
+        return {}
+    known = np.flatnonzero(np.isfinite(b[:, 0]))
+    if len(known) < 2 * PIXELS_A_HALF:
+        return {}
+    most = min(MOST_PIXELS, max(FEW_PIXELS, MOST_PAIRS // len(signal) ** 2), len(known))
+    some = known[np.unique(np.linspace(0, len(known) - 1, most).astype(int))]
+    side = b[some] / np.maximum(np.linalg.norm(b[some], axis=1, keepdims=True), 1e-300)
+    halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
+    if any(half.sum() < PIXELS_A_HALF for half in halves):
+        return {}
+    B = vectors(light, some)
+    miss = np.stack([_misses(signal[:, some], B, b[some], usable[:, some], half) for half in halves])
+    total = miss.sum(axis=0)
+    if np.array_equal(np.argmin(total, axis=1), np.arange(len(total))):
+        return {}  # each fits its own best
+    from scipy.optimize import linear_sum_assignment
+
+    _, best = linear_sum_assignment(total)
+    moved = np.flatnonzero(best != np.arange(len(best)))
+    if not moved.size:
+        return {}
+    gain = np.mean(miss[:, moved, moved] - miss[:, moved, best[moved]], axis=1)
+    return {int(image): int(best[image]) for image in moved} if np.all(gain > np.log(NEEDED_FALL)) else {}
+
+
+def _misses(signal: Array, B: Array, b: Array, usable: Mask, half: Mask) -> Array:
+    """(L, L) log m_ij over half of the pixels."""
+    predicted = np.maximum(np.einsum("lpi,pi->lp", B[:, half], b[half]), 0.0)
+    found = np.ones((len(signal), len(signal)))
+    for k, (own, ok) in enumerate(zip(signal[:, half], usable[:, half] & (signal[:, half] > 0), strict=True)):
+        if ok.sum() >= PIXELS_A_HALF:
+            ratio = predicted[:, ok] / own[ok]
+            h = np.maximum(np.median(ratio, axis=1), 1e-9)[:, None]
+            found[k] = np.median(np.abs(own[ok] - predicted[:, ok] / h), axis=1) / np.median(own[ok])
+    return np.log(np.maximum(found, 1e-9))

@@ -1,0 +1,227 @@
+r"""A capture in coarse pixels, and the lights' field on each of them by log depth.
+
+Symbols: pixel p of ray r_p, u = log z; the table holds ``z^2 B_k(z r_p)`` at equal steps of u, cubic between them (Lagrange). The field is
+smooth: it is summed over the LEDs on a lattice of rays only. `doubt` is what an error of a light's direction makes of its irradiance, as a
+share of it: in the tail of a lobe a tenth of a degree is several per cent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
+from lpcal.records.calibration import Light
+from lpcal.view.sight import Grey, Indices, light_vectors
+
+SPAN = (0.25, 6.0)
+"""Depths of the table, as shares of the working distance: beyond, lights do not reach, nor are they calibrated there."""
+NODES = 60
+"""Steps of the table, 5 per cent of the depth each: cubic between them, the field is right to some thousandths."""
+LATTICE = (19, 25)
+"""Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
+LEAST_DIRECTION_STD_RAD = 0.0026
+"""Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+HELD = 12
+"""Nodes beyond each end at which a spline keeps the end's value: what is said further out changes it by 1e-7 of a step."""
+EVERYWHERE = (slice(None), slice(None))
+"""The box of all rows and columns."""
+
+
+@dataclass(frozen=True)
+class RoomPrior:
+    """A room's light, as far as it is known beforehand."""
+
+    share: Array
+    """(L,) what the signal of each light holds of A: 1 / h_k."""
+    level: float
+    """A that matter of |b| = 1 sends back."""
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """P coarse pixels, row by row, of L lights."""
+
+    signal: Array
+    """(L, P), a unit of intensity."""
+    sigma: Array
+    usable: Mask
+    rays_C: Array
+    """(P, 3) of length 1 in z."""
+    shape: tuple[int, int]
+    """Rows and columns."""
+    factor: int
+    """Pixels a coarse pixel, along a side."""
+    room: RoomPrior | None = None
+    """What is known of a room's light that the signals hold; None where it has been taken away."""
+
+    def image[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Values (P, ...) as a map (rows, columns, ...)."""
+        return values.reshape(*self.shape, *values.shape[1:])
+
+    @property
+    def maps(self) -> Grey:
+        """The coarse pixels as maps."""
+        shape = (len(self.signal), *self.shape)
+        return Grey(self.signal.reshape(shape).astype(np.float32), self.sigma.reshape(shape).astype(np.float32), self.usable.reshape(shape))
+
+
+def factor_of(maps: Grey, most: int) -> int:
+    """Pixels to be joined along a side, so that no more than `most` are left."""
+    return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
+
+
+def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
+    """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
+    rows, columns = (side // factor for side in maps.signal.shape[1:])
+
+    def cut[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
+        """Rows of a block, and whole rows of pixels (..., rows, factor, columns x factor)."""
+        return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns * factor)
+
+    def means(values: npt.NDArray[np.floating]) -> Array:
+        if factor == 1:
+            return values.astype(float)
+        by_row = cut(values).sum(axis=-2, dtype=float).reshape(*values.shape[:-2], rows, columns, factor)
+        return np.asarray(sum(by_row[..., k] for k in range(factor)) / factor**2)
+
+    signal = means(maps.signal)
+    return Coarse(
+        signal.reshape(len(signal), -1),
+        (np.sqrt(means(maps.sigma.astype(np.float32) ** 2)) / factor).reshape(len(signal), -1),
+        cut(maps.usable).all(axis=-2).reshape(len(signal), rows, columns, factor).all(axis=-1).reshape(len(signal), -1),
+        np.moveaxis(means(np.moveaxis(rays_C, -1, 0)), 0, -1).reshape(-1, 3),
+        (rows, columns),
+        factor,
+    )
+
+
+@dataclass(frozen=True)
+class LightTable:
+    """The field on P coarse pixels."""
+
+    first: float
+    """u of the first node."""
+    step: float
+    B: Array
+    """(P, nodes, L, 3), times z^2: what a pixel is asked for lies together."""
+    doubt: Array
+    """(P, nodes, L), a share of the irradiance."""
+
+    @staticmethod
+    def of(image: Coarse, lights: Sequence[Light], distance_m: float, box: tuple[slice, slice] = EVERYWHERE) -> LightTable:
+        """The table about a working distance, on the pixels of a box of rows and columns."""
+        rows, columns = image.shape
+        down, across = np.linspace(0, rows - 1, LATTICE[0]), np.linspace(0, columns - 1, LATTICE[1])
+        by_row, by_column = (_linear(side, at) for side, at in zip(image.shape, (down, across), strict=True))
+        rays = np.einsum("ar,bc,rci->abi", by_row, by_column, image.image(image.rays_C), optimize=True)
+        u = np.log(distance_m) + np.linspace(np.log(SPAN[0]), np.log(SPAN[1]), NODES)
+        x_C = np.exp(u)[:, None, None, None] * rays
+        d, E = light_vectors(lights, x_C.reshape(-1, 3))
+        B = (d * E[..., None]).reshape(len(lights), *x_C.shape) * np.exp(2 * u)[:, None, None, None]
+        doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
+
+        def spread(values: Array, order: Literal[1, 3]) -> Array:
+            """Values (lattice, N) at the pixels (P, N): splines of this order down and across."""
+            sides = zip(LATTICE, image.shape, box, strict=True)
+            by_row, by_column = (_spline(nodes, side, order)[some] for nodes, side, some in sides)
+            found = np.empty((len(by_row), len(by_column), values[0, 0].size), np.float32)
+            lattice = values.reshape(LATTICE[0], -1)
+            for row, weights in zip(found, by_row, strict=True):  # in doubles a row at a time: they are many
+                row[...] = by_column @ (weights @ lattice).reshape(LATTICE[1], -1)
+            return found.reshape(-1, *values.shape[2:])
+
+        of_lattice = np.ascontiguousarray(np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4))
+        return LightTable(float(u[0]), float(u[1] - u[0]), spread(of_lattice, 3), spread(np.moveaxis(doubt, (2, 3, 1, 0), (0, 1, 2, 3)), 1))
+
+    @property
+    def nodes(self) -> Array:
+        """u of the nodes."""
+        return np.asarray(self.first + self.step * np.arange(self.B.shape[1]), float)
+
+    def at(self, u: Array, pixels: Indices) -> tuple[Array, Array]:
+        """Light vectors (L, Q, 3) and their doubt (L, Q) at log depths u (Q,) of pixels (Q,)."""
+        if run := kernel("cubic"):
+            (P, nodes, L, _), Q = self.B.shape, len(u)
+            B, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
+            places = (np.ascontiguousarray(u, float), np.ascontiguousarray(pixels, np.int64))
+            run(L, nodes, P, Q, self.B, self.doubt, self.first, self.step, *places, B, doubt)
+            return B, doubt
+        t, f, first = self._between(u)
+        weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
+        z = np.exp(self.first + t * self.step)
+        total = self._joined(pixels, first, weights) / z[:, None, None] ** 2
+        return np.moveaxis(total, 0, 1), self.doubt[pixels, np.rint(t).astype(int)].T
+
+    def slope(self, u: Array, pixels: Indices) -> Array:
+        """Derivatives (L, Q, 3) of the light vectors by log depth at log depths u (Q,) of pixels (Q,)."""
+        t, f, first = self._between(u)
+        weights = (-(3 * f * f - 6 * f + 2) / 6, (3 * f * f - 4 * f - 1) / 2, -(3 * f * f - 2 * f - 2) / 2, (3 * f * f - 1) / 6)
+        z = np.exp(self.first + t * self.step)
+        total = self._joined(pixels, first, weights) / (self.step * z[:, None, None] ** 2)
+        return np.moveaxis(total, 0, 1) - 2 * self.at(u, pixels)[0]
+
+    def _between(self, u: Array) -> tuple[Array, Array, Indices]:
+        """Places (Q,) of log depths in steps of the table, how far they lie beyond their second node, and the first node that they ask."""
+        t = np.clip((u - self.first) / self.step, 0, self.B.shape[1] - 1.001)
+        k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
+        return t, t - k, k - 1
+
+    def _joined(self, pixels: Indices, first: Indices, weights: Sequence[Array]) -> Array:
+        """Sums (Q, L, 3) of the nodes from the first on (Q,), by weights (Q,)."""
+        total = np.zeros((len(pixels), *self.B.shape[2:]))
+        for j, weight in enumerate(weights):
+            total += self.B[pixels, first + j] * weight[:, None, None]
+        return total
+
+    def at_pixels(self, some: Indices) -> LightTable:
+        """The table on some of the pixels."""
+        return LightTable(self.first, self.step, self.B[some], self.doubt[some])
+
+    def holds(self, u: Array) -> Mask:
+        """Whether log depths lie in the table."""
+        return np.asarray((u >= self.first) & (u <= self.first + self.step * (self.B.shape[1] - 1)))
+
+
+def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
+    """Matrix (places, nodes) from values at nodes evenly apart to a spline at places evenly apart, both from end to end."""
+    at = np.linspace(0, nodes - 1, places)
+    if order == 1:
+        return _linear(nodes, at)
+    count = nodes + 2 * HELD
+    every = np.arange(count)
+    through = 4 / 6 * np.eye(count)
+    for beside in (every - 1, every + 1):
+        through[every, np.clip(beside, 0, count - 1)] += 1 / 6
+    coefficients = np.linalg.solve(through, np.eye(nodes)[np.clip(every - HELD, 0, nodes - 1)])
+    before = np.minimum(at.astype(int), nodes - 2)
+    f = at - before
+    found = np.zeros((places, nodes))
+    for k, weight in enumerate(((1 - f) ** 3, 3 * f**3 - 6 * f**2 + 4, -3 * f**3 + 3 * f**2 + 3 * f + 1, f**3)):
+        found += weight[:, None] / 6 * coefficients[before + HELD - 1 + k]
+    return found
+
+
+def _linear(nodes: int, at: Array) -> Array:
+    """Matrix (N, nodes) from values at nodes evenly apart to values between them, at places (N,) in steps from the first."""
+    before = np.clip(at.astype(int), 0, max(nodes - 2, 0))
+    found = np.zeros((len(at), nodes))
+    found[np.arange(len(at)), before] = 1 - (at - before)
+    found[np.arange(len(at)), np.minimum(before + 1, nodes - 1)] += at - before
+    return found
+
+
+def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:
+    """Share of the irradiance (L, nodes, lattice) that an error of a light's direction makes, from how the field changes across."""
+    fall = np.log(np.maximum(E, 1e-30))
+    across = np.gradient(fall, axis=3) / np.gradient(rays[..., 0], axis=1)
+    down = np.gradient(fall, axis=2) / np.gradient(rays[..., 1], axis=0)
+    slope = np.hypot(across, down) / x_C[..., 2]
+    far = np.stack([np.linalg.norm(x_C - (light.source_C if light.source_C is not None else 0.0), axis=-1) for light in lights])
+    std = np.array([max(np.nan_to_num(light.direction_std_rad, nan=0.0, posinf=0.0), LEAST_DIRECTION_STD_RAD) for light in lights])
+    return np.asarray(np.minimum(slope * far * std[:, None, None, None], 1.0))

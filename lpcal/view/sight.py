@@ -1,0 +1,262 @@
+"""What the solvers see of an object: its pixels as a list, their rays, and the signals of the lights at them.
+
+Symbols: P pixels, L lights, ray r (of length 1 in z), point ``x = z r``. A signal is divided by its light's intensity, so that every
+light counts as one of intensity 1; of an RGB capture the channels are joined into one signal, weighted by their noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.records.calibration import Calibration, Camera, Light
+from lpcal.records.observations import Radiance
+from lpcal.view import bands
+
+type Indices = npt.NDArray[np.int64]
+
+LIGHTS_NEEDED = 3
+PLANE_OF_LIGHTS = 0.02
+"""Lights whose directions spread less than this share about their third axis lie in a plane."""
+
+
+@dataclass(frozen=True)
+class Grey:
+    """Maps of one signal a light, a unit of intensity: (L, H, W)."""
+
+    signal: Image
+    sigma: Image
+    usable: Mask
+    """Not saturated."""
+
+
+@dataclass(frozen=True)
+class Sight:
+    """The pixels of the object."""
+
+    mask: Mask
+    """(H, W); the pixels are its True places in reading order."""
+    rays_C: Array
+    """(P, 3)."""
+    signal: Array
+    """(L, P)."""
+    sigma: Array
+    usable: Mask
+    central: bool
+    """Whether there is a camera; else rays are parallel and depths are in pixels."""
+
+    @property
+    def pixels(self) -> int:
+        """P."""
+        return len(self.rays_C)
+
+    def map(self, values: npt.NDArray[np.generic], outside: float = np.nan) -> npt.NDArray[np.generic]:
+        """Values (P, ...) as a map (H, W, ...)."""
+        found = np.full((*self.mask.shape, *values.shape[1:]), outside, values.dtype)
+        found[self.mask] = values
+        return found
+
+    def at(self, some: Indices | slice) -> Sight:
+        """Some of the pixels; the mask stays that of all."""
+        return replace(self, rays_C=self.rays_C[some], signal=self.signal[:, some], sigma=self.sigma[:, some], usable=self.usable[:, some])
+
+    def points_C(self, depth: Array) -> Array:
+        """Points (P, 3) at depths (P,)."""
+        return depth[:, None] * self.rays_C
+
+    def shape_C(self, depth: Array) -> Array:
+        """Points (P, 3) whose shape is that of the surface: `points_C`, or columns, rows and depth in pixels without a camera."""
+        if self.central:
+            return self.points_C(depth)
+        rows, columns = np.nonzero(self.mask)
+        return np.stack([columns, rows, depth], axis=1).astype(float)
+
+
+@dataclass(frozen=True)
+class Lit:
+    """The light at each pixel: of the lights, and of what the object reflects onto itself."""
+
+    d: Array
+    """(L, P, 3) unit vectors to the lights."""
+    E: Array
+    """(L, P) irradiance."""
+    thrown: Array | None = None
+    """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.bounce)."""
+    unseen: Array | None = None
+    """(P,) share of what stands around a pixel that is of the object and not seen: what it reflects is guessed."""
+
+    @property
+    def B(self) -> Array:
+        """Light vectors (L, P, 3), all light counted."""
+        return self.direct if self.thrown is None else self.direct + self.thrown
+
+    @property
+    def direct(self) -> Array:
+        """Light vectors (L, P, 3) of the lights alone."""
+        return self.d * self.E[..., None]
+
+    def at(self, some: Indices | slice) -> Lit:
+        """At some of the pixels."""
+        thrown = None if self.thrown is None else self.thrown[:, some]
+        return Lit(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
+
+
+def vectors(light: Lit | Array, some: Indices | slice) -> Array:
+    """Light vectors (L, Q, 3) at some of the pixels, of vectors (L, P, 3) or of light."""
+    return light.at(some).B if isinstance(light, Lit) else light[:, some]
+
+
+def strength(maps: Grey) -> Image:
+    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
+    return np.asarray(second(maps.signal), np.float32)
+
+
+def second[T: np.floating](values: npt.NDArray[T]) -> npt.NDArray[T]:
+    """The highest value (...) but one of values (L, ...), L of two or more."""
+    high, found = np.maximum(values[0], values[1]), np.minimum(values[0], values[1])
+    for one in values[2:]:
+        np.maximum(found, np.minimum(high, one), out=found)
+        np.maximum(high, one, out=high)
+    return found
+
+
+def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:
+    """The calibrated lights of a capture, in its order.
+
+    Raises
+    ------
+    DegenerateError
+        Fewer than three, or all in a plane: they do not determine a normal.
+    """
+    by_name = {light.name: light for light in calibration.lights}
+    lights = tuple(by_name[name] for name in radiance.lights)
+    if len(lights) < LIGHTS_NEEDED:
+        raise DegenerateError(
+            f"{len(lights)} light{'s' * (len(lights) != 1)}", where=radiance.name, needed="three lights at least", todo="take more images"
+        )
+    spread = np.linalg.svd(np.stack([light.direction_C for light in lights]), compute_uv=False)
+    if spread[2] < PLANE_OF_LIGHTS * spread[0]:
+        raise DegenerateError(
+            "all lights lie in one plane with the object",
+            where=f"{radiance.name}, lights {', '.join(radiance.lights)}",
+            needed="lights round the object",
+            todo="add a light out of the plane",
+        )
+    return lights
+
+
+def agree_on_size(name: str, size: tuple[int, ...], camera: Camera | None) -> None:
+    """Refuse a capture of another image size (H, W) than the calibrated camera's.
+
+    Raises
+    ------
+    DisagreementError
+        The sizes differ.
+    """
+    height, width = size
+    if camera is not None and (width, height) != tuple(camera.image_size):
+        raise DisagreementError(
+            f"images of {width}x{height}",
+            where=name,
+            needed=f"{camera.image_size[0]}x{camera.image_size[1]}, the calibrated camera's size",
+            todo="take the capture with that camera and at its full size, or calibrate again",
+        )
+
+
+def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = None) -> Grey:
+    """One signal a light, a unit of intensity; colours are joined by `weight` (3,), by default by their noise (`colour_weight`)."""
+    factor = _factor(radiance, lights)
+    shape = radiance.signal.shape[:3]
+    if radiance.signal.ndim == 3:
+        return Grey(radiance.signal * factor, radiance.sigma * factor, ~radiance.saturated)
+    weight = colour_weight(radiance, lights) if weight is None else weight
+    signal, sigma = np.empty(shape, np.float32), np.empty(shape, np.float32)
+    for k, by in enumerate(factor):
+        signal[k] = (radiance.signal[k] * by) @ weight
+        sigma[k] = np.sqrt((radiance.sigma[k] * by) ** 2 @ weight**2)
+    return Grey(signal, sigma, ~radiance.saturated)
+
+
+def colour_weight(radiance: Radiance, lights: Sequence[Light]) -> Array:
+    """Weights (3,) of the colours of an RGB capture, by their noise."""
+    both = zip(radiance.sigma, _factor(radiance, lights), strict=True)
+    variance = np.mean([np.mean((std * by) ** 2, axis=(0, 1), dtype=float) for std, by in both], axis=0)
+    weight = 1 / np.maximum(variance, 1e-20)
+    return np.asarray((weight / weight.sum()).astype(np.float32))
+
+
+def _factor(radiance: Radiance, lights: Sequence[Light]) -> Image:
+    """What brings signals to a unit of intensity: (L, 1, 1), of colours (L, 1, 1, 3)."""
+    if radiance.signal.ndim == 3:
+        return np.asarray(1 / np.stack([light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)[:, None], np.float32)
+    intensity = np.stack([light.intensity for light in lights]).astype(np.float32)
+    return np.asarray(1 / np.broadcast_to(intensity, (len(lights), 3))[:, None, None, :])
+
+
+def room(radiance: Radiance) -> Image | None:
+    """The image without lights (H, W), of colours the mean; None where there is none."""
+    picture = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
+    return np.asarray(picture) if picture.any() else None
+
+
+def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
+    """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
+    row, column = np.indices(shape[:2])
+    return rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), camera).reshape(*shape[:2], 3)
+
+
+def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
+    """Rays (N, 3) of length 1 in z of pixels (N, 2); without a camera all (0, 0, 1)."""
+    if camera is None:
+        return np.tile([0.0, 0.0, 1.0], (len(pixels), 1))
+    unit_C = camera.unproject(pixels.astype(float))
+    return np.asarray(unit_C / unit_C[:, 2:])
+
+
+def look_at(maps: Grey, rays_C: Array, mask: Mask, *, central: bool) -> Sight:
+    """The pixels of a mask as lists."""
+    return Sight(
+        mask,
+        rays_C[mask],
+        maps.signal[:, mask].astype(float),
+        maps.sigma[:, mask].astype(float),
+        maps.usable[:, mask],
+        central,
+    )
+
+
+def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = None) -> tuple[Array, Array]:
+    """Unit directions d (L, P, 3) to the lights and irradiance E (L, P) a unit of intensity at points x_C (P, 3).
+
+    Where `focus_C` (3,) is given every light is taken as a distant one: everywhere as it is there.
+    """
+    shape = (len(lights), len(x_C))
+    if focus_C is not None:
+        found = [light.field(focus_C) for light in lights]
+        E = np.array([irradiance.mean() / light.intensity.mean() for light, (_, irradiance) in zip(lights, found, strict=True)])
+        return np.broadcast_to(np.stack([d.reshape(1, 3) for d, _ in found]), (*shape, 3)), np.broadcast_to(E[:, None], shape)
+    d, E = np.empty((*shape, 3)), np.empty(shape)
+
+    def fill(place: tuple[int, slice]) -> None:
+        light = lights[place[0]]
+        direction, irradiance = light.field(x_C[place[1]])
+        d[place], E[place] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
+
+    bands.shared(fill, [(k, at) for k in range(len(lights)) for at in bands.bands(len(x_C), 1)])
+    return d, E
+
+
+def light_slopes(lights: Sequence[Light], x_C: Array) -> Array:
+    """How the light vectors (L, P, 3) of points x_C (P, 3) change with the logarithm of their depth along their rays."""
+    return np.stack([light.slope(x_C) for light in lights])
+
+
+def powers(xy: Array) -> Array:
+    """1, x, y, x^2, xy, y^2 (P, 6) of rays' x and y (P, 2): what is smooth over the image follows them."""
+    x, y = xy.T
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
