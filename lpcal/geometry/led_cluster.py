@@ -51,52 +51,53 @@ def mean_lobe(angle_rad: Array, leds: int) -> Array:
     return np.asarray((emission[:-1] / emission[-1]).reshape(np.shape(angle_rad)))
 
 
-def cluster_field(x_L: Array, position_L: Array, axis_L: Array, power: Array, m: float) -> tuple[Array, Array]:
-    """Unit vectors to the light (..., 3) and irradiance (...) of LEDs at points x_L (..., 3), all in the blob's frame.
+def cluster_field(x: Array, position: Array, axis: Array, power: Array, m: float, *, single: bool = False) -> tuple[Array, Array]:
+    """Unit vectors to the light (..., 3) and irradiance (...) of LEDs at points x (..., 3), all in one frame.
 
-    The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length.
+    The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length. With `single` it is summed in single
+    precision: right to 1e-5 of the light, in a fifth of the time.
     """
-    if run := kernel("cluster"):
-        leds = (np.ascontiguousarray(one, float) for one in (position_L, axis_L, power))
-        d_L, E = np.empty(np.shape(x_L)), np.empty(np.shape(x_L)[:-1])
-        run(E.size, len(position_L), np.ascontiguousarray(x_L, float), *leds, m, d_L, E)
-        return d_L, E
-    if np.size(x_L) <= FEW:
-        to_led = position_L - np.asarray(x_L)[..., None, :]
+    if run := kernel("cluster_single" if single else "cluster"):
+        leds = (np.ascontiguousarray(one, float) for one in (position, axis, power))
+        d, E = np.empty(np.shape(x)), np.empty(np.shape(x)[:-1])
+        run(E.size, len(position), np.ascontiguousarray(x, float), *leds, m, d, E)
+        return d, E
+    if np.size(x) <= FEW:
+        to_led = position - np.asarray(x)[..., None, :]
         r = np.linalg.norm(to_led, axis=-1)
-        lit = np.maximum(-np.sum(to_led * axis_L, axis=-1) / r, 1e-6)
+        lit = np.maximum(-np.sum(to_led * axis, axis=-1) / r, 1e-6)
         total = np.sum(to_led * (power * np.exp(m * np.log(lit)) / r**3)[..., None], axis=-2)
     else:  # a LED at a time: many points times many LEDs do not fit the cache
-        total = np.zeros(np.shape(x_L))
-        for place, axis, strength in zip(position_L, axis_L, power, strict=True):
-            to_led = place - x_L
+        total = np.zeros(np.shape(x))
+        for place, ahead, strength in zip(position, axis, power, strict=True):
+            to_led = place - x
             r2 = np.sum(to_led * to_led, axis=-1)
             r = np.sqrt(r2)
-            cosine = -(to_led @ axis) / r
+            cosine = -(to_led @ ahead) / r
             lit = np.maximum(cosine, 1e-6)
             total += to_led * (strength * np.exp(m * np.log(lit)) / (r2 * r))[..., None]
     irradiance = np.linalg.norm(total, axis=-1)
     return total / np.maximum(irradiance, 1e-300)[..., None], irradiance
 
 
-def cluster_slope(x_L: Array, centre_L: Array, position_L: Array, axis_L: Array, power: Array, m: float) -> Array:
-    """How the LEDs' irradiance vector (..., 3) at points x_L (..., 3) changes with the logarithm of their distance from a centre (3,).
+def cluster_slope(x: Array, position: Array, axis: Array, power: Array, m: float) -> Array:
+    """How the LEDs' irradiance vector (..., 3) at points x (..., 3) changes with the logarithm of their distance from the frame's origin.
 
-    The vector of a LED at a, seen from the point, is ``a c^m / r^3`` with ``c = -(a . axis) / r``; moving by h from the centre changes a by
-    -h, so ``log r`` by ``-(a . h) / r^2`` and ``log c`` by ``(h . axis) / -(a . axis) + (a . h) / r^2``.
+    The vector of a LED at a, seen from the point, is ``a c^m / r^3`` with ``c = -(a . axis) / r``; moving the point by h changes a by -h,
+    so ``log r`` by ``-(a . h) / r^2`` and ``log c`` by ``(h . axis) / -(a . axis) + (a . h) / r^2``; h is x. In single precision.
     """
     if run := kernel("cluster_slope"):
-        given = (np.ascontiguousarray(one, float) for one in (x_L, centre_L, position_L, axis_L, power))
-        slope = np.empty(np.shape(x_L))
-        run(slope.size // 3, len(position_L), *given, m, slope)
+        given = (np.ascontiguousarray(one, float) for one in (x, position, axis, power))
+        slope = np.empty(np.shape(x))
+        run(slope.size // 3, len(position), *given, m, slope)
         return slope
-    ahead, slope = x_L - centre_L, np.zeros(np.shape(x_L))
-    for place, axis, strength in zip(position_L, axis_L, power, strict=True):
-        to_led = place - x_L
+    slope = np.zeros(np.shape(x))
+    for place, along, strength in zip(position, axis, power, strict=True):
+        to_led = place - x
         r2 = np.sum(to_led * to_led, axis=-1)
-        r, nearer = np.sqrt(r2), np.sum(to_led * ahead, axis=-1) / r2
-        level = -(to_led @ axis)
+        r, nearer = np.sqrt(r2), np.sum(to_led * x, axis=-1) / r2
+        level = -(to_led @ along)
         lit = strength * np.exp(m * np.log(np.maximum(level / r, 1e-6))) / (r2 * r)
-        change = lit * (3 * nearer + np.where(level / r > 1e-6, m * ((ahead @ axis) / level + nearer), 0.0))
-        slope += to_led * change[..., None] - ahead * lit[..., None]
+        change = lit * (3 * nearer + np.where(level / r > 1e-6, m * ((x @ along) / level + nearer), 0.0))
+        slope += to_led * change[..., None] - x * lit[..., None]
     return slope

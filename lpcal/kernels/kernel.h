@@ -37,6 +37,18 @@ static inline double of_bits(uint64_t u) {
     return x;
 }
 
+static inline uint32_t bits_of_single(float x) {
+    uint32_t u;
+    memcpy(&u, &x, sizeof u);
+    return u;
+}
+
+static inline float of_bits_single(uint32_t u) {
+    float x;
+    memcpy(&x, &u, sizeof x);
+    return x;
+}
+
 /* Of a number up to 700: a power of two times the Taylor series within half of ln 2. */
 static inline double exponential(double y) {
     double within = y < LEAST ? LEAST : y, shifted = within * (1.0 / LN2) + WHOLE, whole = shifted - WHOLE;

@@ -24,8 +24,11 @@ SWITCH = "LPCAL_KERNELS"
 
 SIGNATURES = {
     "behind": "i f i i f f f",
+    "block_means": "i i i i i f f f",
+    "blocks": "i i i i i i s s b f f f b",
     "cluster": "i i f f f f d f f",
-    "cluster_slope": "i i f f f f f d f",
+    "cluster_single": "i i f f f f d f f",
+    "cluster_slope": "i i f f f f d f",
     "connected": "i i n n b n",
     "coupled": "i i m f f f f f f d i d",
     "cubic": "i i i i s s d d f n f s",

@@ -264,29 +264,28 @@ class Light(Shown):
 
     def field(self, x_C: Array) -> tuple[Array, Array]:
         """Unit vectors to the light (..., 3) and irradiance (..., C) of surfaces that face it at points x_C (..., 3)."""
+        d_C, irradiance = self.unit_field(x_C)
+        return d_C, irradiance[..., None] * self.intensity
+
+    def unit_field(self, x_C: Array, *, single: bool = False) -> tuple[Array, Array]:
+        """As `field`, the irradiance (...) a unit of intensity; `single`: LEDs are summed in single precision, right to 1e-5 of the light."""
         if self.source_C is None or self.axis_C is None:
-            shape = x_C.shape[:-1]
-            return np.broadcast_to(self.direction_C, x_C.shape), np.broadcast_to(self.intensity, (*shape, self.intensity.size))
+            return np.broadcast_to(self.direction_C, x_C.shape), np.broadcast_to(1.0, x_C.shape[:-1])
         if self.lobe.leds is not None and self.H_CL is not None:
-            leds, H_LC = self.lobe.leds, se3.inv(self.H_CL)
-            d_L, irradiance = led_cluster.cluster_field(se3.apply(H_LC, x_C), leds.position_L, leds.axis_L, leds.power, leds.exponent)
-            return se3.rotate(self.H_CL, d_L), irradiance[..., None] * self.intensity
+            return led_cluster.cluster_field(x_C, *self.lobe.leds.in_C(self.H_CL), single=single)
         d, r, angle = light_field.near_light(x_C, self.source_C, self.axis_C)
         emission = self.lobe(angle)
         if self.lobe.node_rad.size and self.H_CL is not None:
             ray_L = se3.rotate(se3.inv(self.H_CL), -d)
             emission = emission * lobe_map.evaluate(angle, np.arctan2(ray_L[..., 1], ray_L[..., 0]), self.lobe.node_rad, self.lobe.factor)
-        return d, (emission / r**2)[..., None] * self.intensity
+        return d, emission / r**2
 
     def slope(self, x_C: Array) -> Array:
-        """How its irradiance vector (..., 3) a unit of intensity, of colours the mean, changes with log distance from C at x_C (..., 3)."""
+        """How its irradiance vector (..., 3) a unit of intensity changes with log distance from C at points x_C (..., 3)."""
         if self.source_C is not None and self.lobe.leds is not None and self.H_CL is not None:
-            leds, H_LC = self.lobe.leds, se3.inv(self.H_CL)
-            cluster = (leds.position_L, leds.axis_L, leds.power, leds.exponent)
-            return se3.rotate(self.H_CL, led_cluster.cluster_slope(se3.apply(H_LC, x_C), H_LC[:3, 3], *cluster))
-        (d, E), (d_near, E_near) = self.field(x_C * (1 + FURTHER)), self.field(x_C * (1 - FURTHER))
-        change = d * E.mean(axis=-1, keepdims=True) - d_near * E_near.mean(axis=-1, keepdims=True)
-        return np.asarray(change / (2 * FURTHER * self.intensity.mean()))
+            return led_cluster.cluster_slope(x_C, *self.lobe.leds.in_C(self.H_CL))
+        (d, E), (d_near, E_near) = self.unit_field(x_C * (1 + FURTHER)), self.unit_field(x_C * (1 - FURTHER))
+        return np.asarray((d * E[..., None] - d_near * E_near[..., None]) / (2 * FURTHER))
 
 
 @dataclass(frozen=True, repr=False)

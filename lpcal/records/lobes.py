@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.light_field import FORMULAS, TABLED, Formula, table_lobe
 from lpcal.records.installed import installed
@@ -89,6 +90,10 @@ class LedCluster:
     """(n,)."""
     exponent: float
     """The power of the cosine by which an LED's emission falls off."""
+
+    def in_C(self, H_CL: Array) -> tuple[Array, Array, Array, float]:
+        """Positions (n, 3) and axes (n, 3) in C, power (n,) and exponent, of a blob that stands at ``H_CL``."""
+        return se3.apply(H_CL, self.position_L), se3.rotate(H_CL, self.axis_L), self.power, self.exponent
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ share of it: in the tail of a lobe a tenth of a degree is several per cent.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -79,6 +79,8 @@ def factor_of(maps: Grey, most: int) -> int:
 def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
     """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
     rows, columns = (side // factor for side in maps.signal.shape[1:])
+    if run := kernel("blocks"):
+        return _joined_by(run, maps, rays_C, factor)
 
     def cut[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
         """Rows of a block, and whole rows of pixels (..., rows, factor, columns x factor)."""
@@ -99,6 +101,19 @@ def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
         (rows, columns),
         factor,
     )
+
+
+def _joined_by(run: Callable[..., None], maps: Grey, rays_C: Array, factor: int) -> Coarse:
+    """The same by kernels."""
+    (L, height, width), average = maps.signal.shape, kernel("block_means")
+    assert average is not None
+    rows, columns = height // factor, width // factor
+    signal, sigma, usable = np.empty((L, rows * columns)), np.empty((L, rows * columns)), np.empty((L, rows * columns), bool)
+    given = np.ascontiguousarray(maps.signal, np.float32), np.ascontiguousarray(maps.sigma, np.float32), np.ascontiguousarray(maps.usable)
+    run(L, rows, columns, factor, height, width, *given, np.empty(2 * width), signal, sigma, usable)
+    rays = np.empty((rows * columns, 3))
+    average(rows, columns, factor, width, 3, np.ascontiguousarray(rays_C, float), np.empty(3 * width), rays)
+    return Coarse(signal, sigma, usable, rays, (rows, columns), factor)
 
 
 @dataclass(frozen=True)

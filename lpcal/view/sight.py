@@ -237,15 +237,13 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
     """
     shape = (len(lights), len(x_C))
     if focus_C is not None:
-        found = [light.field(focus_C) for light in lights]
-        E = np.array([irradiance.mean() / light.intensity.mean() for light, (_, irradiance) in zip(lights, found, strict=True)])
+        found = [light.unit_field(focus_C) for light in lights]
+        E = np.array([irradiance.mean() for _, irradiance in found])
         return np.broadcast_to(np.stack([d.reshape(1, 3) for d, _ in found]), (*shape, 3)), np.broadcast_to(E[:, None], shape)
     d, E = np.empty((*shape, 3)), np.empty(shape)
 
     def fill(place: tuple[int, slice]) -> None:
-        light = lights[place[0]]
-        direction, irradiance = light.field(x_C[place[1]])
-        d[place], E[place] = direction, irradiance.mean(axis=-1) / light.intensity.mean()
+        d[place], E[place] = lights[place[0]].unit_field(x_C[place[1]], single=True)
 
     bands.shared(fill, [(k, at) for k in range(len(lights)) for at in bands.bands(len(x_C), 1)])
     return d, E

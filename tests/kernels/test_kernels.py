@@ -25,8 +25,8 @@ from lpcal.surface import bounce, distance, field, gloss, normals
 from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
-from lpcal.view.coarse import LightTable, RoomPrior
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.coarse import LightTable, RoomPrior, coarse_of
+from lpcal.view.sight import Grey, Lit, Sight
 
 PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
 
@@ -296,16 +296,23 @@ def cluster(rng: np.random.Generator) -> Array:
     axes = led_cluster.led_axes(19)
     x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.2 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])  # all round it, and one behind
     power = rng.uniform(0.9, 1.1, 19)
-    found = [
-        led_cluster.cluster_field(at, 0.01 * axes, axes, power, led_cluster.exponent(led_cluster.HALF_POWER_RAD)) for at in (x_L, x_L[:5])
-    ]
+    m = led_cluster.exponent(led_cluster.HALF_POWER_RAD)
+    found = [led_cluster.cluster_field(at, 0.01 * axes, axes, power, m) for at in (x_L, x_L[:5])]
     return np.concatenate([each.ravel() for d, E in found for each in (d, np.log(np.maximum(E, 1e-280)) / 600)])
+
+
+def cluster_single(rng: np.random.Generator) -> Array:
+    axes = led_cluster.led_axes(19)
+    x_L = rng.normal(size=(997, 3)) * [0.2, 0.2, 0.1] + [0, 0, 0.4]
+    m = led_cluster.exponent(led_cluster.HALF_POWER_RAD)
+    d, E = led_cluster.cluster_field(x_L, 0.01 * axes, axes, rng.uniform(0.9, 1.1, 19), m, single=True)
+    return np.concatenate([d.ravel(), np.log(E + 1e-3)])  # of the light, not of the brightest: log
 
 
 def cluster_slope(rng: np.random.Generator) -> Array:
     axes = led_cluster.led_axes(19)
     x_L = np.concatenate([rng.normal(size=(997, 3)) * 0.05 + [0, 0, 0.3], [[0.2, 0.1, -0.3]]])
-    return led_cluster.cluster_slope(x_L, np.array([0.1, 0.0, -0.05]), 0.01 * axes, axes, rng.uniform(0.9, 1.1, 19), 40.0).ravel()
+    return led_cluster.cluster_slope(x_L, 0.01 * axes, axes, rng.uniform(0.9, 1.1, 19), 40.0).ravel()
 
 
 def undistort(rng: np.random.Generator) -> Array:
@@ -336,6 +343,14 @@ def distort(rng: np.random.Generator) -> Array:
 def trees(rng: np.random.Generator) -> Array:
     judges = background.Judge.fitted()
     return np.concatenate([one.log_odds({name: 2 * rng.normal(size=500) for name in one.clues}) for one in (judges.own, judges.context)])
+
+
+def blocks(rng: np.random.Generator) -> Array:
+    shape = (3, 45, 61)
+    signal, sigma = rng.random(shape, np.float32), 0.1 + rng.random(shape, np.float32)
+    maps = Grey(signal, sigma, rng.random(shape) > 0.02)
+    images = [coarse_of(maps, rng.random((*shape[1:], 3)), factor) for factor in (1, 4)]
+    return np.concatenate([each.ravel() for one in images for each in (one.signal, one.sigma, one.usable, one.rays_C)])
 
 
 CASES: dict[Callable, tuple[float, set[str]]] = {
@@ -375,7 +390,9 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),
     undistort: (0.0, {"distort", "undistort"}),
-    cluster_slope: (1e-12, {"cluster_slope"}),
+    cluster_single: (1e-5, {"cluster_single"}),
+    cluster_slope: (1e-5, {"cluster_slope"}),
+    blocks: (0.0, {"blocks", "block_means"}),
     solved: (1e-8, {"multigrid"}),
     integrated: (1e-4, {"integrated", "steps"}),
 }
