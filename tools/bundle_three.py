@@ -1,4 +1,4 @@
-"""Bundles the parts of three.js that lpcal's pages call into lpcal/report/templates/three.min.js.
+"""Bundles the parts of three.js that lpcal's pages call into lpcal/report/templates/three.min.js.zlib.
 
 three and esbuild come by npm in these versions, into a folder that is thrown away. Nothing of this runs when lpcal is built, installed or
 used: the file it makes is kept in the repository. The licence of three.js (MIT) stands in NOTICE and at the file's head.
@@ -10,13 +10,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
 from pathlib import Path
 
 THREE = "0.187.0"
 """Version of three.js: the newest when this was written."""
 ESBUILD = "0.28.2"
 """Version of the bundler."""
-TARGET = Path(__file__).parents[1] / "lpcal" / "report" / "templates" / "three.min.js"
+TARGET = Path(__file__).parents[1] / "lpcal" / "report" / "templates" / "three.min.js.zlib"
 PARTS = {
     "three": (
         "BufferAttribute BufferGeometry Color DataTexture DoubleSide FloatType Frustum GLSL3 Group HalfFloatType LinearFilter "
@@ -50,7 +51,8 @@ def main() -> int:
         (home / "parts.js").write_text("\n".join(parts), encoding="utf-8")
         esbuild = home / "node_modules" / ".bin" / "esbuild"
         subprocess.run([esbuild, "parts.js", *WORDS.split()], cwd=home, check=True, stderr=subprocess.DEVNULL)
-        TARGET.write_text(HEAD + (home / "three.js").read_text(encoding="utf-8"), encoding="utf-8")
+        source = HEAD + (home / "three.js").read_text(encoding="utf-8")
+        TARGET.write_bytes(zlib.compress(source.encode(), 9))  # as the pages hold it: deflating it takes longer than all else in a page
     print(f"{TARGET.name}: three.js {THREE}, {TARGET.stat().st_size} bytes")
     return 0
 

@@ -140,7 +140,9 @@ def example(scene: Path, folds: Path | None) -> list[Example]:
     of_object = block_means(seen.true.astype(float), view.image.factor)
     planes = flats.find(view.image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
-    return of_labels(scene.name, view, (labels, found.planes, cost), of_object, outline.levels_of(view.image, seen.room))
+    return of_labels(
+        scene.name, view, (labels, found.planes, cost), of_object, outline.levels_of(view.image.maps, seen.room, view.image.factor)
+    )
 
 
 def of_labels(

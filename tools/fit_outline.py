@@ -71,7 +71,7 @@ def example(scene: Path, judge: background.Judge | None = None) -> Example:
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
     share = block_means(seen.true.astype(float), image.factor)
     first = background.judged(view, labels, found.planes, cost, judge)
-    judged = background.in_context(first, view, labels, *outline.levels_of(image, seen.room), judge)
+    judged = background.in_context(first, view, labels, *outline.levels_of(image.maps, seen.room, image.factor), judge)
     coarse = iou(judged.mask, share > 0.5)
     of_outline, fine = [], 0.0
     if judged.mask.any():

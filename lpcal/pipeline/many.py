@@ -70,7 +70,7 @@ def do(job: Job, progress: Progress = silent) -> Done:
         stands = None if job.anew else standing(job.task, job.calibration_path, job.wishes)
         if stands is not None:
             return Done("up to date", stands, picture=_picture(job))
-        calibration = _calibration(job.calibration_path, job.calibration_path.stat().st_mtime_ns)
+        calibration = _calibration(job.calibration_path, _changed_ns(job.calibration_path))
         document = reconstruct_one(job.task, calibration, job.calibration_path, job.wishes, progress)
         return Done("done", document, picture=_picture(job))
     except LpcalError as error:
@@ -89,6 +89,11 @@ def do(job: Job, progress: Progress = silent) -> Done:
 
 def _refused(error: LpcalError) -> Done:
     return Done("failed", error=error, exit_code=error.exit_code)
+
+
+def _changed_ns(path: Path) -> int:
+    """When a file was last changed; 0 of one that is not there, which is said when it is read."""
+    return path.stat().st_mtime_ns if path.is_file() else 0
 
 
 @lru_cache(maxsize=2)
@@ -125,7 +130,9 @@ def reconstruct_all(
     root = tasks[0].target.parent if len(tasks) > 1 else None
     if root is not None:
         COLLECTION.refuse(root)
-    read_calibration(calibration_path).with_lights()  # once here: what is wrong with it is wrong with every capture
+    _calibration(
+        calibration_path, _changed_ns(calibration_path)
+    ).with_lights()  # once here: what is wrong with it is wrong with every capture
     if engine is not None and len(tasks) > 1:
         wishes = replace(wishes, jobs=1)  # a core a capture
     jobs = [Job(task, calibration_path, of_rig(wishes, workspace, task, calibration_path), anew, root is not None) for task in tasks]

@@ -268,7 +268,7 @@ class Light(Shown):
         return d_C, irradiance[..., None] * self.intensity
 
     def unit_field(self, x_C: Array, *, single: bool = False) -> tuple[Array, Array]:
-        """As `field`, the irradiance (...) a unit of intensity; `single`: LEDs are summed in single precision, right to 1e-5 of the light."""
+        """As `field`, the irradiance (...) a unit of intensity; `single`: LEDs in single precision, right to 1e-5 of the light."""
         if self.source_C is None or self.axis_C is None:
             return np.broadcast_to(self.direction_C, x_C.shape), np.broadcast_to(1.0, x_C.shape[:-1])
         if self.lobe.leds is not None and self.H_CL is not None:

@@ -24,7 +24,7 @@ def png(pixels: npt.NDArray[np.uint8]) -> bytes:
     from PIL import Image as Pillow
 
     stored = io.BytesIO()
-    Pillow.fromarray(pixels).save(stored, "png", optimize=True)
+    Pillow.fromarray(pixels).save(stored, "png")
     return stored.getvalue()
 
 

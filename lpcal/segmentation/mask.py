@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.regions import View
-from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of
+from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
 COARSE_PIXELS = 5200
@@ -161,7 +161,7 @@ def _by_layers(
     labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
-    judged = background.in_context(judged, view, labels, *outline.levels_of(image, room))
+    judged = background.in_context(judged, view, labels, *outline.levels_of(image.maps, room, image.factor))
     alone = judged.mask.sum() < LEAST_OF_IMAGE * judged.mask.size
     if alone:
         judged = background.all_of(judged, image.image(lit))
@@ -254,8 +254,7 @@ def _picture(maps: Grey) -> Image:
 def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
     """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
     f = factor_of(maps, MEDIUM_PIXELS)
-    image = coarse_of(maps, rays_C, f)
-    return image.maps, image.image(image.rays_C), f
+    return *joined(maps, rays_C, f), f
 
 
 def _otsu(values: Image) -> float:

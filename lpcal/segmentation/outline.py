@@ -25,8 +25,8 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import cut, layers, planes
 from lpcal.segmentation.context import MOST, level, likeness
-from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of
-from lpcal.view.sight import Grey, Indices, look_at, second, strength
+from lpcal.view.coarse import Coarse, LightTable, factor_of, joined
+from lpcal.view.sight import Grey, Indices, Sight, look_at, second, strength
 
 WITH_ROOM = {"": -0.0715, "layers": 0.163, "odds": 0.158, "lights": 0.134, "room": 0.279, "odds, dim": 0.526}
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
@@ -140,40 +140,45 @@ def factors(coarse: int) -> Iterator[tuple[int, int]]:
 
 def asked(apart: Apart, maps: Grey, rays_C: Array, room: Image | None, mask: Mask, before: int, factor: int) -> Level:
     """What is judged at a scale of `factor` pixels, by the mask of the scale of `before` pixels."""
-    here, coarse = coarse_of(maps, rays_C, factor), apart.image.factor
-    mask = enlarged(mask, before / factor, here.shape)
+    (here, rays_C), coarse = joined(maps, rays_C, factor), apart.image.factor
+    shape = rays_C.shape[:2]
+    mask = enlarged(mask, before / factor, shape)
     by = int(np.ceil(BAND * before / factor))
-    dim = np.zeros(here.shape, bool) if room is None else enlarged(apart.dim, coarse / factor, here.shape)
+    dim = np.zeros(shape, bool) if room is None else enlarged(apart.dim, coarse / factor, shape)
     inside = raster.shrunk(mask, by, beyond=True)
     band = dim | (raster.grown(mask, by) & ~inside)
     rows, columns = apart.mask.shape
     row, column = np.nonzero(band)
     parent = np.minimum(row * factor // coarse, rows - 1) * columns + np.minimum(column * factor // coarse, columns - 1)
-    bright, light = levels_of(here, room)
+    bright, light = levels_of(here, room, factor)
     pictures = {"lights": bright} if light is None else {"lights": bright, "room": light}
     edge = max(1, by // 2)
     sides = raster.shrunk(mask, edge, beyond=True) & ~dim, ~(raster.grown(mask, edge) | dim)
     like = dict(zip(pictures, likeness(list(pictures.values()), *sides, by, band), strict=True))
     odds, lit = apart.log_odds.ravel()[parent], ~dim[band]
-    clues = {"": np.ones(len(row)), "layers": lit * _by_layers(apart, here, band.ravel(), parent), "odds": lit * odds}
+    clues = {
+        "": np.ones(len(row)),
+        "layers": lit * _by_layers(apart, look_at(here, rays_C, band, central=True), parent),
+        "odds": lit * odds,
+    }
     clues |= {"lights": lit * like["lights"]}
     if room is not None:
         clues |= {"room": like["room"], "odds, dim": ~lit * odds}
     return Level(inside, band, clues, bright)
 
 
-def levels_of(image: Coarse, room: Image | None) -> tuple[Image, Image | None]:
-    """Logarithms (rows, columns) of the lights' brightness, and of the image without lights (H, W), where there is one."""
-    bright = strength(image.maps)
+def levels_of(maps: Grey, room: Image | None, factor: int) -> tuple[Image, Image | None]:
+    """Logarithms (h, w) of the brightness of maps of `factor` pixels, and of the image without lights (H, W), where there is one."""
+    bright = strength(maps)
     return (
         level(bright, DARKEST * float(np.percentile(bright, 99))),
-        None if room is None else level(np.asarray(raster.block_means(room, image.factor), np.float32), DIMMEST * float(np.median(room))),
+        None if room is None else level(np.asarray(raster.block_means(room, factor), np.float32), DIMMEST * float(np.median(room))),
     )
 
 
-def _by_layers(apart: Apart, here: Coarse, band: Mask, parent: Indices) -> Array:
-    """The log likelihood ratio (N,) of pixels of a band (P,), in coarse pixels `parent` (N,), by the layers near them on either side."""
-    at = layers.Pixels(here.signal[:, band], here.sigma[:, band], here.usable[:, band], here.rays_C[band], parent)
+def _by_layers(apart: Apart, band: Sight, parent: Indices) -> Array:
+    """The log likelihood ratio (N,) of pixels of a band, in coarse pixels `parent` (N,), by the layers near them on either side."""
+    at = layers.Pixels(band.signal, band.sigma, band.usable, band.rays_C, parent)
     cost = layers.costs(apart.found, at, apart.table, np.full(len(parent), apart.u_free))
     own, rest = (np.where(near[:, parent], cost, np.inf).min(axis=0) for near in apart.near)
     return np.clip((rest - own) / 2, -MOST, MOST)
@@ -192,18 +197,18 @@ def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
 def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, found: Sequence[planes.Plane]) -> Mask:
     """Openings (H, W) in a mask (H, W), which show one of the planes `found` of the background."""
     factor = factor_of(maps, PIXELS)
-    image = coarse_of(maps, rays_C, factor)
-    rows, columns = image.shape
+    here, rays_C = joined(maps, rays_C, factor)
+    rows, columns = rays_C.shape[:2]
     inside = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3)) > 0.5
     shown = np.zeros(inside.shape, bool)
     if not inside.any() or inside.all():
         return np.zeros(mask.shape, bool)
-    like = [_like(image.maps, image.image(image.rays_C), lights, inside, plane) for plane in found]
-    for candidates in (*like, _dim(strength(image.maps), inside)):
+    like = [_like(here, rays_C, lights, inside, plane) for plane in found]
+    for candidates in (*like, _dim(strength(here), inside)):
         label, count = raster.labelled(candidates)
         for one in range(1, count + 1):
             region = label == one
-            if region.sum() >= SMALLEST * inside.sum() and _step(image.image(image.signal.T), region, inside) > STEP:
+            if region.sum() >= SMALLEST * inside.sum() and _step(np.moveaxis(here.signal, 0, -1), region, inside) > STEP:
                 shown |= region
     return np.asarray(mask & np.kron(np.pad(shown, ((0, 1), (0, 1))), np.ones((factor, factor), bool))[: mask.shape[0], : mask.shape[1]])
 
@@ -239,7 +244,7 @@ def _albedo(signal: Array, m: Array) -> Array:
     return second(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), -np.inf))
 
 
-def _step(signal: Array, region: Mask, inside: Mask) -> float:
+def _step(signal: Image, region: Mask, inside: Mask) -> float:
     """The step of the signals (H, W, L) across a region's rim that most of the rim exceeds; 0 where the region fills the mask."""
     deep, far = raster.away(~region), raster.away(region)
     within, around = (deep >= INSIDE[0]) & (deep < INSIDE[1]), (far >= OUTSIDE[0]) & (far < OUTSIDE[1]) & inside

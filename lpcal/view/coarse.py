@@ -103,6 +103,14 @@ def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
     )
 
 
+def joined(maps: Grey, rays_C: Array, factor: int) -> tuple[Grey, Array]:
+    """The maps and rays (H, W, 3) with blocks of factor x factor pixels joined; single pixels as they are."""
+    if factor == 1:
+        return maps, rays_C
+    image = coarse_of(maps, rays_C, factor)
+    return image.maps, image.image(image.rays_C)
+
+
 def _joined_by(run: Callable[..., None], maps: Grey, rays_C: Array, factor: int) -> Coarse:
     """The same by kernels."""
     (L, height, width), average = maps.signal.shape, kernel("block_means")
