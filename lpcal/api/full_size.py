@@ -80,7 +80,15 @@ class BinnedCamera(Camera):
 
     def unproject(self, pixels: Array) -> Array:
         """Unit rays (..., 3) of pixels (..., 2)."""
-        return super().unproject(self.factor * np.asarray(pixels) + (self.factor - 1) / 2)
+        return super().unproject(self._whole(pixels))
+
+    def slopes(self, pixels: Array) -> Array:
+        """x / z and y / z (..., 2) of the rays of pixels (..., 2)."""
+        return super().slopes(self._whole(pixels))
+
+    def _whole(self, pixels: Array) -> Array:
+        """Pixels (..., 2) in those of the other camera."""
+        return self.factor * np.asarray(pixels) + (self.factor - 1) / 2
 
 
 def coarse_calibration(calibration: Calibration, factor: int) -> Calibration:

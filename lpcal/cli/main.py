@@ -60,7 +60,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 BUG = 1
 USAGE = 2
-YOUNG_OBJECTS = 100_000
+YOUNG_OBJECTS = 300_000
 """New objects after which unreachable cycles are looked for: Python's 2,000 have it look a hundred times while modules are imported."""
 
 

@@ -28,10 +28,14 @@ def project(x_C: Array, K: Array, distortion: Array) -> Array:
 
 def unproject(pixels: Array, K: Array, distortion: Array) -> Array:
     """Unit rays u_C (..., 3) of pixels (..., 2)."""
-    plane_d = (np.asarray(pixels, dtype=float) - [K[0, 2], K[1, 2]]) / [K[0, 0], K[1, 1]]
-    plane = undistort(plane_d, distortion)
+    plane = plane_of(pixels, K, distortion)
     ray_C = np.concatenate([plane, np.ones_like(plane[..., :1])], axis=-1)
     return np.asarray(ray_C / np.linalg.norm(ray_C, axis=-1, keepdims=True))
+
+
+def plane_of(pixels: Array, K: Array, distortion: Array) -> Array:
+    """Plane coordinates (..., 2) of pixels (..., 2), undistorted."""
+    return undistort((np.asarray(pixels, dtype=float) - [K[0, 2], K[1, 2]]) / [K[0, 0], K[1, 1]], distortion)
 
 
 def distort(plane: Array, distortion: Array) -> Array:

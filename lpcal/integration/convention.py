@@ -87,8 +87,11 @@ def mirrored(normals_C: Image, mask: Mask, rays_C: Array) -> bool:
     """Whether normals (H, W, 3) along rays (H, W, 3) are clearly those of a surface with one axis turned over, and not as they are."""
     if not mask.any():
         return False
-    as_is, turned = (curl(one, mask, rays_C) for one in (normals_C, normals_C * np.array([1, -1, 1], np.float32)))
-    return _tells(turned) and not _tells(as_is) and as_is.likeness < -CLEAR
+    box = tuple(slice(max(at.min() - 1, 0), at.max() + 2) for at in np.nonzero(mask))  # with the neighbours that rays' steps ask for
+    normals_C, mask, rays_C = normals_C[box], mask[box], rays_C[box]
+    if (as_is := curl(normals_C, mask, rays_C)).likeness >= -CLEAR or _tells(as_is):
+        return False
+    return _tells(curl(normals_C * np.array([1, -1, 1], np.float32), mask, rays_C))
 
 
 def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:

@@ -29,29 +29,58 @@ static bool holds(const double y[3], int64_t height, int64_t width, const double
 }
 
 #define TOGETHER 8
+#define WHOLE_SINGLE 12582912.0f /* the same for singles */
 
-/* Whether the surface stands between two points, tried at so many places, TOGETHER of them at a time: `holds` of each, bit by bit. */
-static bool stands_between(const double from[3], const double to[3], int64_t steps, int64_t height, int64_t width, const double *front,
-                           const double *pixel_of_ray, double tolerance, double thickness) {
-    const double *c = pixel_of_ray, last = (double)steps - 0.5, wide = (double)width, high = (double)height;
-    double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-    for (int64_t first = 0; first < steps; first += TOGETHER) {
-        double begin = (double)first + 0.5, depth[TOGETHER], place[TOGETHER], found = 0.0;
+/* The body in single precision: how many places are tried of a way, and where a ray meets the image. */
+typedef struct {
+    int64_t steps, width;
+    const double *front;
+    float column[6], row[6], wide, high, each;
+    double least, most; /* depths of what lies in it, as shares of the front's */
+} Body;
+
+static Body body_of(int64_t steps, int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
+                    double thickness) {
+    Body body = {.steps = steps, .width = width, .front = front, .wide = (float)width, .high = (float)height, .each = 1.0f / (float)steps};
+    body.least = 1.0 + tolerance;
+    body.most = 1.0 + thickness;
+    for (int i = 0; i < 6; i++) {
+        body.column[i] = (float)pixel_of_ray[2 * i];
+        body.row[i] = (float)pixel_of_ray[2 * i + 1];
+    }
+    return body;
+}
+
+/* Whether the surface stands between two points, TOGETHER places at a time: `holds` of each, but that its pixel is found in single precision,
+   to some 1e-4 of a pixel. */
+static inline bool stands_between(const Body *body, const double from[3], const double to[3]) {
+    const float *x = body->column, *y = body->row;
+    float begin[3], way[3];
+    for (int i = 0; i < 3; i++) {
+        begin[i] = (float)from[i];
+        way[i] = (float)(to[i] - from[i]);
+    }
+    for (int64_t first = 0; first < body->steps; first += TOGETHER) {
+        float depth[TOGETHER], across[TOGETHER], down[TOGETHER], at = (float)first + 0.5f;
+        int32_t inside[TOGETHER], any = 0;
+        bool found = false;
         for (int j = 0; j < TOGETHER; j++) {
-            double at = begin + (double)j, share = (at < last ? at : last) / (double)steps;
-            double z = from[2] + share * way[2], a = (from[0] + share * way[0]) / z, b = (from[1] + share * way[1]) / z;
-            double aa = a * a, ab = a * b, bb = b * b;
-            double column = c[0] + a * c[2] + b * c[4] + aa * c[6] + ab * c[8] + bb * c[10] + WHOLE - WHOLE;
-            double row = c[1] + a * c[3] + b * c[5] + aa * c[7] + ab * c[9] + bb * c[11] + WHOLE - WHOLE;
-            bool inside = (column >= 0.0) & (row >= 0.0) & (column < wide) & (row < high);
-            place[j] = inside ? row * wide + column : -1.0;
+            float share = (at + (float)j) * body->each, z = begin[2] + share * way[2], by = 1.0f / z;
+            float a = (begin[0] + share * way[0]) * by, b = (begin[1] + share * way[1]) * by;
+            float column = x[0] + a * (x[1] + a * x[3] + b * x[4]) + b * (x[2] + b * x[5]) + WHOLE_SINGLE - WHOLE_SINGLE;
+            float row = y[0] + a * (y[1] + a * y[3] + b * y[4]) + b * (y[2] + b * y[5]) + WHOLE_SINGLE - WHOLE_SINGLE;
+            inside[j] = (column >= 0.0f) & (row >= 0.0f) & (column < body->wide) & (row < body->high) & (share < 1.0f);
+            across[j] = column;
+            down[j] = row;
             depth[j] = z;
+            any |= inside[j];
         }
-        for (int j = 0; j < TOGETHER; j++) {
-            double deep = place[j] < 0.0 ? -1.0 : depth[j] / front[(int64_t)place[j]] - 1.0;
-            found += deep > tolerance && deep < thickness ? 1.0 : 0.0;
+        for (int j = 0; any && j < TOGETHER; j++) {
+            if (!inside[j]) continue;
+            double there = body->front[(int64_t)down[j] * body->width + (int64_t)across[j]], z = (double)depth[j];
+            found |= z > body->least * there && z < body->most * there;
         }
-        if (found > 0.0) return true;
+        if (found) return true;
     }
     return false;
 }
@@ -63,8 +92,8 @@ KERNEL void lpcal_behind(int64_t count, const double *y, int64_t height, int64_t
 
 KERNEL void lpcal_hidden(int64_t count, const double *from, const double *to, int64_t steps, int64_t height, int64_t width,
                          const double *front, const double *pixel_of_ray, double tolerance, double thickness, bool *found) {
-    for (int64_t p = 0; p < count; p++)
-        found[p] = stands_between(from + 3 * p, to + 3 * p, steps, height, width, front, pixel_of_ray, tolerance, thickness);
+    Body body = body_of(steps, height, width, front, pixel_of_ray, tolerance, thickness);
+    for (int64_t p = 0; p < count; p++) found[p] = stands_between(&body, from + 3 * p, to + 3 * p);
 }
 
 #define SOME 64
@@ -100,6 +129,7 @@ KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const 
                            const double *front, const double *pixel_of_ray, int64_t steps, double tolerance, double thickness, double grazing,
                            double off, int64_t first, int64_t last) {
     Facing of = {{other_x, other_x + others, other_x + 2 * others}, {other_n, other_n + others, other_n + 2 * others}};
+    Body body = body_of(steps, height, width, front, pixel_of_ray, tolerance, thickness);
     for (int64_t p = first; p < last; p++)
         for (int64_t begin = 0; begin < others; begin += SOME) {
             const double *here = x + 3 * p;
@@ -113,7 +143,7 @@ KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const 
                     from[i] = here[i] + share * way[i];
                     to[i] = there[i] - share * way[i];
                 }
-                if (stands_between(from, to, steps, height, width, front, pixel_of_ray, tolerance, thickness)) continue;
+                if (stands_between(&body, from, to)) continue;
                 double leaving = -(way[0] * of.n[0][q] + way[1] * of.n[1][q] + way[2] * of.n[2][q]);
                 double factor = leaving * area[q] / ((PI * square + area[q]) * square); /* the way's length is in it twice */
                 for (int i = 0; i < 3; i++) way[i] *= factor;

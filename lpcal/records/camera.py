@@ -115,6 +115,13 @@ class Camera(Shown):
             return lens_models.unproject(pixels, self.lensmodel, self.spline)
         return central.unproject(pixels, self.K, self.distortion)
 
+    def slopes(self, pixels: Array) -> Array:
+        """x / z and y / z (..., 2) of the rays of pixels (..., 2)."""
+        if self.spline is None:
+            return central.plane_of(pixels, self.K, self.distortion)
+        u_C: Array = lens_models.unproject(pixels, self.lensmodel, self.spline)
+        return u_C[..., :2] / u_C[..., 2:]
+
     def projection_jacobian(self, x_C: Array) -> Array:
         """Derivative (..., 2, 3) of `project` by x_C (..., 3)."""
         if self.spline is not None:

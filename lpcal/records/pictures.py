@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import base64
 import html
-import io
+import struct
+import zlib
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -13,6 +14,8 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.surface import Surface
 
+PNG, ABOVE = b"\x89PNG\r\n\x1a\n", 2
+"""How a PNG begins, and its name for rows that are stored as what they differ by from the one above."""
 WIDTH_PX = 320
 """Width of a picture on a notebook's page, in its pixels: two stand side by side."""
 MARGIN = 0.15
@@ -20,12 +23,15 @@ MARGIN = 0.15
 
 
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """Pixels (H, W), (H, W, 3) or (H, W, 4) as a PNG file's content."""
-    from PIL import Image as Pillow
-
-    stored = io.BytesIO()
-    Pillow.fromarray(pixels).save(stored, "png")
-    return stored.getvalue()
+    """Pixels (H, W), (H, W, 3) or (H, W, 4) as a PNG file's content: each row as what it differs by from the one above it."""
+    height, width = pixels.shape[:2]
+    colours = {1: 0, 3: 2, 4: 6}[pixels[0, :1].size]
+    rows = pixels.reshape(height, -1)
+    stored = np.full((height, rows.shape[1] + 1), ABOVE, np.uint8)
+    stored[:, 1:] = np.diff(rows, axis=0, prepend=np.uint8(0))
+    head = struct.pack(">IIBBBBB", width, height, 8, colours, 0, 0, 0)
+    chunks = (b"IHDR" + head, b"IDAT" + zlib.compress(stored.tobytes()), b"IEND")
+    return PNG + b"".join(struct.pack(">I", len(one) - 4) + one + struct.pack(">I", zlib.crc32(one)) for one in chunks)
 
 
 def data_uri(content: bytes, media: str = "image/png") -> str:

@@ -131,7 +131,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     pad = int(np.ceil(BEYOND * max(seen.mask.shape) / size)) * size
     rays_C, beyond = _rays_beyond(seen, pad), _goes_on(image, of_plane, pad)
     block = _blocks((seen.mask.shape[0] + 2 * pad, seen.mask.shape[1] + 2 * pad), size)
-    blank = np.zeros((len(lights), len(rays_C)))
+    blank = np.zeros((0, len(rays_C)))
     unseen = []
     for k, plane in enumerate(found):
         inside = (beyond == k) & _within_reach(rays_C @ plane.q, seen.rays_C[of_plane == k] @ plane.q)
@@ -229,7 +229,7 @@ def _of_plane(rays_C: Array, signal: Array, q: Array, inside: Mask, block: Indic
 
     def joined(values: Array) -> Array:
         """Means (C, Q) by area of values (C, N)."""
-        return np.stack([np.bincount(of_block, area * one) for one in values]) / total
+        return np.array([np.bincount(of_block, area * one) for one in values]).reshape(-1, len(total)) / total
 
     x_C = joined((depth[:, None] * rays).T).T
     return Patches(x_C, np.broadcast_to(-unit, x_C.shape), total, joined(np.maximum(signal[:, inside], 0)))

@@ -152,14 +152,14 @@ class LightTable:
         def spread(values: Array, order: Literal[1, 3]) -> Array:
             """Values (lattice, N) at the pixels (P, N): splines of this order down and across."""
             sides = zip(LATTICE, image.shape, box, strict=True)
-            by_row, by_column = (_spline(nodes, side, order)[some] for nodes, side, some in sides)
+            by_row, by_column = (_spline(nodes, side, order)[some].astype(np.float32) for nodes, side, some in sides)
             found = np.empty((len(by_row), len(by_column), values[0, 0].size), np.float32)
-            lattice = values.reshape(LATTICE[0], -1)
-            for row, weights in zip(found, by_row, strict=True):  # in doubles a row at a time: they are many
-                row[...] = by_column @ (weights @ lattice).reshape(LATTICE[1], -1)
+            lattice = values.astype(np.float32).reshape(LATTICE[0], -1)
+            for row, weights in zip(found, by_row, strict=True):
+                np.matmul(by_column, (weights @ lattice).reshape(LATTICE[1], -1), out=row)
             return found.reshape(-1, *values.shape[2:])
 
-        of_lattice = np.ascontiguousarray(np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4))
+        of_lattice = np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4)
         return LightTable(float(u[0]), float(u[1] - u[0]), spread(of_lattice, 3), spread(np.moveaxis(doubt, (2, 3, 1, 0), (0, 1, 2, 3)), 1))
 
     @property

@@ -214,20 +214,16 @@ def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
     """Rays (N, 3) of length 1 in z of pixels (N, 2); without a camera all (0, 0, 1)."""
     if camera is None:
         return np.tile([0.0, 0.0, 1.0], (len(pixels), 1))
-    unit_C = camera.unproject(pixels.astype(float))
-    return np.asarray(unit_C / unit_C[:, 2:])
+    rays_C = np.ones((len(pixels), 3))
+    rays_C[:, :2] = camera.slopes(pixels.astype(float))
+    return rays_C
 
 
 def look_at(maps: Grey, rays_C: Array, mask: Mask, *, central: bool) -> Sight:
     """The pixels of a mask as lists."""
-    return Sight(
-        mask,
-        rays_C[mask],
-        maps.signal[:, mask].astype(float),
-        maps.sigma[:, mask].astype(float),
-        maps.usable[:, mask],
-        central,
-    )
+    at = np.flatnonzero(mask)
+    signal, sigma = (values.reshape(len(values), -1)[:, at].astype(float) for values in (maps.signal, maps.sigma))
+    return Sight(mask, rays_C.reshape(-1, 3)[at], signal, sigma, maps.usable.reshape(len(signal), -1)[:, at], central)
 
 
 def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = None) -> tuple[Array, Array]:
