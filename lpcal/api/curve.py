@@ -142,7 +142,8 @@ def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed:
             linear = linear - np.mean((decode(room, curve) - dark) / raw.ambient_exposure_s[:, None, None], axis=0)
         return np.clip(linear.mean(axis=2), 0, None)
 
-    usable = ~over_white(raw.images, sensor, raw.step).reshape(len(channels), -1)[:, places]
+    shown = channels.reshape(len(channels), 1, -1, channels.shape[3])[:, :, places]
+    usable = ~over_white(shown, sensor, raw.step)[:, 0]
     rays_C = rays_at(np.stack(np.unravel_index(places, mean.shape)[::-1], axis=1), calibration.camera)
     direction, irradiance = light_vectors(lights, (calibration.d_object_m or 0.35) * rays_C)
     strength = irradiance * np.array([[one.intensity.mean()] for one in lights])

@@ -224,8 +224,9 @@ def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop |
     plain = to_radiance(raw, sensor)
     found = with_short_exposures(plain, raw, sensor)
     notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor))
-    found = replace(found, notes=notes, mask=found.mask if use_mask else None)
-    return found if part is None else part.radiance(found)
+    whole = [replace(found, notes=notes, mask=found.mask if use_mask else None)]
+    del plain, found  # a large capture's maps go as their parts are taken
+    return whole.pop() if part is None else part.radiance(whole.pop())
 
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:

@@ -79,9 +79,8 @@ def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
     """
     if raw.ambient is None:
         return
-    axes = tuple(range(1, raw.images.ndim))
-    lit = sensor.linear(raw.images).mean(axis=axes) / raw.exposure_s
-    ambient = sensor.linear(raw.ambient).mean(axis=axes) / raw.ambient_exposure_s
+    images = ((raw.images, raw.exposure_s), (raw.ambient, raw.ambient_exposure_s))
+    lit, ambient = (np.array([sensor.linear(image).mean() for image in some]) / exposure_s for some, exposure_s in images)
     if ambient.min() > 0 and lit.max() < BRIGHTER * ambient.min():
         raise DisagreementError(
             f"the ambient image is brighter than the lit ones: {100 * ambient.min() / lit.max():.0f} % of the brightest of them",

@@ -124,8 +124,16 @@ def _unit_exposure(raw: RawCapture, sensor: Sensor, linear: Image, noise: tuple[
         ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
     sigma = np.empty(linear.shape, np.float32)
     for lit, std, exposure in zip(linear, sigma, raw.exposure_s.astype(np.float32), strict=True):
-        std[...] = np.sqrt(_variance(lit, noise) / exposure**2 + ambient_variance) / response
-        lit[...] = (lit / exposure - ambient) / response
+        np.maximum(lit, 0.0, out=std)  # the variance as `_variance` has it, and its root, in place: an image fills a core's cache
+        std *= np.float32(noise[1])
+        std += np.float32(noise[0])
+        std /= exposure**2
+        std += ambient_variance
+        np.sqrt(std, out=std)
+        std /= response
+        lit /= exposure
+        lit -= ambient
+        lit /= response
     return sigma, ambient
 
 

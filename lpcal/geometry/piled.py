@@ -28,7 +28,7 @@ def piled_level(images: Image, white_level: float, step: float) -> float | None:
     top = float(images.max())
     if top <= 0 or top >= white_level - 1.5 * step:
         return None
-    values, counts = np.unique(images[images > NEAR_TOP * top], return_counts=True)
+    values, counts = np.unique(np.concatenate([image[image > NEAR_TOP * top] for image in images]), return_counts=True)
     return piled(values, counts, white_level, step)
 
 

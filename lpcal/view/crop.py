@@ -39,13 +39,19 @@ class Crop:
         return maps[self.rows, self.columns]
 
     def radiance(self, whole: Radiance) -> Radiance:
-        """The part of a capture: copies, so that nothing holds the rest."""
-        signal, sigma, saturated = (np.stack([self.of(image) for image in maps]) for maps in (whole.signal, whole.sigma, whole.saturated))
-        short = {light: self.of(image).copy() for light, image in whole.short.items()}
-        mask = None if whole.mask is None else self.of(whole.mask)
-        return replace(
-            whole, signal=signal, sigma=sigma, saturated=saturated, ambient=self.of(whole.ambient).copy(), short=short, mask=mask
-        )
+        """The part of a capture: copies, one after the other, so that nothing holds the rest."""
+        part = whole
+        del whole  # where the caller does not hold it either, each map goes once its part is there
+        part = replace(part, saturated=self._copies(part.saturated))
+        part = replace(part, signal=self._copies(part.signal))
+        part = replace(part, sigma=self._copies(part.sigma))
+        short = {light: self.of(image).copy() for light, image in part.short.items()}
+        mask = None if part.mask is None else self.of(part.mask)
+        return replace(part, ambient=self.of(part.ambient).copy(), short=short, mask=mask)
+
+    def _copies[T: np.generic](self, images: npt.NDArray[T]) -> npt.NDArray[T]:
+        """The part of images (L, H, W, ...)."""
+        return images[:, self.rows, self.columns].copy()
 
     def put_back(self, part: Surface) -> Surface:
         """The surface of the part in the whole picture; its rays must all be alike."""
