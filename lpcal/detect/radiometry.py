@@ -124,17 +124,24 @@ def _unit_exposure(raw: RawCapture, sensor: Sensor, linear: Image, noise: tuple[
         ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
     sigma = np.empty(linear.shape, np.float32)
     for lit, std, exposure in zip(linear, sigma, raw.exposure_s.astype(np.float32), strict=True):
-        np.maximum(lit, 0.0, out=std)  # the variance as `_variance` has it, and its root, in place: an image fills a core's cache
-        std *= np.float32(noise[1])
-        std += np.float32(noise[0])
-        std /= exposure**2
-        std += ambient_variance
-        np.sqrt(std, out=std)
-        std /= response
-        lit /= exposure
-        lit -= ambient
-        lit /= response
+        _unit_exposure_of(lit, std, exposure, noise, (ambient, ambient_variance), response)
     return sigma, ambient
+
+
+def _unit_exposure_of(
+    lit: Image, std: Image, exposure: np.float32, noise: tuple[float, float], room: tuple[Image, Image], response: Image
+) -> None:
+    """One light's linear numbers made a signal, and its sigma, each in its place: an image fills a core's cache."""
+    np.maximum(lit, 0.0, out=std)
+    std *= np.float32(noise[1])
+    std += np.float32(noise[0])
+    std /= exposure**2
+    std += room[1]
+    np.sqrt(std, out=std)
+    std /= response
+    lit /= exposure
+    lit -= room[0]
+    lit /= response
 
 
 def _refuse_black(raw: RawCapture, sensor: Sensor, linear: Image) -> None:
