@@ -11,6 +11,13 @@
 #define KERNEL
 #endif
 
+/* Before a loop of few rounds that are all alike: clang would write it out, a number at a time. */
+#if defined(__clang__)
+#define LANEWISE _Pragma("clang loop vectorize(enable) unroll(disable)")
+#else
+#define LANEWISE
+#endif
+
 static inline double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static inline void cross3(const double a[3], const double b[3], double found[3]) {

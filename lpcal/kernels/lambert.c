@@ -44,7 +44,7 @@ KERNEL void lpcal_weighted(int64_t L, int64_t P, const double *B, const double *
 typedef double Lanes[LANES];
 
 static inline void exchanged(double *restrict low, double *restrict high) {
-    for (int w = 0; w < LANES; w++) {
+    LANEWISE for (int w = 0; w < LANES; w++) {
         double one = low[w], other = high[w];
         low[w] = one < other ? one : other;
         high[w] = one < other ? other : one;
@@ -67,7 +67,7 @@ typedef struct {
 
 /* b of least squares, as `solve` has it, by the products xx xy xz yy yz zz and the right side, and the inverse. */
 static void solved(const Lanes M[6], const Lanes right[3], double singular, Lanes b[3], Lanes inverse[6]) {
-    for (int w = 0; w < LANES; w++) {
+    LANEWISE for (int w = 0; w < LANES; w++) {
         double xx = M[0][w], xy = M[1][w], xz = M[2][w], yy = M[3][w], yz = M[4][w], zz = M[5][w], trace = xx + yy + zz;
         double cofactor[6] = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy, xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
         double determinant = xx * cofactor[0] + xy * cofactor[1] + xz * cofactor[2];
@@ -113,12 +113,12 @@ static void middle_ranks(int64_t L, const Many *of, const Lanes count, double da
         high[w] = first[w] < last[w] ? of->sorted[(int64_t)last[w] - 1][w] : -INFINITY;
     }
     for (int64_t k = 0; k < L; k++)
-        for (int w = 0; w < LANES; w++) {
+        LANEWISE for (int w = 0; w < LANES; w++) {
             below_low[w] += of->value[k][w] < low[w] ? 1.0 : 0.0;
             below_high[w] += of->value[k][w] < high[w] ? 1.0 : 0.0;
         }
     for (int64_t k = 0; k < L; k++)
-        for (int w = 0; w < LANES; w++) {
+        LANEWISE for (int w = 0; w < LANES; w++) {
             double v = of->value[k][w], kept = v > low[w] && v < high[w] ? 1.0 : 0.0;
             double rank = v == low[w] ? below_low[w] : v == high[w] ? below_high[w] : -1.0;
             below_low[w] += v == low[w] ? 1.0 : 0.0;
@@ -132,7 +132,7 @@ static void middle_ranks(int64_t L, const Many *of, const Lanes count, double da
 static void spread_of(int64_t L, const Many *of, const Lanes b[3], const Lanes count, double mad, Lanes spread) {
     for (int64_t k = 0; k < L; k++) {
         const Lanes *light = of->light + 3 * k;
-        for (int w = 0; w < LANES; w++) {
+        LANEWISE for (int w = 0; w < LANES; w++) {
             double predicted = light[0][w] * b[0][w] + light[1][w] * b[1][w] + light[2][w] * b[2][w];
             double residual = fabs(of->signal[k][w] - (predicted < 0.0 ? 0.0 : predicted)); /* NaN stays NaN */
             of->value[k][w] = of->usable[k][w] > 0.0 ? residual : INFINITY;
@@ -155,7 +155,7 @@ static void judged(int64_t L, int64_t P, int64_t first, int64_t some, const Many
     for (int64_t k = 0; k < L; k++) {
         const Lanes *light = of->light + 3 * k;
         Lanes close;
-        for (int w = 0; w < LANES; w++) {
+        LANEWISE for (int w = 0; w < LANES; w++) {
             double predicted = light[0][w] * b[0][w] + light[1][w] * b[1][w] + light[2][w] * b[2][w], least = spread[w] * spread[w];
             double apart = of->signal[k][w] - (predicted < 0.0 ? 0.0 : predicted); /* NaN stays NaN */
             double square = apart * apart / (of->variance[k][w] > least ? of->variance[k][w] : least), counts = of->usable[k][w];
@@ -174,30 +174,55 @@ static void judged(int64_t L, int64_t P, int64_t first, int64_t some, const Many
     }
 }
 
+/* The rows of `Many` in a work space of 8 of them a light. */
+static Many lanes_of(int64_t L, Lanes *rows) {
+    return (Many){rows, rows + 3 * L, rows + 4 * L, rows + 5 * L, rows + 6 * L, rows + 7 * L};
+}
+
+/* What lights show LANES pixels from the first on, the last of all pixels again where there are fewer; how many samples count of each. */
+static void loaded(int64_t L, int64_t P, int64_t first, const double *B, const double *signal, const bool *usable, const double *variance,
+                   const Many *to, Lanes count) {
+    int64_t some = P - first < LANES ? P - first : LANES;
+    memset(count, 0, sizeof(Lanes));
+    for (int64_t k = 0; k < L; k++)
+        for (int w = 0; w < LANES; w++) {
+            int64_t at = k * P + first + (w < some ? w : some - 1);
+            double counts = usable[at] ? 1.0 : 0.0;
+            for (int i = 0; i < 3; i++) to->light[3 * k + i][w] = usable[at] ? B[3 * at + i] : 0.0;
+            to->signal[k][w] = usable[at] ? signal[at] : 0.0;
+            to->variance[k][w] = usable[at] ? variance[at] : 1.0;
+            to->usable[k][w] = counts;
+            count[w] += counts;
+        }
+}
+
+/* What is found of LANES pixels from the first on, into the arrays of all: as `judged`, b NaN where it is not good, and the inverse. */
+static void stated(int64_t L, int64_t P, int64_t first, const Many *of, const Lanes now[3], const Lanes inverted[6], const Lanes spread,
+                   double most, int64_t needed, double facing, const double *rays, double *b, bool *agree, double *inverse, double *chi2,
+                   double *cost) {
+    static const int place[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+    int64_t some = P - first < LANES ? P - first : LANES;
+    bool good[LANES];
+    judged(L, P, first, some, of, now, spread, most, needed, facing, rays, agree, chi2, cost, good);
+    for (int64_t w = 0; w < some; w++) {
+        for (int i = 0; i < 3; i++) b[3 * (first + w) + i] = good[w] ? now[i][w] : NAN;
+        for (int i = 0; i < 9; i++) inverse[9 * (first + w) + i] = inverted[place[i]][w];
+    }
+}
+
 /* Estimates of many lights: from the middle of their ranked shadings, then by weights in rounds: what `lpcal_few` finds of few. `work` are
    8 LANES numbers a light. Twin: surface/normals.py (_many). */
 KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
                        const double *rays, double darkest, double brightest, double mad, double scale, int64_t rounds, double most,
                        int64_t needed, double facing, double singular, double *work, double *b, bool *agree, double *inverse, double *chi2,
                        double *cost) {
-    Lanes *rows = (Lanes *)work;
     double narrow = 1.0 / (scale * scale);
-    Many of = {rows, rows + 3 * L, rows + 4 * L, rows + 5 * L, rows + 6 * L, rows + 7 * L};
+    Many of = lanes_of(L, (Lanes *)work);
     for (int64_t first = 0; first < P; first += LANES) {
-        Lanes count = {0.0}, now[3], M[6], right[3], inverted[6], middle = {0.0};
-        int64_t some = P - first < LANES ? P - first : LANES;
+        Lanes count, now[3], M[6], right[3], inverted[6], middle = {0.0};
+        loaded(L, P, first, B, signal, usable, variance, &of, count);
         for (int64_t k = 0; k < L; k++)
-            for (int w = 0; w < LANES; w++) {
-                int64_t at = k * P + first + (w < some ? w : some - 1);
-                double counts = usable[at] ? 1.0 : 0.0;
-                for (int i = 0; i < 3; i++) of.light[3 * k + i][w] = usable[at] ? B[3 * at + i] : 0.0;
-                of.signal[k][w] = usable[at] ? signal[at] : 0.0;
-                of.variance[k][w] = usable[at] ? variance[at] : 1.0;
-                of.usable[k][w] = counts;
-                count[w] += counts;
-            }
-        for (int64_t k = 0; k < L; k++)
-            for (int w = 0; w < LANES; w++) {
+            LANEWISE for (int w = 0; w < LANES; w++) {
                 double x = of.light[3 * k][w], y = of.light[3 * k + 1][w], z = of.light[3 * k + 2][w], size = sqrt(x * x + y * y + z * z);
                 of.value[k][w] = of.usable[k][w] > 0.0 ? of.signal[k][w] / (size > 1e-300 ? size : 1e-300) : INFINITY;
             }
@@ -209,7 +234,7 @@ KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *sign
         for (int64_t round = 0; round < rounds; round++) {
             spread_of(L, &of, (const Lanes *)now, count, mad, middle);
             for (int64_t k = 0; k < L; k++)
-                for (int w = 0; w < LANES; w++) {
+                LANEWISE for (int w = 0; w < LANES; w++) {
                     double least = middle[w] * middle[w], own = of.variance[k][w] > least ? of.variance[k][w] : least;
                     double residual = of.value[k][w] < INFINITY ? of.value[k][w] : 0.0, width = own + residual * residual * narrow;
                     of.sorted[k][w] = of.usable[k][w] * own / (width * width); /* 1 / own / (1 + r^2 / (scale^2 own))^2 */
@@ -217,89 +242,88 @@ KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *sign
             summed(L, &of, (const Lanes *)of.sorted, M, right);
             solved((const Lanes *)M, (const Lanes *)right, singular, now, inverted);
         }
-        static const int place[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-        bool good[LANES];
-        judged(L, P, first, some, &of, (const Lanes *)now, middle, most, needed, facing, rays, agree, chi2, cost, good);
-        for (int64_t w = 0; w < some; w++) {
-            for (int i = 0; i < 3; i++) b[3 * (first + w) + i] = good[w] ? now[i][w] : NAN;
-            for (int i = 0; i < 9; i++) inverse[9 * (first + w) + i] = inverted[place[i]][w];
-        }
+        stated(L, P, first, &of, (const Lanes *)now, (const Lanes *)inverted, middle, most, needed, facing, rays, b, agree, inverse, chi2, cost);
     }
 }
 
-/* What a pixel's few lights show it, gathered: light vectors, signals, weights 1 / variance (0 where a sample does not count). */
-typedef struct {
-    double light[8][3], signal[8], weight[8];
-} Few;
+#define FEW 8
 
-static inline double square_residual(const Few *of, int64_t k, const double b[3]) {
-    double predicted = dot3(of->light[k], b), apart = of->signal[k] - (predicted < 0.0 ? 0.0 : predicted); /* NaN stays NaN */
-    return of->weight[k] * (apart * apart);
-}
-
-/* b (3) of the three lights that count whose proposal the others contradict least, a light by no more than `most`; NaN where none are. */
-static void best_three(int64_t L, const Few *of, double most, double singular, double best[3]) {
-    double crossed[8][8][3], size[8], least = INFINITY;
-    for (int i = 0; i < 3; i++) best[i] = NAN;
+/* b of the three lights that count whose proposal the others contradict least, by no more than `most` each; NaN where none are. `weight` (L)
+   is 1 over the variance of a sample that counts, else 0. */
+static void best_three(int64_t L, const Many *of, const Lanes *weight, double most, double singular, Lanes best[3]) {
+    Lanes crossed[FEW][FEW][3], size[FEW], least;
+    for (int w = 0; w < LANES; w++) {
+        least[w] = INFINITY;
+        for (int i = 0; i < 3; i++) best[i][w] = NAN;
+    }
     for (int k = 0; k < L; k++) {
-        size[k] = dot3(of->light[k], of->light[k]);
-        for (int i = 0; i < k; i++) cross3(of->light[i], of->light[k], crossed[i][k]);
+        const Lanes *to = of->light + 3 * k;
+        LANEWISE for (int w = 0; w < LANES; w++) size[k][w] = to[0][w] * to[0][w] + to[1][w] * to[1][w] + to[2][w] * to[2][w];
+        for (int i = 0; i < k; i++) {
+            const Lanes *from = of->light + 3 * i;
+            LANEWISE for (int w = 0; w < LANES; w++) {
+                crossed[i][k][0][w] = from[1][w] * to[2][w] - from[2][w] * to[1][w];
+                crossed[i][k][1][w] = from[2][w] * to[0][w] - from[0][w] * to[2][w];
+                crossed[i][k][2][w] = from[0][w] * to[1][w] - from[1][w] * to[0][w];
+            }
+        }
     }
     for (int i = 0; i < L; i++)
         for (int j = i + 1; j < L; j++)
             for (int k = j + 1; k < L; k++) {
-                if (!(of->weight[i] > 0.0 && of->weight[j] > 0.0 && of->weight[k] > 0.0)) continue;
-                double determinant = dot3(of->light[k], crossed[i][j]), b[3], cost = 0.0;
-                if (!(fabs(determinant) > singular * sqrt(size[i] * size[j] * size[k]))) continue;
-                double factor = 1 / determinant;
-                for (int a = 0; a < 3; a++)
-                    b[a] = of->signal[i] * factor * crossed[j][k][a] - of->signal[j] * factor * crossed[i][k][a] +
-                           of->signal[k] * factor * crossed[i][j][a];
-                for (int64_t l = 0; l < L; l++) {
-                    double square = square_residual(of, l, b);
-                    cost += square > most ? most : square;
+                const Lanes *third = of->light + 3 * k, *ij = crossed[i][j], *ik = crossed[i][k], *jk = crossed[j][k];
+                Lanes b[3], cost = {0.0}, spans;
+                LANEWISE for (int w = 0; w < LANES; w++) {
+                    double determinant = third[0][w] * ij[0][w] + third[1][w] * ij[1][w] + third[2][w] * ij[2][w];
+                    double count = (weight[i][w] > 0.0 ? 1.0 : 0.0) * (weight[j][w] > 0.0 ? 1.0 : 0.0) * (weight[k][w] > 0.0 ? 1.0 : 0.0);
+                    double factor = 1.0 / determinant, one = of->signal[i][w] * factor, two = of->signal[j][w] * factor;
+                    double three = of->signal[k][w] * factor;
+                    spans[w] = fabs(determinant) > singular * sqrt(size[i][w] * size[j][w] * size[k][w]) ? count : 0.0;
+                    for (int a = 0; a < 3; a++) b[a][w] = one * jk[a][w] - two * ik[a][w] + three * ij[a][w];
                 }
-                if (cost < least) {
-                    least = cost;
-                    memcpy(best, b, sizeof b);
+                for (int64_t l = 0; l < L; l++) {
+                    const Lanes *light = of->light + 3 * l;
+                    LANEWISE for (int w = 0; w < LANES; w++) {
+                        double predicted = light[0][w] * b[0][w] + light[1][w] * b[1][w] + light[2][w] * b[2][w];
+                        double apart = of->signal[l][w] - (predicted < 0.0 ? 0.0 : predicted), square = weight[l][w] * (apart * apart);
+                        cost[w] += square > most ? most : square; /* NaN stays NaN */
+                    }
+                }
+                for (int w = 0; w < LANES; w++) {
+                    if (!(spans[w] > 0.0 && cost[w] < least[w])) continue;
+                    least[w] = cost[w];
+                    for (int a = 0; a < 3; a++) best[a][w] = b[a][w];
                 }
             }
 }
 
-/* Estimates of few lights: b (P, 3), NaN where there is none, the samples (L, P) that agree, the inverse (P, 3, 3) of the normal matrix, the
-   squares of the samples that agree (P), and of all that count, each `most` at most (P). Twin: surface/normals.py (_few). */
+/* Estimates of few lights, FEW at most: b (P, 3), NaN where there is none, the samples (L, P) that agree, the inverse (P, 3, 3) of the normal
+   matrix, the squares of the samples that agree (P), and of all that count, each `most` at most (P). Twin: surface/normals.py (_few). */
 KERNEL void lpcal_few(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
                       const double *rays, double most, int64_t rounds, int64_t needed, double facing, double singular, double *b,
                       bool *agree, double *inverse, double *chi2, double *cost) {
-    for (int64_t p = 0; p < P; p++) {
-        Few of;
-        double *now = b + 3 * p;
-        for (int64_t k = 0; k < L; k++) {
-            int64_t at = k * P + p;
-            memcpy(of.light[k], B + 3 * at, sizeof of.light[k]);
-            of.signal[k] = signal[at];
-            of.weight[k] = usable[at] ? 1.0 / variance[at] : 0.0;
-        }
-        best_three(L, &of, most, singular, now);
+    Lanes rows[8 * FEW], none = {0.0};
+    Many of = lanes_of(L, rows);
+    Lanes *weight = of.value, *counted = of.sorted;
+    for (int64_t first = 0; first < P; first += LANES) {
+        Lanes count, now[3], M[6], right[3], inverted[6];
+        loaded(L, P, first, B, signal, usable, variance, &of, count);
+        for (int64_t k = 0; k < L; k++)
+            LANEWISE for (int w = 0; w < LANES; w++) weight[k][w] = of.usable[k][w] / of.variance[k][w];
+        best_three(L, &of, (const Lanes *)weight, most, singular, now);
         for (int64_t round = 0; round < rounds; round++) {
-            Equations found = {{{0.0}}, {0.0}};
-            for (int64_t k = 0; k < L; k++)
-                add(&found, of.light[k], of.signal[k], square_residual(&of, k, now) < most ? of.weight[k] : 0.0);
-            solve(&found, singular, now, inverse + 9 * p);
+            for (int64_t k = 0; k < L; k++) {
+                const Lanes *light = of.light + 3 * k;
+                LANEWISE for (int w = 0; w < LANES; w++) {
+                    double predicted = light[0][w] * now[0][w] + light[1][w] * now[1][w] + light[2][w] * now[2][w];
+                    double apart = of.signal[k][w] - (predicted < 0.0 ? 0.0 : predicted), square = weight[k][w] * (apart * apart);
+                    counted[k][w] = square < most ? weight[k][w] : 0.0;
+                }
+            }
+            summed(L, &of, (const Lanes *)counted, M, right);
+            solved((const Lanes *)M, (const Lanes *)right, singular, now, inverted);
         }
-        int64_t count = 0;
-        chi2[p] = cost[p] = 0.0;
-        for (int64_t k = 0; k < L; k++) {
-            double square = square_residual(&of, k, now);
-            bool counts = of.weight[k] > 0.0, close = counts && square < most;
-            agree[k * P + p] = close;
-            count += close;
-            chi2[p] += close ? square : 0.0;
-            cost[p] += close ? square : counts ? most : 0.0;
-        }
-        const double *ray = rays + 3 * p;
-        if (count < needed || !(dot3(now, ray) < facing * sqrt(dot3(now, now)) * sqrt(dot3(ray, ray))))
-            for (int i = 0; i < 3; i++) now[i] = NAN;
+        stated(L, P, first, &of, (const Lanes *)now, (const Lanes *)inverted, none, most, needed, facing, rays, b, agree, inverse, chi2, cost);
     }
 }
 
