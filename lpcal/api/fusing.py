@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import overload
@@ -11,7 +11,9 @@ from typing import overload
 import numpy as np
 
 from lpcal.api.engines import Engine, Lost, each
+from lpcal.api.sensor import BY_CAPTURE, Statements, stated_in
 from lpcal.api.staged import staged
+from lpcal.api.surfaces import linear
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.fusion.model import model_of
 from lpcal.fusion.registration import FEWEST
@@ -22,7 +24,9 @@ from lpcal.geometry import se3
 from lpcal.records import screens
 from lpcal.records.calibration import Calibration, Light
 from lpcal.records.model import LightEvidence, ObjectModel
+from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
+from lpcal.records.sensor import SensorInUse
 from lpcal.records.surface import Surface
 
 LEAST_PIXELS = 200
@@ -36,6 +40,8 @@ def fuse(
     name: str = "model",
     step_m: float | None = None,
     calibration: Calibration | None = None,
+    captures: Mapping[str, RawCapture] | None = None,
+    sensor: Statements = (),
     engine: Engine | None = None,
     progress: Progress = silent,
 ) -> ObjectModel:
@@ -54,6 +60,12 @@ def fuse(
         Length of the model's edges, metres, about; by default 1.4 pixels on the object.
     calibration : Calibration, optional
         The one that the surfaces share: the model then states what the views show of its lights and H_PC, and whether the rig has moved.
+    captures : mapping of str to RawCapture, optional
+        The captures that the surfaces were made of, by the surfaces' names; read where they are asked for. With them and the calibration
+        every view is solved again at the place where all put it, with the light that the object's parts throw on each other, which one
+        view alone sees half of. Those without an ambient image, or made linear otherwise than their surface was, are left as they are.
+    sensor : sequence of (str, StatedSensor)
+        What is known of the sensor besides what captures and calibration say, by who says it.
     engine : Engine, optional
         Where the tiles of the model's space are worked on, of `lpcal.api.engines.engine_of`; None: one after the other, here. The model is
         the same.
@@ -86,7 +98,10 @@ def fuse(
     ...     print(error.found)
     is not placed
     """
-    views = [_view(surface) for surface in surfaces]
+    views, sensors = [], {}
+    for surface in surfaces:
+        views.append(_view(surface))
+        sensors[surface.name] = surface.sensor
     if len(views) < FEWEST:
         raise DegenerateError(
             f"{len(views)} surface", where="fuse", needed="two or more, placed", todo="take more captures round the object"
@@ -102,7 +117,35 @@ def fuse(
     if importlib.util.find_spec("skimage") is None:
         raise InputError("scikit-image is not installed", where="fuse", needed="lpcal[fuse]", todo="uv add 'lpcal[fuse]'")
     over = in_turn if engine is None else partial(_over, engine)
-    return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights, over)
+    images = None if calibration is None or captures is None else partial(_images, captures, calibration, sensors, sensor)
+    return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights, over, images)
+
+
+def _images(
+    captures: Mapping[str, RawCapture],
+    calibration: Calibration,
+    sensors: Mapping[str, SensorInUse | None],
+    sensor: Statements,
+    name: str,
+) -> tuple[Radiance, Calibration] | None:
+    """The linear images of a view and the calibration for them; None where it cannot be solved again as it was at first."""
+    raw = captures.get(name)
+    if raw is None or raw.full is not None or raw.ambient is None or calibration.camera is None:
+        return None
+    calibration = calibration.of_images(raw.size)
+    by_name = {light.name: light for light in calibration.lights}
+    if any(light not in by_name or by_name[light].source_C is None for light in raw.lights):
+        return None
+    radiance, used = linear(raw, calibration, [(BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration)), *sensor])
+    before = sensors.get(name)
+    return (radiance, calibration) if before is None or _alike(before, used) else None
+
+
+def _alike(first: SensorInUse, second: SensorInUse) -> bool:
+    """Whether two captures were made linear alike."""
+    one, other = first.sensor, second.sensor
+    levels = [(sensor.gamma, sensor.black_level, sensor.white_level) for sensor in (one, other)]
+    return levels[0] == levels[1] and (one.flat_field is None) == (other.flat_field is None)
 
 
 class _Tasks(Sequence[tuple[TileWork, SpaceTile]]):

@@ -41,7 +41,7 @@ from lpcal.records.figures import ConventionFound
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.placement import Placement
-from lpcal.records.sensor import Sensor, StatedSensor
+from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.surface import reconstruct as solver
@@ -217,6 +217,12 @@ def _reconstructed(
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
     return replace(surface, warnings=notes, sensor=settled.used)
+
+
+def linear(raw: RawCapture, calibration: Calibration, saying: Statements) -> tuple[Radiance, SensorInUse]:
+    """A capture that is held, made linear as `reconstruct` makes it, and by which sensor."""
+    settled = settle_sensor(raw, calibration, saying)
+    return _linear(raw, settled.used.sensor, (), None, use_mask=False), settled.used
 
 
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:

@@ -30,6 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--refine", action="store_true", help="write beside the model the rig's calibration as corrected by the views, calibration.yaml"
     )
+    parser.add_argument(
+        "--once", action="store_true", help="fuse the surfaces as they are; do not solve the captures again with what all of them show"
+    )
     add_engine_words(parser, "tiles of the model's space")
     add_rig_option(parser)
 
@@ -45,8 +48,18 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
             raise
         rig = _rig_above(options)
     engine = engine_of_words(options.on, jobs_of(options.jobs), options.output)
-    page, refine = not options.no_pages, options.refine
-    return fuse_folders(options.captures, options.output, rig, length(options.step), progress, page=page, refine=refine, engine=engine)
+    page, again = not options.no_pages, not options.once
+    return fuse_folders(
+        options.captures,
+        options.output,
+        rig,
+        length(options.step),
+        progress,
+        page=page,
+        refine=options.refine,
+        again=again,
+        engine=engine,
+    )
 
 
 def _rig_above(options: argparse.Namespace) -> Workspace | None:

@@ -4,6 +4,9 @@ Symbols: s a piece's scale, b the knots of a grid over it, w_k the tents of the 
 
     delta(pixel) = s + sum_k w_k(pixel) b_k
 
+To both comes what all views share, polynomials of a pixel's ray in C: their normals are off together where lights are not quite where they
+were calibrated, which tilts and bends all depths alike.
+
     s ~ N(0, scale_std^2),   b ~ N(0, (depth_std / z)^2),   b_k - b_l ~ N(0, (e h / cos^2)^2)      k, l neighbours
 
 h is the angle between neighbouring knots, e how far normals are off together over so many pixels, cos that between normal and line of
@@ -20,6 +23,8 @@ import numpy as np
 from lpcal.fusion.views import PlacedView
 from lpcal.geometry.arrays import Array, Index, Labels, Mask
 
+COMMON = 6
+"""Errors of log depth that all views share: a scale, a tilt about either axis, and three bendings."""
 TOGETHER = 1.0
 """How much of a normal's standard deviation neighbouring pixels share: light between surfaces and wrong lights turn them together."""
 SHAPE_DOUBT = 5.0
@@ -48,6 +53,8 @@ class Bending:
     """(M, 2) neighbouring knots."""
     links_sd: Array
     """(M,) standard deviation of the step between them."""
+    common: Array
+    """(size, COMMON) what a unit of each error that all views share adds to each parameter."""
 
     def basis(self, pixel: Array, component: Labels) -> tuple[Index, Array]:
         """Places (N, 5) of the parameters that act at pixels (N, 2), and by how much."""
@@ -107,7 +114,23 @@ def bending_of(view: PlacedView, step_px: int) -> Bending:
         np.array(sd),
         np.concatenate(links) if links else np.zeros((0, 2), np.intp),
         np.concatenate(links_sd) if links_sd else np.zeros(0),
+        _common(view, number, size, step_px),
     )
+
+
+def _common(view: PlacedView, number: Index, size: int, step_px: int) -> Array:
+    """What all views share, at the scales and knots (size, COMMON): 1 at scales, else x, y, x^2, x y, y^2 of the knots' rays in C."""
+    found = np.zeros((size, COMMON))
+    found[: len(number), 0] = 1.0
+    piece, row, column = np.nonzero(number >= 0)
+    x, y = (_line(view.plane[..., k].mean(axis=k), step_px * at) for k, at in ((0, column), (1, row)))
+    found[number[piece, row, column], 1:] = np.stack([x, y, x * x, x * y, y * y], axis=1)
+    return found
+
+
+def _line(values: Array, at: Index) -> Array:
+    """The straight line through values of pixels 0, 1, ..., at places that may lie beside them."""
+    return np.asarray(np.polynomial.Polynomial.fit(np.arange(len(values)), values, 1)(at))
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@ r"""From placed surfaces to a model, step by step.
 1. Where every view and every piece of it stands; what the others contradict is left out (`registration`).
 2. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean (`vertices`), with the detail of their
    normals (`detail`).
-3. What no view saw well, and where the panel should stand next (`missing`).
+3. With the images of the views: each solved again with what all show together, aligned again, and the surface anew (`again`).
+4. What no view saw well, and where the panel should stand next (`missing`).
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
 from lpcal.fusion.missing import missing
 from lpcal.fusion.pieces import Piece
@@ -40,8 +42,11 @@ def model_of(
     progress: Progress = silent,
     lights: Sequence[Light] | None = None,
     over: Over = in_turn,
+    images: Images | None = None,
 ) -> ObjectModel:
     """The model of placed views; with the calibrated lights also what the views show of them. `over` has its tiles of space worked on.
+
+    With their `images` the views are solved again once a first surface is known.
 
     Raises
     ------
@@ -51,10 +56,16 @@ def model_of(
     places = registered(name, views, shared_covariance(views), progress)
     aligned = places.aligned
     rough = surface_of(aligned.placed, step_m, over)
+    reflectance = None
+    if images is not None:
+        aligned, reflectance = again(aligned, rough, images, progress)
+        places = replace(places, aligned=aligned)
+        rough = rough if reflectance is None else surface_of(aligned.placed, step_m, over)
     progress("surface", 1, 2)
     found = on_the_views(aligned, rough)
     progress("surface", 2, 2)
     model = _model(name, views, places, found)
+    model = replace(model, figures=replace(model.figures, reflectance=reflectance))
     return model if lights is None else replace(model, rig=rig_evidence(aligned, found, lights))
 
 

@@ -108,7 +108,7 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
     tied, held = held_together(faces, loose)
     loose_m2 = _area(v, faces) - _area(v[tied], held)
     v, n, rest = v[tied], n[tied], rest.of(tied)
-    albedo = _albedo(state, v, n, footprint_m)
+    albedo = albedo_of(state, v, n, footprint_m)
     return Vertices(
         Triangles(v, n, held),
         n_photometric[tied],
@@ -330,11 +330,12 @@ def _row(aligned: Aligned, found: Evidence, share: Array, vertex: int, v: Array,
         place, weight = one.bending.basis(np.array([[column, row]], dtype=float), one.view.component[row, column][None])
         columns += [start + np.arange(6), start + 6 + place[0]]
         values += [a * by, a * grow * weight[0]]
-        values[0] = values[0] + a * np.append(by @ one.view.placement.by_handeye, grow)
+        common = grow * (weight[0] @ one.bending.common[place[0]])
+        values[0] = values[0] + a * np.concatenate([by @ one.view.placement.by_handeye, common])
     return np.concatenate(columns), np.concatenate(values)
 
 
-def _albedo(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) -> Array:
+def albedo_of(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) -> Array:
     """Albedo (V, 3) of the vertices, without seams; NaN where none saw it."""
     from scipy.ndimage import distance_transform_edt
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from lpcal.fusion.parts import ends_of_parts, inner_breaks, near, parted, stds
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Array, Index, Labels, Mask
+from lpcal.geometry.arrays import Array, Image, Index, Labels, Mask
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Surface
 
@@ -103,6 +103,13 @@ class PlacedView:
         """The view with pixels (H, W) that are not compared and show no surface; its outline and the parameters of its bending stay."""
         touched = gone[:-1, :-1] | gone[:-1, 1:] | gone[1:, :-1] | gone[1:, 1:]
         return replace(self, witness=self.witness & ~gone, whole=self.whole & ~touched)
+
+    @property
+    def at(self) -> tuple[slice, slice]:
+        """Its window of the whole image."""
+        left, top = -self.image[0], -self.image[1]
+        height, width = self.depth.shape
+        return slice(top, top + height), slice(left, left + width)
 
     def points_C(self, row: Index, column: Index) -> Array:
         """Points (N, 3) at pixels, as the view has them."""
@@ -229,21 +236,13 @@ def _between(pixel: Array, first: tuple[int, int], last: tuple[int, int]) -> Mas
 
 def view_of(surface: Surface, placement: Placement) -> PlacedView:
     """A placed surface as a view: what of it lies about the object, in single precision."""
-    from scipy.ndimage import binary_erosion
-
     whole_mask = surface.mask & np.isfinite(surface.depth) & np.isfinite(surface.normals).all(axis=-1)
     rows, columns = _window(whole_mask)
     at = np.s_[rows, columns]
     mask, normals = whole_mask[at], surface.normals[at]
     rays = surface.rays_C[..., :2]
-    sight = np.concatenate([rays[at], np.ones((*mask.shape, 1))], axis=-1)
-    cosine = -np.einsum("ijk,ijk->ij", np.where(mask[..., None], normals, 0.0), sight) / np.linalg.norm(sight, axis=-1)
     component, of = parted(surface.component[at], surface.breaks[:, rows, columns], normals, surface.normal_std_deg[at])
-    right, below = ends_of_parts(component, surface.breaks[:, rows, columns])
-    away = binary_erosion(mask, iterations=MARGIN_PX) & ~near(*inner_breaks(mask, np.stack([right, below])), MARGIN_PX)
-    whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
-    whole &= ~(right[:-1, :-1] | right[1:, :-1] | below[:-1, :-1] | below[:-1, 1:])
-    albedo = surface.albedo[at] if surface.albedo.ndim == 3 else np.repeat(surface.albedo[at][..., None], 3, axis=2)
+    away, whole = _unbroken(mask, component, surface.breaks[:, rows, columns])
     std_deg = surface.normal_std_deg[at]
     height, width = surface.mask.shape
     single = np.float32
@@ -253,9 +252,9 @@ def view_of(surface: Surface, placement: Placement) -> PlacedView:
         surface.depth[at].astype(single),
         rays[at].astype(float),
         normals.astype(single),
-        albedo.astype(single),
+        _colours(surface, at),
         component,
-        away & (cosine > STEEP) & (std_deg < UNSURE_DEG),
+        away & (_facing(mask, normals, rays[at]) > STEEP) & (std_deg < UNSURE_DEG),
         whole,
         np.radians(std_deg.astype(single)),
         surface.depth_std[at].astype(single),
@@ -264,6 +263,50 @@ def view_of(surface: Surface, placement: Placement) -> PlacedView:
         np.stack([rays[0, 0], rays[-1, -1]]).astype(float),
         (-columns.start, -rows.start, width - columns.start, height - rows.start),
     )
+
+
+def renewed(view: PlacedView, surface: Surface, grown: Array) -> PlacedView:
+    """A view with the maps of a surface that was solved again at the distances by which its pieces grow: `grown` (H, W), of log depth.
+
+    Its outline, its pieces and their priors stay; what has no depth any more is not compared and shows no surface.
+    """
+    at = view.at
+    normals, std_deg = surface.normals[at], surface.normal_std_deg[at]
+    mask = surface.mask[at] & np.isfinite(surface.depth[at]) & np.isfinite(normals).all(axis=-1)
+    away, whole = _unbroken(mask, view.component, surface.breaks[:, *at])
+    single = np.float32
+    return replace(
+        view,
+        depth=(surface.depth[at] * np.exp(-grown)).astype(single),
+        normals_C=normals.astype(single),
+        albedo=_colours(surface, at),
+        witness=away & (_facing(mask, normals, view.plane) > STEEP) & (std_deg < UNSURE_DEG),
+        whole=whole,
+        normal_std_rad=np.radians(std_deg.astype(single)),
+        depth_std_m=surface.depth_std[at].astype(single),
+    )
+
+
+def _unbroken(mask: Mask, component: Labels, breaks: Mask) -> tuple[Mask, Mask]:
+    """Pixels (H, W) away from breaks and edges, and squares (H-1, W-1) of four pixels of one piece without a break between them."""
+    from scipy.ndimage import binary_erosion
+
+    right, below = ends_of_parts(component, breaks)
+    away = binary_erosion(mask, iterations=MARGIN_PX) & ~near(*inner_breaks(mask, np.stack([right, below])), MARGIN_PX)
+    whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
+    return away, whole & ~(right[:-1, :-1] | right[1:, :-1] | below[:-1, :-1] | below[:-1, 1:])
+
+
+def _facing(mask: Mask, normals: Image, plane: Array) -> Array:
+    """Cosine (H, W) between normals and lines of sight, 0 outside the mask."""
+    sight = np.concatenate([plane, np.ones((*mask.shape, 1))], axis=-1)
+    return np.asarray(-np.einsum("ijk,ijk->ij", np.where(mask[..., None], normals, 0.0), sight) / np.linalg.norm(sight, axis=-1))
+
+
+def _colours(surface: Surface, at: tuple[slice, slice]) -> Array:
+    """The albedo (H, W, 3) of a window."""
+    albedo = surface.albedo[at] if surface.albedo.ndim == 3 else np.repeat(surface.albedo[at][..., None], 3, axis=2)
+    return albedo.astype(np.float32)
 
 
 def _window(mask: Mask) -> tuple[slice, slice]:

@@ -14,6 +14,8 @@ from lpcal.formats.model_files import MODEL, summary_of, write_model
 from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.outputs import refuse_place
 from lpcal.formats.surface_files import MAPS_FILE, is_placed, read_surface
+from lpcal.pipeline.capture_files import SurfaceCaptures
+from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.model import ObjectModel, ViewInModel
@@ -34,11 +36,13 @@ def fuse_folders(
     *,
     page: bool = True,
     refine: bool = False,
+    again: bool = True,
     engine: Engine | None = None,
 ) -> Outcome:
     """Fuse surfaces, each its own folder or that of its capture, and write the model.
 
-    `page`: with its page; `refine`: with the rig's calibration as the views would have it; `engine`: where tiles of space are worked on.
+    `page`: with its page; `refine`: with the rig's calibration as the views would have it; `again`: with the views solved again by their
+    captures; `engine`: where tiles of space are worked on.
 
     Raises
     ------
@@ -53,7 +57,17 @@ def fuse_folders(
     folders = [folder for folder in folders if folder.name not in left]
     calibration = _calibration(rig, needed=refine)
     surfaces = _read(folders, progress)
-    model = fuse(surfaces, name=target.resolve().name, step_m=step_m, calibration=calibration, engine=engine, progress=progress)
+    lights = [] if calibration is None else [light.name for light in calibration.lights]
+    model = fuse(
+        surfaces,
+        name=target.resolve().name,
+        step_m=step_m,
+        calibration=calibration,
+        captures=SurfaceCaptures(folders, lights) if again and lights else None,
+        sensor=() if rig is None else (("panel.yaml", stated_in_panel(rig)),),
+        engine=engine,
+        progress=progress,
+    )
     seconds = time.process_time() - begun
     document = {"times_s": {"fuse": seconds}, "inputs": [str(folder) for folder in folders]}
     write_model(
@@ -136,6 +150,8 @@ def _said(target: Path, model: ObjectModel) -> list[str]:
         f"{100 * figures.seen_by_two:.0f} % of the area is seen by two or more; they disagree on {100 * figures.disagreeing:.1f} % of it; "
         f"{1e3 * figures.open_edges_m:.0f} mm of open edges",
     ]
+    if figures.reflectance is not None:
+        lines.append(f"views solved again with the light between the object's parts: its reflectance is about {figures.reflectance:.2f}")
     lines += [_line(view) for view in model.views]
     lines += [] if model.missing is None else missing_words(model.missing, model.frame)
     return lines + ([] if model.rig is None else rig_words(model.rig))

@@ -32,8 +32,8 @@ from lpcal.formats.outputs import refuse_place
 from lpcal.formats.placement_document import stated_place_of
 from lpcal.formats.record_documents import document_of
 from lpcal.formats.surface_files import OUTPUTS, SUMMARY, SURFACE, summary_of, write_surface
-from lpcal.formats.zarr_files import is_zarr
 from lpcal.integration.pieces import flatness
+from lpcal.pipeline.capture_files import files_of, place_of
 from lpcal.pipeline.placing import NO_RIG, Recorded, made_from, placed, placed_said, recorded_of
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace, within
@@ -191,6 +191,7 @@ def summary_document(surface: Surface, task: Task, calibration_path: Path, wishe
         "options": {
             word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word not in {"jobs", "recorded"}
         },
+        "capture": place_of(task.capture, task.target),
         "inputs": hashes(task, calibration_path),
     }
 
@@ -207,18 +208,13 @@ def peak_memory_mb() -> int | None:
 
 def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
     """sha256 of the calibration and of every file of the capture, by name."""
-    files = {path.relative_to(task.capture).as_posix(): sha256(path) for path in _files_of(task.capture)}
+    files = {path.relative_to(task.capture).as_posix(): sha256(path) for path in files_of(task.capture)}
     return {calibration_path.name: sha256(calibration_path)} | files
-
-
-def _files_of(capture: Path) -> list[Path]:
-    """The files of a capture: those in its folder; of one in Zarr every chunk."""
-    return [path for path in sorted(capture.rglob("*") if is_zarr(capture) else capture.iterdir()) if path.is_file()]
 
 
 def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
     """A digest of all that a surface is made from: lpcal's version, the files' contents, and all that is wished."""
-    files = [calibration_path, *_files_of(task.capture)]
+    files = [calibration_path, *files_of(task.capture)]
     files += [] if wishes.mask in MASK_WORDS else [Path(wishes.mask)]
     said = [
         __version__,

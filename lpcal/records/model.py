@@ -80,6 +80,9 @@ class ModelFigures:
     """Relative standard deviation of the scale that all distances share."""
     shared_sigma_m: float = 0.0
     """What of `sigma_m` all vertices share, rms: one motion and one growth of the whole, whose seven numbers one session draws once."""
+    reflectance: float | None = None
+    """Reflectance of the object's median place, by the light between its parts, with which the views were solved again; None: they were
+    not."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ Greenberg 1985 (form factors).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -113,17 +113,9 @@ class Reflectance:
 
 def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
     """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
-    size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
-    rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches are those of the object, not of the picture about it
-    _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
-    x_C, area = seen.points_C(depth), _areas(seen, depth, n)
-
-    def joined(values: Array) -> Array:
-        """Mean (Q, ...) of values (P, ...) over the patches, by area."""
-        return np.stack([np.bincount(of_pixel, area * column) for column in values.T], axis=-1) / total[:, None]
-
-    total = np.bincount(of_pixel, area)
-    own = Patches(joined(x_C), lambert.unit(joined(n))[0], total, joined(found.diffuse(seen).T).T)
+    joined = _Joined.of(seen, depth, n)
+    x_C, n_C = joined.places
+    own = Patches(x_C, n_C, joined.total, joined.means(found.diffuse(seen).T).T)
     relief = Relief.of(seen, depth)
     albedo = np.zeros(seen.mask.shape)
     albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
@@ -133,19 +125,61 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     if around is not None:
         at_patches = at_patches + _received(own, around.seen, relief)
         beyond = around.beyond(relief, lights)
-    inside = raster.blurred(seen.mask.astype(np.float32), size / 2, "constant")[seen.mask]
+    out_of_sight = None if beyond is None else joined.at_pixels(_received(own, beyond, relief))
+    return Thrown(joined.at_pixels(at_patches), joined.at_pixels(by_unseen), out_of_sight, joined.spread(unseen))
 
-    def spread(values: Array) -> Array:
+
+def from_around(seen: Sight, depth: Array, n: Array, lights: Sequence[Light], around: Around) -> Array:
+    """J (L, P, 3) of what is seen around a surface of depths (P,) and normals n (P, 3), and of half of what is taken to go on."""
+    joined = _Joined.of(seen, depth, n)
+    x_C, n_C = joined.places
+    own = Patches(x_C, n_C, joined.total, np.zeros((len(lights), len(x_C))))
+    relief = Relief.of(seen, depth)
+    found, beyond = _received(own, around.seen, relief), around.beyond(relief, lights)
+    return joined.at_pixels(found if beyond is None else found + _received(own, beyond, relief) / 2)
+
+
+@dataclass(frozen=True)
+class _Joined:
+    """The pixels of an object joined to patches, Q of them."""
+
+    seen: Sight
+    size: int
+    """Pixels of a patch along its side."""
+    of_pixel: Indices
+    area: Array
+    """(P,) of each pixel."""
+    total: Array
+    """(Q,) of each patch."""
+    inside: Array
+    """(P,) share of what lies about a pixel that is the object."""
+    places: tuple[Array, Array]
+    """Points and normals (Q, 3)."""
+
+    @staticmethod
+    def of(seen: Sight, depth: Array, n: Array) -> _Joined:
+        """By depths (P,) and normals (P, 3)."""
+        size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
+        rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches of the object, not of the picture about it
+        _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
+        area = _areas(seen, depth, n)
+        inside = np.asarray(raster.blurred(seen.mask.astype(float), size / 2, "constant")[seen.mask])
+        bare = _Joined(seen, size, of_pixel, area, np.bincount(of_pixel, area), inside, (depth, depth))
+        return replace(bare, places=(bare.means(seen.points_C(depth)), lambert.unit(bare.means(n))[0]))
+
+    def means(self, values: Array) -> Array:
+        """Mean (Q, ...) of values (P, ...) over the patches, by area."""
+        return np.stack([np.bincount(self.of_pixel, self.area * column) for column in values.T], axis=-1) / self.total[:, None]
+
+    def spread(self, values: Array) -> Array:
         """Values (P,) of the patches' values (Q,)."""
-        blank = np.zeros(seen.mask.shape, np.float32)
-        blank[seen.mask] = values[of_pixel]
-        return np.asarray(raster.blurred(blank, size / 2, "constant")[seen.mask] / np.maximum(inside, 1e-6))
+        blank = np.zeros(self.seen.mask.shape, np.float32)
+        blank[self.seen.mask] = values[self.of_pixel]
+        return np.asarray(raster.blurred(blank, self.size / 2, "constant")[self.seen.mask] / np.maximum(self.inside, 1e-6))
 
-    def at_pixels(values: Array) -> Array:
-        return np.stack(bands.shared(lambda of_light: np.stack([spread(one) for one in of_light.T], axis=-1), values))
-
-    out_of_sight = None if beyond is None else at_pixels(_received(own, beyond, relief))
-    return Thrown(at_pixels(at_patches), at_pixels(by_unseen), out_of_sight, spread(unseen))
+    def at_pixels(self, values: Array) -> Array:
+        """Light vectors (L, P, 3) of those of the patches (L, Q, 3)."""
+        return np.stack(bands.shared(lambda of_light: np.stack([self.spread(one) for one in of_light.T], axis=-1), values))
 
 
 @dataclass(frozen=True)

@@ -146,7 +146,7 @@ def reconstruct(
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
         state = _anchored(scene, state, whole, found[0], calibration.camera)
-    surface = _surface(radiance, scene, state, rays_C, basins_found)
+    surface = surface_of(radiance, scene, state, rays_C, basins_found)
     state, surface = _read(radiance, scene, state, surface, basins_found, options, calibration.camera)
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
     figures = _with_mask(surface.figures, background if wanted else None, radiance, options)
@@ -220,7 +220,7 @@ def _read(
         again = rounds.once(scene, u, state)
         again.u[:] = u  # the reading is in it already
         state = replace(again, weight=state.weight, anchors=state.anchors)
-        surface = _surface(radiance, scene, state, surface.rays_C, found)
+        surface = surface_of(radiance, scene, state, surface.rays_C, found)
     return state, reading.said_of(surface, said)
 
 
@@ -255,7 +255,8 @@ def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
     return np.asarray(np.where(object_mask, found, NOTHING), np.uint8)
 
 
-def _surface(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:
+def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:
+    """The maps of a surface by the state that its rounds ended in, and by the basins of its distance that were found."""
     seen, grid = scene.seen, scene.grid
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)

@@ -47,6 +47,9 @@ SLANTED = 0.1
 SPAN = float(np.log(4))
 """Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
 FEWEST_PIXELS = 50
+HELD_STD = 0.003
+"""Standard deviation of a pixel's log depth where other views hold it, a millimetre: the steps between pixels, which the normals measure to
+a tenth of that, make the shape, the other views its distance."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from estimates of single pixels."""
 FULL_ROUNDS = 3
@@ -77,6 +80,32 @@ class State:
 
 
 @dataclass(frozen=True)
+class Held:
+    """What other views say of a surface: P pixels."""
+
+    u: Array
+    """log depth."""
+    thrown: Array
+    """(L, P, 3) light vectors of what the object's parts throw on each other, those among them that this view does not see."""
+    reflectance: float
+    """That of the object's median pixel."""
+
+    def in_blocks(self, blocks: Blocks) -> Held:
+        """The same for blocks of pixels."""
+        thrown = np.stack([np.stack([blocks.means(column) for column in one.T], axis=1) for one in self.thrown])
+        return replace(self, u=blocks.means(self.u), thrown=thrown)
+
+    @property
+    def distance_m(self) -> float:
+        """Median depth."""
+        return float(np.exp(np.median(self.u)))
+
+    def own(self) -> Own:
+        """Each pixel's distance."""
+        return Own(np.full(len(self.u), HELD_STD**-2.0), self.u)
+
+
+@dataclass(frozen=True)
 class Scene:
     """What stays as it is through the rounds."""
 
@@ -90,6 +119,8 @@ class Scene:
     """Median depth of the largest piece, where it is known."""
     around: Around | None = None
     """What stands round the object and reflects light onto it."""
+    held: Held | None = None
+    """What other views say of it; None: nothing."""
 
     @property
     def near(self) -> bool:
@@ -115,7 +146,8 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
         return _swept(scene, _until_settled(scene, once(scene, begin, None, 0), 1, progress))
-    coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid)
+    held = None if scene.held is None else scene.held.in_blocks(blocks)
+    coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
     def in_blocks(what: str, done: int, total: int) -> None:
         progress(f"{what} in coarse pixels", done, total)
@@ -131,7 +163,7 @@ def _swept(scene: Scene, state: State) -> State:
     broke off.
     """
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    if not scene.near or scene.distance_m is not None or label.max() == 1:
+    if not scene.near or scene.distance_m is not None or scene.held is not None or label.max() == 1:
         return state
     u, moved = state.u.copy(), []
     for one in range(2, int(label.max()) + 1):
@@ -205,7 +237,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     reflects = hidden = None
     if shaped is not None:
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
-        if thrown_known:
+        if scene.held is not None:
+            lit, reflects = _held(scene, depth, shaped, lit)
+        elif thrown_known:
             lit, reflects = replace(lit, thrown=shaped.lit.thrown, unseen=shaped.lit.unseen), shaped.reflects
         else:
             lit, reflects = _thrown(scene, depth, shaped, lit, by_object, hidden)
@@ -216,7 +250,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
-    if scene.near:
+    if scene.held is not None:
+        own = scene.held.own()
+    elif scene.near:
         own = distance.own_distance(lit, partial(scene.slope_at, depth), depth, seen, found)
         own = distance.doubted(own, lit, seen, found)
         own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
@@ -224,7 +260,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         own = Own(np.full(seen.pixels, distance.WEAK), u)
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
     weight = pieces.without_slivers(grid, weight, seen.mask)
-    if scene.near and shaped is None:
+    if scene.near and shaped is None and scene.held is None:
         own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
     if scene.near:
@@ -272,6 +308,16 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
     evidence = bounce.LitEvidence(first.strengths, *field.strengths_seen(seen, scene.grid, begin, hidden, before.field, by.parts))
     found = bounce.reflectance(seen, by, before.field.b, dark, evidence)
     return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
+
+
+def _held(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Lit, bounce.Reflectance]:
+    """The light with what other views say that surfaces reflect, and what the planes about the object do."""
+    assert scene.held is not None
+    thrown, reflectance = scene.held.thrown, scene.held.reflectance
+    per_unit = reflectance / float(np.median(np.linalg.norm(before.field.b, axis=1)))
+    if scene.around is not None:
+        thrown = thrown + per_unit * bounce.from_around(scene.seen, depth, before.normals, scene.lights, scene.around)
+    return replace(lit, thrown=thrown, unseen=np.zeros(scene.seen.pixels)), bounce.Reflectance(reflectance, per_unit, 0.0, 0.5)
 
 
 def _estimated(
