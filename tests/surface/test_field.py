@@ -91,6 +91,22 @@ def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left: tuple[int
     assert np.median(errors_deg(whole.b, n)[~strip]) < 0.5
 
 
+def half_shadowed(monkeypatch: pytest.MonkeyPatch, friends: int) -> float:
+    """Mean error, degrees, in a line of two pixels where a shadow of four of six lights begins and each sample keeps what it happens to."""
+    monkeypatch.setattr(field, "FRIENDS", friends)
+    seen, lit, n, clean = ball(6)
+    row = np.nonzero(seen.mask)[0]
+    line, beyond = (row == 40) | (row == 41), row > 41
+    kept = np.where(beyond, 0.0, np.where(line, np.random.default_rng(3).uniform(0.2, 0.9, (6, len(n))), 1.0))
+    kept[:2] = 1.0
+    whole, _ = found(replace(seen, signal=seen.signal - clean * (1 - kept)), lit)
+    return float(errors_deg(whole.b, n)[line].mean())
+
+
+def test_where_a_shadow_ends_the_neighbours_begin(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert half_shadowed(monkeypatch, field.FRIENDS) < 0.7 * half_shadowed(monkeypatch, 0)
+
+
 def test_a_shadow_lit_from_around_is_no_dark_matter() -> None:
     """Inside a dark patch a tenth of the light is left, as if all lights reached matter of a tenth of the albedo turned elsewhere."""
     seen, lit, n, _ = ball(6)
