@@ -48,6 +48,10 @@ class Session:
     def surface(self, stop: int) -> Path:
         return self.folder / "surfaces" / f"stop_{stop:02d}"
 
+    def albedo(self, stop: int) -> np.ndarray:
+        with np.load(self.folder / "truth" / "session" / f"stop_{stop:02d}.npz") as stored:
+            return np.where(stored["mask"], stored["albedo"], np.nan)
+
     def capture(self, stop: int) -> Path:
         return self.folder / "session" / f"stop_{stop:02d}"
 
@@ -85,6 +89,7 @@ def test_a_session_by_the_commands_alone(tmp_path: Path) -> None:
     assert all(view["used"] for view in found["views"])
     assert rms_mm(off) < 0.5
     assert normals_deg < 1.2
+    assert abs(found["figures"]["reflectance"] - np.nanmedian(session.albedo(0))) < 0.3  # by the light between parts
     for kind in ("20 mm too far", "flipped", "other object"):
         (tmp_path / kind).mkdir()
         a_wrong_capture_is_named(session, rms_mm(off), tmp_path / kind, kind)
