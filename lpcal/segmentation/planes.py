@@ -15,6 +15,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.view import bands
 from lpcal.view.sight import Sight, light_vectors
 
 MODEL = 0.03
@@ -76,9 +77,15 @@ def interpolated(values: Callable[[Array], Array], at: Array, nodes: int) -> Arr
 def between(lattice: Array, place: Array) -> Array:
     """Values (L, P) of a lattice (N, N, L) at places (P, 2) in steps from its first node."""
     if run := kernel("lattice"):
-        found = np.empty((lattice.shape[2], len(place)))
-        run(len(found), len(lattice), len(place), *(np.ascontiguousarray(one, float) for one in (lattice, place)), found)
-        return found
+        lattice = np.ascontiguousarray(lattice, float)
+
+        def of(at: slice) -> Array:
+            some = np.ascontiguousarray(place[at], float)
+            found = np.empty((lattice.shape[2], len(some)))
+            run(len(found), len(lattice), len(some), lattice, some, found)
+            return found
+
+        return np.concatenate(bands.each(len(place), lattice.shape[2], of), axis=1)
     node = np.clip(place.astype(int), 1, len(lattice) - 3)
     f = (place - node).T
     weight = np.stack([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6])
@@ -128,10 +135,15 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
     """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
     if len(m) <= FEW_LIGHTS and (run := kernel("misfit")):
+        constants = np.array([MODEL, SHADE, WEAK])
+
+        def of(at: slice) -> None:
+            some, white = seen.at(at), np.ascontiguousarray(m[:, at], float)
+            given = (*(np.ascontiguousarray(one, float) for one in (some.signal, some.sigma)), np.ascontiguousarray(some.usable))
+            run(*white.shape, *given, white, shaded, constants, square[at], count[at])
+
         square, count = np.empty(seen.pixels), np.empty(seen.pixels)
-        given = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma))
-        usable, constants = np.ascontiguousarray(seen.usable), np.array([MODEL, SHADE, WEAK])
-        run(*m.shape, *given, usable, np.ascontiguousarray(m, float), shaded, constants, square, count)
+        bands.each(seen.pixels, len(m), of)
         return square, count
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count

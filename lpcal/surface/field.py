@@ -248,10 +248,13 @@ class _System:
         """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
         albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
         both = albedo[grid.a] * albedo[grid.b]
-        apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1) / (both * TURN**2)
+        apart = b[grid.a] - b[grid.b]
+        apart = lambert.dot(apart, apart) / (both * TURN**2)
         link = 1 / (both * TURN**2) / (1 + apart / LINK2) ** 2
         total = np.bincount(grid.a, link, len(b)) + np.bincount(grid.b, link, len(b))
-        return cls(grid, own + total[:, None, None] * np.eye(3), link)
+        block = own.copy()
+        block.reshape(-1, 9)[:, ::4] += total[:, None]
+        return cls(grid, block, link)
 
     def times(self, x: Array) -> Array:
         """The system's left side (P, 3) of x."""

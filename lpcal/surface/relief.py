@@ -25,6 +25,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.view import bands
 from lpcal.view.sight import Indices, Sight, light_vectors, powers
 
 TOLERANCE = 0.003
@@ -138,7 +139,12 @@ def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
     if run := kernel("entries"):
         found, far = np.empty(len(x_C), bool), np.empty(len(x_C))
         body = (*relief.front.shape, relief.front, relief.pixel_of_ray, TOLERANCE, THICKNESS)
-        run(len(x_C), *(np.ascontiguousarray(one, float) for one in (x_C, way)), len(REACHES), REACHES, HALVINGS, *body, found, far)
+
+        def of(some: slice) -> None:
+            given = (np.ascontiguousarray(one[some], float) for one in (x_C, way))
+            run(some.stop - some.start, *given, len(REACHES), REACHES, HALVINGS, *body, found[some], far[some])
+
+        bands.each(len(x_C), len(REACHES), of)
         at = np.flatnonzero(found)
         return _unseen(at, x_C[at] + far[at, None] * way[at], relief)
     low, high = np.zeros(len(x_C)), np.zeros(len(x_C))

@@ -15,6 +15,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import LEAST_WEIGHT, STEEPEST, Grid, Own
 from lpcal.surface.normals import Estimate
+from lpcal.view import bands
 from lpcal.view.sight import Indices, Lit, Sight
 
 PIXELS = 8000
@@ -109,7 +110,7 @@ class Blocks:
         """The light at the pixels, linear between the blocks'."""
 
         def vectors(values: Array) -> Array:
-            return np.ascontiguousarray(np.moveaxis(self.between(np.moveaxis(values, 0, 1)), 1, 0))
+            return np.stack(bands.shared(self.between, values))
 
         thrown = None if lit.thrown is None else vectors(lit.thrown)
         unseen = None if lit.unseen is None else self.between(lit.unseen)

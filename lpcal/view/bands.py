@@ -16,6 +16,8 @@ SAMPLES = 1 << 15
 """Samples, lights times pixels, of a band: a vector a sample is then 0.8 MB, which a core's own cache holds."""
 
 _cores: ContextVar[int | None] = ContextVar("cores", default=None)
+_shares: ContextVar[bool] = ContextVar("shares", default=False)
+"""Whether this is one of the threads that share work."""
 
 
 @contextmanager
@@ -63,5 +65,18 @@ def shared[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:
     count = min(workers(), len(items))
     if count <= 1:
         return [work(item) for item in items]
-    with ThreadPoolExecutor(count, initializer=_cores.set, initargs=(1,)) as pool:
-        return list(pool.map(work, items))
+    if _shares.get():  # they may all be taken
+        with ThreadPoolExecutor(count, initializer=_cores.set, initargs=(1,)) as pool:
+            return list(pool.map(work, items))
+    return list(_threads(workers(), os.getpid()).map(work, items))
+
+
+@cache
+def _threads(count: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a forked process has none of its parent's
+    """Threads that are kept: beginning and ending some for each piece of work takes longer than many a piece."""
+
+    def begin() -> None:
+        _cores.set(1)
+        _shares.set(True)
+
+    return ThreadPoolExecutor(count, initializer=begin)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.view import bands
 from lpcal.view.sight import Grey, Indices, light_vectors
 
 SPAN = (0.25, 6.0)
@@ -155,8 +156,11 @@ class LightTable:
             by_row, by_column = (_spline(nodes, side, order)[some].astype(np.float32) for nodes, side, some in sides)
             found = np.empty((len(by_row), len(by_column), values[0, 0].size), np.float32)
             lattice = values.astype(np.float32).reshape(LATTICE[0], -1)
-            for row, weights in zip(found, by_row, strict=True):
-                np.matmul(by_column, (weights @ lattice).reshape(LATTICE[1], -1), out=row)
+
+            def fill(k: int) -> None:
+                np.matmul(by_column, (by_row[k] @ lattice).reshape(LATTICE[1], -1), out=found[k])
+
+            bands.shared(fill, range(len(found)))
             return found.reshape(-1, *values.shape[2:])
 
         of_lattice = np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4)
