@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 from lpcal.api.sensor import unlike_plain
@@ -12,7 +13,7 @@ from lpcal.formats.capture import read_sweep
 from lpcal.formats.images import read_image
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.evidence import ExposureSweep
-from lpcal.records.sensor import PLAIN, Sensor, StatedSensor
+from lpcal.records.sensor import PLAIN, FlatField, Sensor, StatedSensor
 
 
 def stated_in_panel(workspace: Workspace) -> StatedSensor:
@@ -22,7 +23,13 @@ def stated_in_panel(workspace: Workspace) -> StatedSensor:
         return StatedSensor()
     levels = Sensor(section.black_level, section.white_level, section.gamma)
     path = flat_field_path(workspace)
-    return unlike_plain(levels if path is None else replace(levels, flat_field=fit_flat_field(read_image(path).pixels, levels)))
+    return unlike_plain(levels if path is None else replace(levels, flat_field=_flat_field(path, path.stat().st_mtime_ns, levels)))
+
+
+@lru_cache(maxsize=2)
+def _flat_field(path: Path, changed_ns: int, levels: Sensor) -> FlatField:  # noqa: ARG001 - one that was changed is fitted again
+    """The response that an image of even light shows, which is fitted once for all objects of a rig."""
+    return fit_flat_field(read_image(path).pixels, levels)
 
 
 def sensor_of_panel(workspace: Workspace) -> Sensor:
