@@ -11,20 +11,20 @@ enum { MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, GLOSS_DOUBT, WIDTH2, ST
 
 static inline double square(double x) { return x * x; }
 
-static inline double smith(double cosine, double a2) { return 2.0 * cosine / (cosine + sqrt(a2 + (1.0 - a2) * (cosine * cosine)) + 1e-12); }
+static inline double greater(double a, double b) { return a > b ? a : b; }
 
-/* Gloss of a light from d at a normal n, seen from v: see surface/gloss.py (lobe). */
+/* Gloss of a light from d at a normal n, seen from v: see surface/gloss.py (lobe); all its quotients in one. */
 static inline double lobe(const double d[3], const double n[3], const double v[3], double a2) {
-    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, length = fmax(sqrt(dot3(h, h)), 1e-9);
-    double nh = dot3(h, n) / length, nd = dot3(d, n), nv = fmax(dot3(v, n), STEEPEST);
-    double D = a2 / (TAU_HALF * square(square(fmax(nh, 0.0)) * (a2 - 1.0) + 1.0));
-    return nd > 0.0 ? D * smith(nd, a2) * smith(nv, a2) / (4.0 * nv) : 0.0;
+    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, nh = greater(dot3(h, n), 0.0), lit = greater(dot3(d, n), 0.0);
+    double q = nh * nh / greater(dot3(h, h), 1e-18) * (a2 - 1.0) + 1.0, nv = greater(dot3(v, n), STEEPEST);
+    double along = lit + sqrt(a2 + (1.0 - a2) * (lit * lit)) + 1e-12, back = nv + sqrt(a2 + (1.0 - a2) * (nv * nv)) + 1e-12;
+    return a2 * lit / (TAU_HALF * (q * q) * along * back);
 }
 
 /* How the lobe changes with the normal, along the tangents: see surface/gloss.py (turned). */
 static inline void turned(const double d[3], const double n[3], const double v[3], double a2, double found[3]) {
-    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, length = fmax(sqrt(dot3(h, h)), 1e-9);
-    double nh = fmax(dot3(h, n) / length, 0.0), nd = fmax(dot3(d, n), 0.0), nv = fmax(dot3(v, n), STEEPEST);
+    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, length = greater(sqrt(dot3(h, h)), 1e-9);
+    double nh = greater(dot3(h, n) / length, 0.0), nd = greater(dot3(d, n), 0.0), nv = greater(dot3(v, n), STEEPEST);
     double q = square(nh) * (a2 - 1.0) + 1.0, D = a2 / (TAU_HALF * square(q));
     double s_d = sqrt(a2 + (1.0 - a2) * square(nd)), s_v = sqrt(a2 + (1.0 - a2) * square(nv));
     double S = 2.0 * nd / (nd + s_d + 1e-12), V = 0.5 / (nv + s_v);
@@ -42,65 +42,88 @@ KERNEL void lpcal_lobe(int64_t L, int64_t P, const double *d, const double *n, c
         for (int64_t p = 0; p < P; p++) found[k * P + p] = lobe(d + 3 * (k * P + p), n + 3 * p, v + 3 * p, roughness * roughness);
 }
 
+/* A block of pixels: b, its length, normals, directions to the viewer, brightest samples, and their normal equations in the making. */
+typedef struct {
+    double b[3][BLOCK], albedo[BLOCK], n[BLOCK][3], top[BLOCK], M[6][BLOCK], right[3][BLOCK];
+} Pixels;
+
+/* What one light's samples of a block hold besides: light thrown by surfaces, whether the light is hidden, gloss and how it changes. */
+typedef struct {
+    double thrown[3][BLOCK], hidden[BLOCK], shown[BLOCK], change[3][BLOCK];
+} Besides;
+
+/* Adds a light's samples of some pixels: those `usable`, by directions d (some, 3). */
+static void added(Pixels *to, int64_t some, const double *d, const double *E, const double *signal, const double *sigma, const bool *usable,
+                  const Besides *with, const double *c) {
+    double model2 = square(c[MODEL]), shared2 = square(c[SHARED]), dark_2 = square(c[DARK]), thrown_2 = square(c[THROWN_DOUBT]);
+    double gloss2 = square(c[GLOSS_DOUBT]), price = c[PRICE], against_hidden = -c[HIDDEN];
+    double cold = 1.0 / (2.0 * c[WARMTH]), narrow = 1.0 / c[WIDTH2];
+    for (int64_t p = 0; p < some; p++) {
+        double J[3] = {with->thrown[0][p], with->thrown[1][p], with->thrown[2][p]}, at[3] = {to->b[0][p], to->b[1][p], to->b[2][p]};
+        double B[3] = {d[3 * p] * E[p], d[3 * p + 1] * E[p], d[3 * p + 2] * E[p]}, direct = dot3(B, at), bright = greater(direct, 0.0);
+        double thrown = greater(dot3(J, at), 0.0), shown = with->shown[p], seen = signal[p];
+        double dark = seen - thrown, left = dark - shown - bright;
+        double noise2 = square(sigma[p]) + thrown_2 * square(thrown), top2 = square(to->top[p]), dark2 = noise2 + dark_2 * top2;
+        double spread2 = noise2 + model2 * square(seen) + shared2 * top2 + gloss2 * square(shown);
+        double as_shadow = square(dark) / dark2, as_direct = square(left) / spread2;
+        double cost = with->hidden[p] > 0.0 ? against_hidden : bright > 0.0 ? price : 0.0, against = (as_shadow - as_direct + cost) * cold;
+        against = against > -30.0 ? against : -30.0;
+        double chance = 1.0 / (1.0 + exponential(-(against < 30.0 ? against : 30.0)));
+        double lit = chance / (square(1.0 + as_direct * narrow) * spread2);
+        double shade = (1.0 - chance) / (square(1.0 + as_shadow * narrow) * dark2);
+        lit = usable[p] ? lit : 0.0;
+        shade = usable[p] ? shade : 0.0;
+        for (int i = 0; i < 3; i++) B[i] = (direct > 0.0 ? B[i] : 0.0) + J[i] + with->change[i][p];
+        double by = lit * (seen - shown), by_shade = shade * seen;
+        for (int i = 0; i < 3; i++) to->right[i][p] += by * B[i] + by_shade * J[i];
+        for (int i = 0, slot = 0; i < 3; i++)
+            for (int j = i; j < 3; j++, slot++) to->M[slot][p] += lit * B[i] * B[j] + shade * J[i] * J[j];
+    }
+}
+
 /* own (P, 3, 3) and right (P, 3) of the normal equations. `hidden` (L, P) and J are read where they are there; c holds the constants. */
 KERNEL void lpcal_gathered(int64_t L, int64_t P, const double *d, const double *E, int64_t has_J, const double *J, const double *signal,
                            const double *sigma, const bool *usable, int64_t has_hidden, const bool *hidden, const double *b,
                            const double *v, const double *c, double *own, double *right) {
     bool glossy = c[STRENGTH] > 0.0;
     double a2 = c[ROUGHNESS] * c[ROUGHNESS];
+    Besides with;
+    Pixels of;
+    memset(&with, 0, sizeof with);
     for (int64_t first = 0; first < P; first += BLOCK) {
         int64_t some = P - first < BLOCK ? P - first : BLOCK;
-        double top[BLOCK], albedo[BLOCK], n[BLOCK][3], M[BLOCK][6], pull[BLOCK][3];
-        memset(M, 0, sizeof M);
-        memset(pull, 0, sizeof pull);
+        memset(of.M, 0, sizeof of.M);
+        memset(of.right, 0, sizeof of.right);
         for (int64_t p = 0; p < some; p++) {
             const double *at = b + 3 * (first + p);
-            double length = fmax(sqrt(dot3(at, at)), 1e-300);
-            for (int i = 0; i < 3; i++) n[p][i] = at[i] / length;
-            albedo[p] = fmax(length, 1e-12);
-            top[p] = signal[first + p];
+            double length = greater(sqrt(dot3(at, at)), 1e-300);
+            for (int i = 0; i < 3; i++) {
+                of.b[i][p] = at[i];
+                of.n[p][i] = at[i] / length;
+            }
+            of.albedo[p] = greater(length, 1e-12);
+            of.top[p] = signal[first + p];
         }
         for (int64_t k = 1; k < L; k++)
-            for (int64_t p = 0; p < some; p++) top[p] = fmax(top[p], signal[k * P + first + p]);
-        for (int64_t k = 0; k < L; k++)
-            for (int64_t p = 0; p < some; p++) {
-                int64_t pixel = first + p, at = k * P + pixel;
-                if (!usable[at]) continue;
-                const double *to = d + 3 * at;
-                double B[3], thrown_B[3] = {0.0, 0.0, 0.0}, thrown = 0.0, shown = 0.0;
-                for (int i = 0; i < 3; i++) B[i] = to[i] * E[at];
-                double direct = dot3(B, b + 3 * pixel), bright = fmax(direct, 0.0);
-                if (has_J) {
-                    memcpy(thrown_B, J + 3 * at, sizeof thrown_B);
-                    thrown = fmax(dot3(thrown_B, b + 3 * pixel), 0.0);
-                }
-                if (glossy) shown = c[STRENGTH] * E[at] * lobe(to, n[p], v + 3 * pixel, a2);
-                double dark = signal[at] - thrown, left = dark - shown;
-                double noise2 = square(sigma[at]) + square(c[THROWN_DOUBT] * thrown), dark2 = noise2 + square(c[DARK] * top[p]);
-                double spread2 = noise2 + square(c[MODEL] * signal[at]) + square(c[SHARED] * top[p]) + square(c[GLOSS_DOUBT] * shown);
-                double as_shadow = square(dark) / dark2, as_direct = square(left - bright) / spread2;
-                double price = has_hidden && hidden[at] ? -c[HIDDEN] : bright > 0.0 ? c[PRICE] : 0.0;
-                double against = (as_shadow - as_direct + price) / (2.0 * c[WARMTH]);
-                double chance = 1.0 / (1.0 + exponential(-fmin(fmax(against, -30.0), 30.0)));
-                double lit = chance / square(1.0 + as_direct / c[WIDTH2]) / spread2;
-                double shade = (1.0 - chance) / square(1.0 + as_shadow / c[WIDTH2]) / dark2;
-                for (int i = 0; i < 3; i++) B[i] = direct > 0.0 ? B[i] + thrown_B[i] : thrown_B[i];
-                if (glossy) {
-                    double change[3];
-                    turned(to, n[p], v + 3 * pixel, a2, change);
-                    for (int i = 0; i < 3; i++) B[i] += c[STRENGTH] * E[at] / albedo[p] * change[i];
-                }
-                double s = signal[at] - shown;
-                for (int i = 0, slot = 0; i < 3; i++) {
-                    pull[p][i] += lit * s * B[i] + shade * signal[at] * thrown_B[i];
-                    for (int j = i; j < 3; j++, slot++) M[p][slot] += lit * B[i] * B[j] + shade * thrown_B[i] * thrown_B[j];
-                }
+            for (int64_t p = 0; p < some; p++) of.top[p] = greater(of.top[p], signal[k * P + first + p]);
+        for (int64_t k = 0; k < L; k++) {
+            int64_t at = k * P + first;
+            for (int64_t p = 0; has_J && p < some; p++)
+                for (int i = 0; i < 3; i++) with.thrown[i][p] = J[3 * (at + p) + i];
+            for (int64_t p = 0; has_hidden && p < some; p++) with.hidden[p] = hidden[at + p] ? 1.0 : 0.0;
+            for (int64_t p = 0; glossy && p < some; p++) {
+                double change[3], strength = c[STRENGTH] * E[at + p];
+                with.shown[p] = strength * lobe(d + 3 * (at + p), of.n[p], v + 3 * (first + p), a2);
+                turned(d + 3 * (at + p), of.n[p], v + 3 * (first + p), a2, change);
+                for (int i = 0; i < 3; i++) with.change[i][p] = strength / of.albedo[p] * change[i];
             }
+            added(&of, some, d + 3 * at, E + at, signal + at, sigma + at, usable + at, &with, c);
+        }
         for (int64_t p = 0; p < some; p++) {
             double *to = own + 9 * (first + p);
             for (int i = 0, slot = 0; i < 3; i++) {
-                right[3 * (first + p) + i] = pull[p][i];
-                for (int j = i; j < 3; j++, slot++) to[3 * i + j] = to[3 * j + i] = M[p][slot];
+                right[3 * (first + p) + i] = of.right[i][p];
+                for (int j = i; j < 3; j++, slot++) to[3 * i + j] = to[3 * j + i] = of.M[slot][p];
             }
         }
     }

@@ -4,7 +4,8 @@
 #include "kernel.h"
 
 #define BLOCK 64
-#define TOGETHER 8 /* factors of a product before its logarithm is taken: far from the ends of what doubles hold */
+#define HALF 32
+#define TOGETHER 8 /* twice as many factors of a product before its logarithm is taken: far from the ends of what doubles hold */
 
 static inline double square(double x) { return x * x; }
 
@@ -81,7 +82,7 @@ KERNEL void lpcal_unexplained(int64_t L, int64_t P, const double *residual, cons
         }
         double best = fmax(top / fmax(bottom, 1e-300), 0.0);
         for (int64_t s = 0; s < L * P; s++)
-            pull[s] = weight[s] / square(1.0 + square(left[s] - best * own[s]) / spread2[s] / width2) / spread2[s];
+            pull[s] = weight[s] / (square(1.0 + square(left[s] - best * own[s]) / (spread2[s] * width2)) * spread2[s]);
     }
 }
 
@@ -89,10 +90,10 @@ KERNEL void lpcal_unexplained(int64_t L, int64_t P, const double *residual, cons
    s = spread2 + (doubt strength own)^2 (strengths, 2). `unit` is a variance of the usual size. */
 KERNEL void lpcal_lobe_costs(int64_t L, int64_t P, int64_t strengths, const double *strength, const double *left, const double *own,
                              const double *weight, const double *spread2, double doubt, double width2, double unit, double *found) {
-    double small = 1.0 / unit, whole = 0.0;
+    double small = 1.0 / unit, narrow = small / width2, whole = 0.0;
     for (int64_t s = 0; s < L * P; s++) whole += weight[s];
     for (int64_t j = 0; j < strengths; j++) {
-        double both[BLOCK] = {0.0}, alone[BLOCK] = {0.0}, misfit = 0.0, spread = 0.0, ks = strength[j];
+        double both[HALF] = {0.0}, alone[HALF] = {0.0}, misfit = 0.0, spread = 0.0, ks = strength[j];
         for (int64_t first = 0; first < P; first += BLOCK) {
             int64_t some = P - first < BLOCK ? P - first : BLOCK;
             for (int64_t group = 0; group < L; group += TOGETHER) {
@@ -102,19 +103,19 @@ KERNEL void lpcal_lobe_costs(int64_t L, int64_t P, int64_t strengths, const doub
                     int64_t at = k * P + first;
                     for (int64_t p = 0; p < some; p++) {
                         double shown = ks * own[at + p], r = left[at + p] - shown;
-                        double s = (spread2[at + p] + square(doubt * shown)) * small, more = s + r * r * small / width2;
+                        double s = (spread2[at + p] + square(doubt * shown)) * small, more = s + r * r * narrow;
                         bool counts = weight[at + p] > 0.0;
                         with[p] *= counts ? more : 1.0;
                         without[p] *= counts ? s : 1.0;
                     }
                 }
-                for (int p = 0; p < BLOCK; p++) {
-                    both[p] += logarithm(with[p]);
-                    alone[p] += logarithm(without[p]);
+                for (int p = 0; p < HALF; p++) {
+                    both[p] += logarithm(with[p] * with[HALF + p]);
+                    alone[p] += logarithm(without[p] * without[HALF + p]);
                 }
             }
         }
-        for (int p = 0; p < BLOCK; p++) {
+        for (int p = 0; p < HALF; p++) {
             misfit += both[p] - alone[p];
             spread += alone[p];
         }
