@@ -327,6 +327,8 @@ KERNEL void lpcal_few(int64_t L, int64_t P, const double *B, const double *signa
     }
 }
 
+#define SOME 16
+
 /* B (L, Q, 3) of a table (P, nodes, L, 3) at log depths u of pixels (Q), cubic between nodes of u evenly apart, and the doubt of the nearest
    node. */
 KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const float *table, const float *doubts, double first, double step,
@@ -339,11 +341,17 @@ KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const fl
         double weight[4] = {-f * (f - 1) * (f - 2) / 6 * by, (f + 1) * (f - 1) * (f - 2) / 2 * by, -(f + 1) * f * (f - 2) / 2 * by,
                             (f + 1) * f * (f - 1) / 6 * by};
         const float *at = table + (pixel[q] * nodes + node - 1) * 3 * L;
-        for (int64_t l = 0; l < L; l++) {
-            for (int64_t i = 3 * l; i < 3 * l + 3; i++)
-                B[3 * (l * Q + q) + i - 3 * l] =
-                    (at[i] * weight[0] + at[3 * L + i] * weight[1]) + (at[6 * L + i] * weight[2] + at[9 * L + i] * weight[3]);
-            doubt[l * Q + q] = doubts[(pixel[q] * nodes + nearest) * L + l];
+        for (int64_t from = 0; from < L; from += SOME) { /* some lights at a time: their numbers lie together in the table, not in B */
+            int64_t some = L - from < SOME ? L - from : SOME;
+            double sum[3 * SOME];
+            for (int64_t i = 0; i < 3 * some; i++) {
+                const float *node_0 = at + 3 * from + i;
+                sum[i] = (node_0[0] * weight[0] + node_0[3 * L] * weight[1]) + (node_0[6 * L] * weight[2] + node_0[9 * L] * weight[3]);
+            }
+            for (int64_t l = 0; l < some; l++) {
+                for (int i = 0; i < 3; i++) B[3 * ((from + l) * Q + q) + i] = sum[3 * l + i];
+                doubt[(from + l) * Q + q] = doubts[(pixel[q] * nodes + nearest) * L + from + l];
+            }
         }
     }
 }
@@ -367,12 +375,16 @@ KERNEL void lpcal_lattice(int64_t L, int64_t nodes, int64_t P, const double *lat
         double across[4], down[4];
         cubic_weights(place[2 * p] - (double)x, across);
         cubic_weights(place[2 * p + 1] - (double)y, down);
-        for (int64_t k = 0; k < L; k++) found[k * P + p] = 0.0;
-        for (int64_t i = 0; i < 4; i++)
-            for (int64_t j = 0; j < 4; j++) {
-                const double *at = lattice + ((x + i - 1) * nodes + y + j - 1) * L;
-                double by = across[i] * down[j];
-                for (int64_t k = 0; k < L; k++) found[k * P + p] += by * at[k];
-            }
+        for (int64_t from = 0; from < L; from += SOME) {
+            int64_t some = L - from < SOME ? L - from : SOME;
+            double sum[SOME] = {0.0};
+            for (int64_t i = 0; i < 4; i++)
+                for (int64_t j = 0; j < 4; j++) {
+                    const double *at = lattice + ((x + i - 1) * nodes + y + j - 1) * L + from;
+                    double by = across[i] * down[j];
+                    for (int64_t k = 0; k < some; k++) sum[k] += by * at[k];
+                }
+            for (int64_t k = 0; k < some; k++) found[(from + k) * P + p] = sum[k];
+        }
     }
 }

@@ -4,25 +4,17 @@
 
 #define MOST_LIGHTS 64 /* FEW_LIGHTS of the twin's module */
 
+#define BLOCK 64
+
 enum { MODEL, SHADE, WEAK };
 
-/* The ratio of its rank among L, of which all but `sound` are the least: the highest but one, or the middle one. */
-static double ranked(const double *ratio, int64_t L, int64_t sound, bool shaded) {
-    double high = -INFINITY, next = -INFINITY, sorted[MOST_LIGHTS];
-    if (shaded) {
-        for (int64_t k = 0; k < L; k++) {
-            if (ratio[k] > high) {
-                next = high;
-                high = ratio[k];
-            } else if (ratio[k] > next)
-                next = ratio[k];
-        }
-        return next;
-    }
+/* The middle one of `sound` ratios among L, of which all others are the least. */
+static double middle(const double ratio[][BLOCK], int64_t p, int64_t L, int64_t sound) {
+    double sorted[MOST_LIGHTS];
     for (int64_t k = 0; k < L; k++) {
         int64_t at = k;
-        for (; at && sorted[at - 1] > ratio[k]; at--) sorted[at] = sorted[at - 1];
-        sorted[at] = ratio[k];
+        for (; at && sorted[at - 1] > ratio[k][p]; at--) sorted[at] = sorted[at - 1];
+        sorted[at] = ratio[k][p];
     }
     return sorted[L - 1 - (sound > 1 ? sound - 1 : 0) / 2];
 }
@@ -30,42 +22,59 @@ static double ranked(const double *ratio, int64_t L, int64_t sound, bool shaded)
 /* Mean square residual a degree of freedom (P), infinite where fewer than two samples count or the plane is missed; and how many count. */
 KERNEL void lpcal_misfit(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *m,
                          int64_t shaded, const double *c, double *square, double *count) {
-    for (int64_t p = 0; p < P; p++) {
-        double ratio[MOST_LIGHTS], top = -INFINITY, above = 0.0, below = 0.0, total = 0.0;
-        bool hit = true;
-        int64_t sound = 0, counted = 0;
-        for (int64_t k = 0; k < L; k++) {
-            double white = m[k * P + p];
-            hit = hit && isfinite(white);
-            top = white > top ? white : top;
+    double ratio[MOST_LIGHTS][BLOCK], model = c[MODEL], weak = c[WEAK];
+    for (int64_t first = 0; first < P; first += BLOCK) {
+        int64_t some = P - first < BLOCK ? P - first : BLOCK;
+        double top[BLOCK], hit[BLOCK], high[BLOCK], next[BLOCK], sound[BLOCK] = {0.0}, above[BLOCK] = {0.0}, below[BLOCK] = {0.0};
+        double counted[BLOCK] = {0.0}, albedo[BLOCK], total[BLOCK] = {0.0};
+        for (int p = 0; p < BLOCK; p++) {
+            top[p] = high[p] = next[p] = -INFINITY;
+            hit[p] = 1.0;
         }
-        square[p] = INFINITY;
-        count[p] = 0.0;
-        if (!hit || !(top > 0.0)) continue;
         for (int64_t k = 0; k < L; k++) {
-            double white = m[k * P + p];
-            bool strong = usable[k * P + p] && white > c[WEAK] * top;
-            ratio[k] = strong ? signal[k * P + p] / (white > 1e-9 ? white : 1e-9) : -INFINITY;
-            sound += strong;
+            const double *white = m + k * P + first;
+            for (int64_t p = 0; p < some; p++) {
+                hit[p] = white[p] - white[p] == 0.0 ? hit[p] : 0.0; /* not where it is infinite, or no number */
+                top[p] = white[p] > top[p] ? white[p] : top[p];
+            }
         }
-        double least = c[SHADE] * ranked(ratio, L, sound, shaded);
         for (int64_t k = 0; k < L; k++) {
-            double white = m[k * P + p], s = signal[k * P + p], lacks = c[MODEL] * s;
-            if (!(ratio[k] > least)) continue;
-            double weight = 1.0 / (sigma[k * P + p] * sigma[k * P + p] + lacks * lacks);
-            above += weight * white * s;
-            below += weight * (white * white);
-            counted++;
+            const double *white = m + k * P + first, *shown = signal + k * P + first;
+            const bool *good = usable + k * P + first;
+            for (int64_t p = 0; p < some; p++) {
+                double strong = white[p] > weak * top[p] ? 1.0 : 0.0, quotient = shown[p] / (white[p] > 1e-9 ? white[p] : 1e-9);
+                strong = good[p] ? strong : 0.0;
+                ratio[k][p] = quotient = strong > 0.0 ? quotient : -INFINITY;
+                sound[p] += strong;
+                double lesser = quotient < high[p] ? quotient : high[p];
+                next[p] = lesser > next[p] ? lesser : next[p];
+                high[p] = quotient > high[p] ? quotient : high[p];
+            }
         }
-        count[p] = (double)counted;
-        if (counted < 2) continue;
-        double albedo = above / (below > 1e-30 ? below : 1e-30);
+        for (int64_t p = 0; !shaded && p < some; p++) next[p] = middle((const double (*)[BLOCK])ratio, p, L, (int64_t)sound[p]);
         for (int64_t k = 0; k < L; k++) {
-            double s = signal[k * P + p], lacks = c[MODEL] * s;
-            if (!(ratio[k] > least)) continue;
-            double r = (s - albedo * m[k * P + p]) / sqrt(sigma[k * P + p] * sigma[k * P + p] + lacks * lacks);
-            total += r * r;
+            const double *white = m + k * P + first, *shown = signal + k * P + first, *noise = sigma + k * P + first;
+            for (int64_t p = 0; p < some; p++) {
+                double lacks = model * shown[p], weight = 1.0 / (noise[p] * noise[p] + lacks * lacks), by = weight * white[p];
+                double taken = ratio[k][p] > c[SHADE] * next[p] ? 1.0 : 0.0;
+                above[p] += taken > 0.0 ? by * shown[p] : 0.0;
+                below[p] += taken > 0.0 ? by * white[p] : 0.0;
+                counted[p] += taken;
+            }
         }
-        square[p] = total / (double)(counted - 1);
+        for (int p = 0; p < BLOCK; p++) albedo[p] = above[p] / (below[p] > 1e-30 ? below[p] : 1e-30);
+        for (int64_t k = 0; k < L; k++) {
+            const double *white = m + k * P + first, *shown = signal + k * P + first, *noise = sigma + k * P + first;
+            for (int64_t p = 0; p < some; p++) {
+                double lacks = model * shown[p], apart = shown[p] - albedo[p] * white[p];
+                double own = apart * apart / (noise[p] * noise[p] + lacks * lacks);
+                total[p] += ratio[k][p] > c[SHADE] * next[p] ? own : 0.0;
+            }
+        }
+        for (int64_t p = 0; p < some; p++) {
+            bool meets = hit[p] > 0.0 && top[p] > 0.0;
+            count[first + p] = meets ? counted[p] : 0.0;
+            square[first + p] = meets && counted[p] >= 2.0 ? total[p] / (counted[p] - 1.0) : INFINITY;
+        }
     }
 }

@@ -203,12 +203,18 @@ KERNEL void lpcal_white(int64_t L, int64_t nodes, int64_t Q, const float *table,
         double weight[4] = {-f * (f - 1) * (f - 2) / 6 * by, (f + 1) * (f - 1) * (f - 2) / 2 * by, -(f + 1) * f * (f - 2) / 2 * by,
                             (f + 1) * f * (f - 1) / 6 * by};
         const float *at = table + (pixel[p] * nodes + node - 1) * 3 * L;
-        for (int64_t k = 0; k < L; k++) {
-            double shading = 0.0;
-            for (int64_t i = 3 * k; i < 3 * k + 3; i++)
-                shading += ((at[i] * weight[0] + at[3 * L + i] * weight[1]) + (at[6 * L + i] * weight[2] + at[9 * L + i] * weight[3])) * n[i - 3 * k];
-            m[k * Q + p] = hit && shading > 0.0 ? shading : 0.0;
-            doubt[k * Q + p] = doubts[(pixel[p] * nodes + nearest) * L + k];
+        for (int64_t from = 0; from < L; from += MOST_LIGHTS) {
+            int64_t some = L - from < MOST_LIGHTS ? L - from : MOST_LIGHTS;
+            double B[3 * MOST_LIGHTS];
+            for (int64_t i = 0; i < 3 * some; i++) {
+                const float *of = at + 3 * from + i;
+                B[i] = (of[0] * weight[0] + of[3 * L] * weight[1]) + (of[6 * L] * weight[2] + of[9 * L] * weight[3]);
+            }
+            for (int64_t k = 0; k < some; k++) {
+                double shading = dot3(B + 3 * k, n);
+                m[(from + k) * Q + p] = hit && shading > 0.0 ? shading : 0.0;
+                doubt[(from + k) * Q + p] = doubts[(pixel[p] * nodes + nearest) * L + from + k];
+            }
         }
     }
 }
