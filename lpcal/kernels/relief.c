@@ -111,7 +111,7 @@ static int64_t facing(const Facing *of, int64_t first, int64_t some, const doubl
     for (int64_t j = 0; j < some; j++) {
         int64_t q = first + j;
         double x = of->x[0][q] - here[0], y = of->x[1][q] - here[1], z = of->x[2][q] - here[2];
-        double square = fmax(x * x + y * y + z * z, 1e-18) * least;
+        double far = x * x + y * y + z * z, square = (far > 1e-18 ? far : 1e-18) * least;
         double arriving = x * n[0] + y * n[1] + z * n[2], leaving = -(x * of->n[0][q] + y * of->n[1][q] + z * of->n[2][q]);
         face[j] = (arriving > 0.0) & (leaving > 0.0) & (arriving * arriving > square) & (leaving * leaving > square);
     }
