@@ -237,8 +237,8 @@ def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mas
     sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
     lights = sight.lights_of(calibration, radiance)
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    planes = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, sight.room(radiance), drawn=False).planes
-    _, around = surroundings.found_beside(maps, rays_C, object_mask, planes, lights)
+    found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, sight.room(radiance), drawn=False)
+    _, around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
     seen = sight.look_at(maps, rays_C, object_mask, central=True)
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held)
     return solver.surface_of(radiance, scene, rounds.run(scene, held.u, silent), rays_C, None)

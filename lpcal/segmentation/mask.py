@@ -8,7 +8,7 @@ it. Without near light the strength of the signal decides.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -100,6 +100,10 @@ class Found:
     """What the area in doubt may be instead, and where it is."""
     layer: Labels | None = None
     """(H, W) of segmentation.background's values: nothing, object, support, wall; None where no layers were labelled."""
+    of_plane: Labels | None = None
+    """(rows, columns) of coarse pixels: the number of the plane that each shows, -1 where it shows none; None where there are no planes."""
+    factor: int = 1
+    """Pixels a coarse pixel."""
 
     def kept(self, keep: Keep) -> Mask:
         """The layers (H, W) to be reconstructed."""
@@ -168,11 +172,15 @@ def _by_layers(
     mask, behind = judged.mask, judged.behind
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
     seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
-    walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in np.argsort(area)[::-1] if area[k])
+    largest_first = [k for k in np.argsort(area)[::-1] if area[k]]
+    walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in largest_first)
+    of_plane = np.full(labels.shape, -1)
+    for number, k in enumerate(largest_first):
+        of_plane[behind & (labels == k + 1)] = number
     how = f"against {len(walls)} plane{'s' * (len(walls) != 1)}" if walls else "against the dark"
     how = "all that is lit lies in one plane: that is the object" if alone else how
     if not drawn:
-        return Found(hints.of(outline.enlarged(mask, image.factor, shape)), how, walls)
+        return Found(hints.of(outline.enlarged(mask, image.factor, shape)), how, walls, of_plane=of_plane, factor=image.factor)
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
@@ -182,7 +190,8 @@ def _by_layers(
     fine = hints.of(fine & ~outline.openings(maps, rays_C, lights, fine, walls))
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     layer = _layer(fine, labels, behind, kinds, image.factor)
-    return Found(fine, how, walls, layer=layer) if alone else Found(fine, how, walls, doubt.share, why, layer)
+    whole = Found(fine, how, walls, layer=layer, of_plane=of_plane, factor=image.factor)
+    return whole if alone else replace(whole, expected_wrong=doubt.share, why=why)
 
 
 def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:

@@ -29,6 +29,7 @@ from lpcal.integration.integrate import Grid
 from lpcal.kernels.library import kernel
 from lpcal.surface import gloss
 from lpcal.surface.normals import Estimate, joined
+from lpcal.surface.palette import Palette
 from lpcal.view import bands
 from lpcal.view.sight import Indices, Lit, Sight
 
@@ -94,12 +95,13 @@ def solve(
     start: Estimate | Field,
     glossy: float | None = None,
     rounds: int | None = None,
+    palette: Palette | None = None,
 ) -> Field:
     """The field from estimates of single pixels, or from a field found before at a depth nearby.
 
     `hidden` (L, P) are samples whose light the depth hides; `glossy` is the reflectance of
     the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not. `rounds` is how many there
-    are, by default as many as such a start needs.
+    are, by default as many as such a start needs; `palette` is that of the object's albedos, where it is known.
     """
     v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
     before = start if isinstance(start, Field) else None
@@ -118,7 +120,8 @@ def solve(
             shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / middle)
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
         own_samples, right = _all_gathered(seen, lit, b, v, hidden, shine, warmth)
-        b = _System.at(grid, b, own_samples).solved(right, b)
+        drawn, of_palette = (0.0, 0.0) if palette is None else palette.pull(b).on(lambert.unit(b)[0])
+        b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
         b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
         same = shine == so_far[1] and np.median(albedo) == middle and np.array_equal(b, so_far[0])

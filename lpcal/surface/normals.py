@@ -128,6 +128,20 @@ def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate, gloss: Array |
     return float(np.sum(np.where(usable, np.minimum(square, OUTLIER**2), 0.0)) / max(usable.sum(), 1))
 
 
+def gloss_share(lit: Lit, found: Estimate) -> Array:
+    """Gloss (P,) as a share of the direct light that a pixel sends back as matte matter, of the lights that agree."""
+    if found.gloss is None:
+        return np.zeros(len(found.b))
+    shown = found.gloss
+
+    def of(at: slice) -> Array:
+        inliers = found.inliers[:, at]
+        direct = np.where(inliers, lambert.predicted(lit.at(at).direct, np.nan_to_num(found.b[at])), 0.0).sum(axis=0)
+        return np.asarray(np.where(inliers, shown[:, at], 0.0).sum(axis=0) / np.maximum(direct, 1e-12))
+
+    return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
+
+
 def thrown_share(lit: Lit, found: Estimate) -> Array:
     """Light (P,) that is reflected onto a pixel by its surroundings, as a share of the direct light of the lights that agree."""
     if lit.thrown is None:

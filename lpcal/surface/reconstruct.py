@@ -133,7 +133,7 @@ def reconstruct(
         maps = sight.grey(radiance, lights)
         seen = sight.look_at(maps, rays_C, object_mask, central=central)
     found = background.planes if near and background is not None else ()
-    beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, found, lights))
+    beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:

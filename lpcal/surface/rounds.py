@@ -19,9 +19,10 @@ from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import basins, bounce, distance, field, normals
+from lpcal.surface import basins, bounce, distance, field, normals, palette
 from lpcal.surface.field import Field
 from lpcal.surface.normals import Estimate
+from lpcal.surface.palette import Palette
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -46,6 +47,8 @@ SLANTED = 0.1
 """Least cosine in the prediction of an unoccluded light's signal: a shadow may have turned the normals away from the light."""
 SPAN = float(np.log(4))
 """Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
+SHAPED_ROUND = SHAPE_ROUND + palette.ROUNDS
+"""The first that may be the last: the window of the palette has narrowed by then."""
 FEWEST_PIXELS = 50
 HELD_STD = 0.003
 """Standard deviation of a pixel's log depth where other views hold it, a millimetre: the steps between pixels, which the normals measure to
@@ -187,7 +190,7 @@ def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *
         progress(f"{scene.name}: normals and depth", k, rounds)
         before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known)
         state = replace(state, moved=np.abs(state.u - before.u))
-        if k > SHAPE_ROUND and _settled(scene, state):
+        if k >= SHAPED_ROUND and _settled(scene, state):
             break
     progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
@@ -200,7 +203,8 @@ def _carried(blocks: Blocks, state: State) -> State:
     usable = normals.candidates(seen, lit.E) & before.inliers
     start = normals.estimate(seen, lit, usable, normals.variances(seen)).b
     b = np.where(np.isfinite(start[:, :1]), start, blocks.between(state.field.b))
-    whole = Field(b, blocks.estimate(state.field.estimate), state.field.gloss)
+    tilt_rad = None if state.field.tilt_rad is None else state.field.tilt_rad[blocks.of_pixel]
+    whole = Field(b, blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
     return State(
         blocks.front(state.u, state.normals),
         blocks.edges(state.weight),
@@ -234,8 +238,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)
     shaped = before if k >= SHAPE_ROUND else None
-    reflects = hidden = None
+    reflects = hidden = albedos = None
     if shaped is not None:
+        albedos = _palette(shaped, k)
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
         if scene.held is not None:
             lit, reflects = _held(scene, depth, shaped, lit)
@@ -246,7 +251,14 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     usable = normals.candidates(seen, lit.E, hidden)
     glossy = bounce.COMMON if reflects is None else reflects.median
     whole = _estimated(
-        scene, lit, usable, hidden, before, glossy if k >= GLOSS_ROUND or not scene.near else None, CARRIED_ROUNDS if thrown_known else None
+        scene,
+        lit,
+        usable,
+        hidden,
+        before,
+        glossy if (k >= GLOSS_ROUND or not scene.near) and not thrown_known else None,
+        CARRIED_ROUNDS if thrown_known else None,
+        albedos,
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
@@ -298,6 +310,14 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     return by_object, by_any
 
 
+def _palette(before: State, k: int) -> Palette | None:
+    """The palette of the object's albedos by the state before round k; None where it does not say how well normals are known."""
+    if before.field.tilt_rad is None:
+        return None
+    other = normals.thrown_share(before.lit, before.found) + normals.gloss_share(before.lit, before.found)
+    return Palette.of(before.field.b, before.field.tilt_rad, other, palette.width(k - SHAPE_ROUND))
+
+
 def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask, hidden: Mask) -> tuple[Lit, bounce.Reflectance]:
     """The light with what surfaces reflect at depths (P,), and their reflectance."""
     seen = scene.seen
@@ -321,12 +341,19 @@ def _held(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Lit, bou
 
 
 def _estimated(
-    scene: Scene, lit: Lit, usable: Mask, hidden: Mask | None, before: State | None, glossy: float | None, rounds: int | None = None
+    scene: Scene,
+    lit: Lit,
+    usable: Mask,
+    hidden: Mask | None,
+    before: State | None,
+    glossy: float | None,
+    rounds: int | None = None,
+    albedos: Palette | None = None,
 ) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
     if before is not None:
-        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy, rounds)
+        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy, rounds, albedos)
     start = normals.estimate(seen, lit, usable, normals.variances(seen))
     lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:

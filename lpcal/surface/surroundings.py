@@ -98,17 +98,31 @@ def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
 
 
 def found_beside(
-    maps: Grey, rays_C: Array, object_mask: Mask, found: Sequence[planes.Plane], lights: Sequence[Light]
+    maps: Grey, rays_C: Array, object_mask: Mask, found: mask.Found | None, lights: Sequence[Light]
 ) -> tuple[Whole | None, Around | None]:
-    """The whole image, and the patches of the planes `found` in it; None where there are none."""
-    if not found:
+    """The whole image, and the patches of the planes found in it; None where there are none."""
+    if found is None or not found.planes:
         return None, None
     image = whole(maps, rays_C, object_mask)
-    return image, patches(image, found, lights)
+    return image, patches(image, found.planes, lights, shown_by(found, image))
 
 
-def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]) -> Around | None:
-    """Patches of the planes `found`; None where nothing is seen of them."""
+def shown_by(found: mask.Found, image: Whole) -> Indices | None:
+    """The plane (P,) that each pixel shows by the layers of coarser ones, -1 where it shows none; None where there are no layers."""
+    if found.of_plane is None:
+        return None
+    sides = zip(image.seen.mask.shape, found.of_plane.shape, strict=True)
+    row, column = (np.minimum(np.arange(side) * image.factor // found.factor, most - 1) for side, most in sides)
+    return np.asarray(found.of_plane[np.ix_(row, column)].ravel())
+
+
+def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light], labelled: Indices | None = None) -> Around | None:
+    """Patches of the planes `found`; None where nothing is seen of them.
+
+    `labelled` (P,) is the plane that each pixel belongs to by its layer, -1 where it has none; others belong to the plane that their
+    samples fit. Where light from elsewhere or shadows keep the samples from the plane's prediction, or they are saturated, a plane's light
+    is there all the same.
+    """
     seen, free = image.seen, ~raster.grown(image.hidden, MARGIN).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
     albedo: list[float] = []
@@ -116,7 +130,8 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     for k, plane in enumerate(found):
         m = planes.predicted(plane.q, seen.rays_C, lights)
         square, count = planes.misfit(seen, m)
-        better = free & (count >= 2) & (square < least)
+        fits = (count >= 2) & (square < least)
+        better = free & (fits if labelled is None else np.where(labelled >= 0, labelled == k, fits))
         of_plane[better], least[better] = k, square[better]
         albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
         signal[:, better] = _unclipped(seen, m, better, albedo[k])

@@ -129,6 +129,29 @@ def test_what_a_bright_wall_shows_beyond_saturation_is_told_by_its_other_lights(
     assert np.allclose(around.seen.signal, 0.5 * predicted(plane.q, at, lights), rtol=0.05)
 
 
+def test_a_plane_by_its_layer_throws_its_light_where_no_sample_fits_it() -> None:
+    """Half of a wall is saturated in all lights or shows light from elsewhere besides: by its fit it is none, by its layer it is."""
+    mask = np.ones((90, 120), bool)
+    plane = Plane(np.array([0.1, 0.0, 1.0]) / 0.45, 1.0)
+    bare = sight_of(mask, np.zeros((3, mask.size)))
+    lights = [lamp(f"L{k}", [0.2 * np.cos(a), 0.2 * np.sin(a), 0.03]) for k, a in enumerate(np.arange(3) * 2 * np.pi / 3)]
+    signal = 0.5 * predicted(plane.q, bare.rays_C, lights)
+    row, column = np.indices(mask.shape).reshape(2, -1)
+    left, lower = column < 40, (column >= 40) & (row >= 60)
+    signal[0, lower] *= 2.0
+    seen = replace(sight_of(mask, signal), usable=np.broadcast_to(~left, signal.shape).copy())
+    whole = Whole(seen, np.zeros(mask.shape, bool), 1)
+    by_fit, by_layer = patches(whole, [plane], lights), patches(whole, [plane], lights, np.zeros(mask.size, int))
+    assert by_fit is not None
+    assert by_layer is not None
+    area = float(by_layer.seen.area.sum())
+    assert 0.35 < by_fit.seen.area.sum() / area < 0.55
+    at = by_layer.seen.x_C / by_layer.seen.x_C[:, 2:]
+    pixel = at[:, :2] * FOCAL + [59.5, 44.5]
+    saturated = pixel[:, 0] < 36
+    assert np.allclose(by_layer.seen.signal[:, saturated], 0.5 * predicted(plane.q, at[saturated], lights), rtol=0.05)
+
+
 def test_a_table_hides_a_light_below_it() -> None:
     """A table 6 cm under the camera's axis, seen along it: points above its top, lights over and under it."""
     mask = np.ones((90, 120), bool)
