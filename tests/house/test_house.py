@@ -19,7 +19,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
 MODULE_LINES, FUNCTION_LINES = 400, 60
 SURFACE_MODULES = 20
-"""Modules of the surface stage, its ``__init__`` counted."""
+"""Modules of the surface stage beside its ``__init__``."""
 MOST_SINGLE = 20.0
 """Per cent of the lines that may stand in modules that exactly one other module imports."""
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
