@@ -26,7 +26,7 @@ from lpcal.view import bands
 from lpcal.view.sight import Lit
 
 MOST_PIXELS, FEWEST_PIXELS = 4000, 1000
-"""Pixels of an object that its gloss is fitted to, spread over it, with few lights and with many."""
+"""Pixels of an object that its gloss is fitted to, to twice as many, spread over it, with few lights and with many."""
 SAMPLES = 100_000
 """Samples, lights times pixels, that the gloss is fitted to where the lights are many: what is fitted are two numbers."""
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
