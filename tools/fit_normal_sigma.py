@@ -36,7 +36,7 @@ MOST_PIXELS = 4000
 """Pixels of a scene that are used, spread over it: neighbours err alike."""
 DISAGREES = 5.0
 """Spread of the true normals over 3x3 pixels, degrees, over which a pixel's true normal hangs on where in the pixel one looks."""
-NAMES = ("noise", "bend round", "bend", "edge", "three", "filled", "one", "thrown", "unseen")
+NAMES = ("noise", "bend round", "bend", "edge", "three", "filled", "thrown", "unseen")
 """The clues, in the order of `uncertainty.squares`."""
 
 
@@ -50,7 +50,7 @@ def scenes_of(paths: list[Path]) -> Iterator[Path]:
 
 
 def clues_of(scene: Path) -> tuple[str, Array, Array, float]:
-    """Squares of the clues (P, 9) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
+    """Squares of the clues (P, 8) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
     seen: list[tuple[Array, float]] = []
     plain = uncertainty.normal_sigma_deg
 
@@ -83,7 +83,7 @@ def _spread_deg(n: Array, mask: Array) -> Array:
 
 
 def fitted(scenes: list[tuple[str, Array, Array, float]], noise: float | None = None) -> Array:
-    """Factors (9,) of the greatest likelihood: an angle e has the density ``e / s^2 (1 + e^2 / (F s^2))^-(F/2+1)``.
+    """Factors (8,) of the greatest likelihood: an angle e has the density ``e / s^2 (1 + e^2 / (F s^2))^-(F/2+1)``.
 
     The first is held where `noise` gives it.
     """

@@ -8,8 +8,9 @@ onto it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviat
 rho is Geman and McClure's. The samples of a pixel that three or more lights reach outweigh its neighbours. Where two lights reach it, the
 third direction comes from its neighbours' albedo and normal; in shadow, from the light that its surroundings throw on it. Solved in turn
 for the states of the samples (softly at first), for the weights, and for b by conjugate gradients, from the estimates of single pixels,
-without those so dark that they are taken for shadows, and those that their neighbours are not like. The gloss of the object is fitted on
-the way; the steps of b count how it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a little.
+without those so dark that they are taken for shadows, and those that their neighbours are not like. Where the palette of the object's
+albedos is known it draws abs(b) towards them (see surface.palette). The gloss of the object is fitted on the way; the steps of b count how
+it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a little.
 
 Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
 Cipolla 2008 (shadows, and the neighbours' part in what they hide).

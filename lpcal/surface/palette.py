@@ -64,13 +64,17 @@ class Palette:
 
     @staticmethod
     def of(b: Array, tilt_rad: Array, other: Array, width: float) -> Palette:
-        """The palette of fields b (P, 3), by the better half of the normals' deviations (P,), and by light but the matte share (P,)."""
+        """The palette of fields b (P, 3), of the better half by the normals' standard deviations (P,), within a window's width.
+
+        `other` (P,) is light from other surfaces and gloss, as a share of what the lamps make of matte matter.
+        """
         level = np.log(np.maximum(np.linalg.norm(b, axis=1), 1e-12))
         middle = float(np.median(level))
-        weight = np.where(tilt_rad <= np.median(tilt_rad), np.clip(1 - other / OTHER, 0.0, 1.0), 0.0)
+        known = tilt_rad <= np.median(tilt_rad)
+        weight = np.where(known, np.clip(1 - other / OTHER, 0.0, 1.0), 0.0)
         count, edges = np.histogram(np.clip(level - middle, -SPAN, SPAN), BINS, (-SPAN, SPAN), weights=weight)
         step, at = edges[1] - edges[0], (edges[1:] + edges[:-1]) / 2
-        share = count / max(float(np.sum(tilt_rad <= np.median(tilt_rad))), 1.0)
+        share = count / max(int(known.sum()), 1)
         density, first, second = (raster.blurred(share * one, width / step, "constant") / step for one in (np.ones(BINS), at, at**2))
         mean = first / np.maximum(density, 1e-12)
         return Palette(middle, density, mean, np.maximum(second / np.maximum(density, 1e-12) - mean**2, 0.0))

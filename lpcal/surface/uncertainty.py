@@ -6,7 +6,7 @@ the depth, R5 its rms over 5x5 pixels::
     sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
 with the clues: s max(1, sqrt(chi2 / dof)), s as of INDEPENDENT lights at most; R5; R; whether an edge or a break is near; whether three
-lights were used; whether the normal is filled in; 1; the light that is reflected onto the pixel by its surroundings as a share of the
+lights were used; whether the normal is filled in; the light that is reflected onto the pixel by its surroundings as a share of the
 direct light; and how much of what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by
 tools/fit_normal_sigma.py on simulated scenes. The calibration's part is common to the whole image.
 """
@@ -25,9 +25,9 @@ from lpcal.records.calibration import Light
 from lpcal.surface.normals import Estimate, thrown_share
 from lpcal.view.sight import Lit
 
-FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0, 0.0045, 0.0083)
+FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
 """What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
-tools/fit_normal_sigma.py on 200 simulated scenes (the first held, by DiLiGenT's: what is drawn is all of the model's matter)."""
+tools/fit_normal_sigma.py on 200 simulated scenes, the first held: drawn matter is the model's and says less of it than DiLiGenT's does."""
 INDEPENDENT = 4.0
 """Lights whose samples count in full: what real matter is not of the model's is common to neighbouring lights, and more of them do not
 average it away. By DiLiGenT's ball and bear, whose normals err alike by 10 lights and by 96."""
@@ -115,9 +115,9 @@ def clues_of(
 
 
 def squares(found: Clues) -> Array:
-    """The squares of the clues (P, 9)."""
+    """The squares of the clues (P, 8)."""
     noise = found.noise_deg * np.maximum(1, np.sqrt(found.misfit))
-    flags = [found.edge, found.used == 3, found.filled, np.ones(len(noise))]
+    flags = [found.edge, found.used == 3, found.filled]
     return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.thrown, found.unseen], axis=1) ** 2
 
 
