@@ -31,7 +31,8 @@ from lpcal.integration import multigrid, pieces
 from lpcal.integration.integrate import Grid, Own, integrate, settle, steps, system
 from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Calibration, Light
-from lpcal.surface import normals, uncertainty
+from lpcal.shading import normals
+from lpcal.surface import uncertainty
 from lpcal.view.sight import Sight
 
 ROOT = Path(__file__).resolve().parents[1]

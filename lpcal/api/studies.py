@@ -26,8 +26,8 @@ from lpcal.records import screens
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import Sensor
 from lpcal.records.shown import Shown
+from lpcal.shading import normals
 from lpcal.simulate.captures import Conditions, capture, ring
-from lpcal.surface import normals
 from lpcal.view import sight
 
 PAPER = Conditions()

@@ -1,4 +1,4 @@
-/* What the samples of each pixel say of its b, by the states and the weights that they have at the b so far. Twin: surface/field.py
+/* What the samples of each pixel say of its b, by the states and the weights that they have at the b so far. Twin: shading/field.py
    (_gathered). Light comes from directions d (L, P, 3) with irradiances E (L, P), and as J (L, P, 3) from other surfaces. */
 
 #include "kernel.h"
@@ -13,7 +13,7 @@ static inline double square(double x) { return x * x; }
 
 static inline double greater(double a, double b) { return a > b ? a : b; }
 
-/* Gloss of a light from d at a normal n, seen from v: see surface/gloss.py (lobe); all its quotients in one. */
+/* Gloss of a light from d at a normal n, seen from v: see shading/gloss.py (lobe); all its quotients in one. */
 static inline double lobe(const double d[3], const double n[3], const double v[3], double a2) {
     double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, nh = greater(dot3(h, n), 0.0), lit = greater(dot3(d, n), 0.0);
     double q = nh * nh / greater(dot3(h, h), 1e-18) * (a2 - 1.0) + 1.0, nv = greater(dot3(v, n), STEEPEST);
@@ -21,7 +21,7 @@ static inline double lobe(const double d[3], const double n[3], const double v[3
     return a2 * lit / (TAU_HALF * (q * q) * along * back);
 }
 
-/* How the lobe changes with the normal, along the tangents: see surface/gloss.py (turned). */
+/* How the lobe changes with the normal, along the tangents: see shading/gloss.py (turned). */
 static inline void turned(const double d[3], const double n[3], const double v[3], double a2, double found[3]) {
     double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, length = greater(sqrt(dot3(h, h)), 1e-9);
     double nh = greater(dot3(h, n) / length, 0.0), nd = greater(dot3(d, n), 0.0), nv = greater(dot3(v, n), STEEPEST);
@@ -36,7 +36,7 @@ static inline void turned(const double d[3], const double n[3], const double v[3
     for (int i = 0; i < 3; i++) found[i] -= along * n[i];
 }
 
-/* The lobe (L, P) of directions d (L, P, 3) at normals n, seen from directions v (P, 3). Twin: surface/gloss.py (lobe). */
+/* The lobe (L, P) of directions d (L, P, 3) at normals n, seen from directions v (P, 3). Twin: shading/gloss.py (lobe). */
 KERNEL void lpcal_lobe(int64_t L, int64_t P, const double *d, const double *n, const double *v, double roughness, double *found) {
     for (int64_t k = 0; k < L; k++)
         for (int64_t p = 0; p < P; p++) found[k * P + p] = lobe(d + 3 * (k * P + p), n + 3 * p, v + 3 * p, roughness * roughness);

@@ -1,4 +1,4 @@
-/* A gloss lobe for a whole object: what no b explains of residuals and lobe, and what strengths of it cost. Twin: surface/gloss.py
+/* A gloss lobe for a whole object: what no b explains of residuals and lobe, and what strengths of it cost. Twin: shading/gloss.py
    (_unexplained, _costs). Values are (L, P), light vectors B (L, P, 3); weights are 1 for samples that count, else 0. */
 
 #include "kernel.h"

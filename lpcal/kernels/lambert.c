@@ -1,4 +1,4 @@
-/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), surface/normals.py (_few), view/coarse.py
+/* Lambertian shading pixel by pixel. Twins: geometry/lambert.py (weighted), shading/normals.py (_few), view/coarse.py
    (LightTable.at). Light vectors B are (L, P, 3), signals and weights (L, P). */
 
 #include "kernel.h"
@@ -211,7 +211,7 @@ static void stated(int64_t L, int64_t P, int64_t first, const Many *of, const La
 }
 
 /* Estimates of many lights: from the middle of their ranked shadings, then by weights in rounds: what `lpcal_few` finds of few. `work` are
-   8 LANES numbers a light. Twin: surface/normals.py (_many). */
+   8 LANES numbers a light. Twin: shading/normals.py (_many). */
 KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
                        const double *rays, double darkest, double brightest, double mad, double scale, int64_t rounds, double most,
                        int64_t needed, double facing, double singular, double *work, double *b, bool *agree, double *inverse, double *chi2,
@@ -298,7 +298,7 @@ static void best_three(int64_t L, const Many *of, const Lanes *weight, double mo
 }
 
 /* Estimates of few lights, FEW at most: b (P, 3), NaN where there is none, the samples (L, P) that agree, the inverse (P, 3, 3) of the normal
-   matrix, the squares of the samples that agree (P), and of all that count, each `most` at most (P). Twin: surface/normals.py (_few). */
+   matrix, the squares of the samples that agree (P), and of all that count, each `most` at most (P). Twin: shading/normals.py (_few). */
 KERNEL void lpcal_few(int64_t L, int64_t P, const double *B, const double *signal, const bool *usable, const double *variance,
                       const double *rays, double most, int64_t rounds, int64_t needed, double facing, double singular, double *b,
                       bool *agree, double *inverse, double *chi2, double *cost) {

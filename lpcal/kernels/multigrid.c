@@ -426,7 +426,7 @@ static void left_over(Shape shape, const double *block, const double *across, co
 
 /* x (P, 3) of a system of blocks and links by conjugate gradients from x, preconditioned by the blocks (L D L', raised by `small`), until the
    residual is no longer than `enough`. `work` is zero: links and the direction with a pixel more at both ends, and 15 numbers a pixel.
-   Twin: surface/field.py (_System.solved). */
+   Twin: shading/field.py (_System.solved). */
 KERNEL void lpcal_coupled(int64_t pixels, int64_t stretches, const int32_t *stretch, const double *block, const double *across,
                           const double *down, const double *right, double *x, double *work, double enough, int64_t most, double small) {
     Shape shape = {pixels, stretches, NULL, stretch};

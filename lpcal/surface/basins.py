@@ -26,7 +26,8 @@ from lpcal.integration import pieces
 from lpcal.integration.integrate import Grid, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
-from lpcal.surface import distance, normals
+from lpcal.shading import normals
+from lpcal.surface import distance
 from lpcal.view import bands, coarse
 from lpcal.view.coarse import LightTable
 from lpcal.view.crop import Crop

@@ -9,7 +9,7 @@ with V whether p and j see each other. As b = albedo times n in the units of the
 whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
 holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
 camera does not see are guessed (surface.relief). s, and the shares of what is guessed, are estimated from the samples in shadow, which show
-interreflected light alone, and from the lit samples together with the smoothness of the surface (surface.field): posterior means over a
+interreflected light alone, and from the lit samples together with the smoothness of the surface (shading.field): posterior means over a
 grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
 Greenberg 1985 (form factors).
 """
@@ -26,8 +26,8 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.shading.normals import Estimate
 from lpcal.surface import relief as body
-from lpcal.surface.normals import Estimate
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches
 from lpcal.view import bands

@@ -11,7 +11,8 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.surface import Alternative, Component
-from lpcal.surface import basins, normals, uncertainty
+from lpcal.shading import normals
+from lpcal.surface import basins, uncertainty
 from lpcal.surface.basins import Basins
 from lpcal.surface.rounds import Scene, State
 

@@ -19,8 +19,8 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Own
 from lpcal.kernels.library import kernel
-from lpcal.surface import normals
-from lpcal.surface.normals import Estimate, thrown_share, variances
+from lpcal.shading import normals
+from lpcal.shading.normals import Estimate, thrown_share, variances
 from lpcal.view import bands
 from lpcal.view.sight import Lit, Sight, vectors
 

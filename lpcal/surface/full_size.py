@@ -1,7 +1,7 @@
 r"""A capture in full size, tile by tile, based on the solution in coarse pixels.
 
 The coarse capture is solved as any other: object, distance, gloss, what surfaces throw on each other and hide. Here each tile takes its
-light from that, finds its own normals (surface.field, from the coarse normals and each pixel's own albedo), and integrates them to a depth
+light from that, finds its own normals (shading.field, from the coarse normals and each pixel's own albedo), and integrates them to a depth
 that the coarse one holds over SCREEN coarse pixels: with steps g_ab of neighbours a, b and the coarse log depth h,
 
     minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s)^2  +  sum_p ((u_p - h_p) / (s SCREEN factor))^2
@@ -25,11 +25,12 @@ from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress
-from lpcal.surface import field, reconstruct, uncertainty
-from lpcal.surface.field import Field
-from lpcal.surface.gloss import Gloss
+from lpcal.shading import field
+from lpcal.shading.field import Field
+from lpcal.shading.gloss import Gloss
+from lpcal.shading.normals import Estimate, albedo_of
+from lpcal.surface import reconstruct, uncertainty
 from lpcal.surface.ground import Ground
-from lpcal.surface.normals import Estimate, albedo_of
 from lpcal.surface.rounds import Scene
 from lpcal.view import bands, sight
 from lpcal.view.sight import Lit

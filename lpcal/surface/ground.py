@@ -11,8 +11,8 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.integration.integrate import STEEPEST
 from lpcal.integration.pieces import BREAK_WEIGHT
+from lpcal.shading.normals import thrown_share
 from lpcal.surface import rounds
-from lpcal.surface.normals import thrown_share
 from lpcal.surface.rounds import Scene, State
 from lpcal.view.sight import Indices, Lit
 

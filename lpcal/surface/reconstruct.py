@@ -31,20 +31,10 @@ from lpcal.records.surface import Surface
 from lpcal.segmentation import mask, planes
 from lpcal.segmentation.background import NOTHING, OBJECT
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
-from lpcal.surface import (
-    basins,
-    components,
-    normals,
-    reading,
-    rounds,
-    self_calibration,
-    shadow_anchor,
-    surroundings,
-    uncertainty,
-    without_ambient,
-)
+from lpcal.shading import normals
+from lpcal.shading.normals import albedo_of
+from lpcal.surface import basins, components, reading, rounds, self_calibration, shadow_anchor, surroundings, uncertainty, without_ambient
 from lpcal.surface.basins import Basins
-from lpcal.surface.normals import albedo_of
 from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
 from lpcal.surface.self_calibration import exchanged

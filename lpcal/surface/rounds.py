@@ -19,10 +19,11 @@ from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.surface import basins, bounce, distance, field, normals, palette
-from lpcal.surface.field import Field
-from lpcal.surface.normals import Estimate
-from lpcal.surface.palette import Palette
+from lpcal.shading import field, normals, palette
+from lpcal.shading.field import Field
+from lpcal.shading.normals import Estimate
+from lpcal.shading.palette import Palette
+from lpcal.surface import basins, bounce, distance
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around

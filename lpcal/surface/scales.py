@@ -14,7 +14,7 @@ import numpy.typing as npt
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import LEAST_WEIGHT, STEEPEST, Grid, Own
-from lpcal.surface.normals import Estimate
+from lpcal.shading.normals import Estimate
 from lpcal.view import bands
 from lpcal.view.sight import Indices, Lit, Sight
 

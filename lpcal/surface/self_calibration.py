@@ -37,7 +37,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
-from lpcal.surface import normals
+from lpcal.shading import normals
 from lpcal.view.sight import Lit, Sight, vectors
 
 CONDITION = 1e5

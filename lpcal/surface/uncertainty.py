@@ -22,7 +22,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
-from lpcal.surface.normals import Estimate, thrown_share
+from lpcal.shading.normals import Estimate, thrown_share
 from lpcal.view.sight import Lit
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)

@@ -32,7 +32,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.segmentation import background, mask, planes, room_light, room_samples
 from lpcal.segmentation.room_light import RoomLight
-from lpcal.surface import normals
+from lpcal.shading import normals
 from lpcal.view import sight
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 

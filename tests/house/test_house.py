@@ -185,9 +185,9 @@ def test_reconstruct_imports_only_what_it_uses() -> None:
     used = imported_by("reconstruct", "--help")
     assert "numpy" not in used
     program = (
-        "import importlib, pkgutil, sys, lpcal.surface, lpcal.segmentation, lpcal.integration, lpcal.view\n"
+        "import importlib, pkgutil, sys, lpcal.surface, lpcal.shading, lpcal.segmentation, lpcal.integration, lpcal.view\n"
         "import lpcal.pipeline.reconstruct, lpcal.formats.surface_files, lpcal.report.relight_page\n"
-        "rooms = (lpcal.surface, lpcal.segmentation, lpcal.integration, lpcal.view)\n"
+        "rooms = (lpcal.surface, lpcal.shading, lpcal.segmentation, lpcal.integration, lpcal.view)\n"
         "parts = [one.name for room in rooms for one in pkgutil.iter_modules(room.__path__, room.__name__ + '.')]\n"
         "[importlib.import_module(name) for name in parts]\n"
         "print(*{name.partition('.')[0] for name in sys.modules})"

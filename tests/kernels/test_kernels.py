@@ -21,8 +21,9 @@ from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.segmentation import background, cut, flats, layers, planes, room_samples, samples
-from lpcal.surface import bounce, distance, field, gloss, normals
-from lpcal.surface.normals import Estimate
+from lpcal.shading import field, gloss, normals
+from lpcal.shading.normals import Estimate
+from lpcal.surface import bounce, distance
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
 from lpcal.view.coarse import LightTable, RoomPrior, coarse_of

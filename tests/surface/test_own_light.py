@@ -12,8 +12,9 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration.integrate import Grid, Own
 from lpcal.records.calibration import Light
 from lpcal.segmentation.planes import Plane, predicted
-from lpcal.surface import bounce, distance, field, normals, rounds
-from lpcal.surface.field import Field
+from lpcal.shading import field, normals
+from lpcal.shading.field import Field
+from lpcal.surface import bounce, distance, rounds
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
 from lpcal.view.sight import Lit, Sight

@@ -13,7 +13,8 @@ from lpcal.integration import multigrid, pieces
 from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.integration.multigrid import Matrix
 from lpcal.records.calibration import Light
-from lpcal.surface import normals, self_calibration
+from lpcal.shading import normals
+from lpcal.surface import self_calibration
 from lpcal.view.sight import Sight
 
 

@@ -8,7 +8,7 @@ The Lambertian part takes up most of a wide lobe, so what b leaves says too litt
 explains (variable projection, Golub and Pereyra 1973), pixel by pixel and with robust weights. Matter of reflectance R whose albedo is b
 in the signals' unit mirrors the share ``F0 = ks R / (pi b)`` of the light that meets it squarely. Common matter has F0 near .045, which is
 the prior; strength and roughness are means over a grid of both, together with the odds that there is no gloss. The normals are those of
-the field (surface.field), which fits it again in every round.
+the field (shading.field), which fits it again in every round.
 
 Sources: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX); Akenine-Moeller et al.
 2018, Real-Time Rendering, 9.5 (F0 of common matter).

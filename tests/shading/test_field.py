@@ -11,7 +11,7 @@ import pytest
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration.integrate import Grid
-from lpcal.surface import field, gloss, normals
+from lpcal.shading import field, gloss, normals
 from lpcal.view.sight import Lit, Sight
 
 SIZE = 70

@@ -9,7 +9,7 @@ rho is Geman and McClure's. The samples of a pixel that three or more lights rea
 third direction comes from its neighbours' albedo and normal; in shadow, from the light that its surroundings throw on it. Solved in turn
 for the states of the samples (softly at first), for the weights, and for b by conjugate gradients, from the estimates of single pixels,
 without those so dark that they are taken for shadows, and those that their neighbours are not like. Where the palette of the object's
-albedos is known it draws abs(b) towards them (see surface.palette). The gloss of the object is fitted on the way; the steps of b count how
+albedos is known it draws abs(b) towards them (see shading.palette). The gloss of the object is fitted on the way; the steps of b count how
 it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a little.
 
 Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
@@ -28,9 +28,9 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import pieces
 from lpcal.integration.integrate import Grid
 from lpcal.kernels.library import kernel
-from lpcal.surface import gloss
-from lpcal.surface.normals import Estimate, joined
-from lpcal.surface.palette import Palette
+from lpcal.shading import gloss
+from lpcal.shading.normals import Estimate, joined
+from lpcal.shading.palette import Palette
 from lpcal.view import bands
 from lpcal.view.sight import Indices, Lit, Sight
 

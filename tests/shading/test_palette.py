@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from lpcal.geometry import lambert
-from lpcal.surface import palette
-from lpcal.surface.palette import Palette
+from lpcal.shading import palette
+from lpcal.shading.palette import Palette
 
 RNG = np.random.default_rng(11)
 
