@@ -12,13 +12,9 @@ black; where the pattern does not show it, the one with x most to the right in t
 
 Why no board was found in an image, and what is there instead, in words.
 
-Looked for in turn: light that differs by more than its noise, edges that are sharp somewhere, any grid of corners (its count, whether
-light too bright hides part of it, whether it runs into the image's edge). Symbols: blur s of an edge of contrast c whose steepest step
-is g; noise n from the image filtered by L, the difference of two Laplacians::
-
-    s = c / (g sqrt(2 pi))        n = 1.4826 median |L * I| / 6
-
-Source: Immerkaer 1996 (the noise).
+Looked for in turn: light that differs by more than its noise (`noise`), edges that are sharp somewhere, any grid of corners (its count,
+whether light too bright hides part of it, whether it runs into the image's edge). Symbols: blur s of an edge of contrast c whose steepest
+step is g: ``s = c / (g sqrt(2 pi))``.
 
 Charuco boards: chessboard corners named by the markers between them, so that part of a board is enough.
 
@@ -36,12 +32,13 @@ import numpy as np
 from lpcal.detect.board_grid import contrast, extended, in_board_order, spacing_px
 from lpcal.detect.board_links import grown, seen_grid, without_holes
 from lpcal.detect.board_patterns import find_aprilgrid, find_circles
+from lpcal.detect.noise import hardly_any_contrast
 from lpcal.detect.saddle import BLUR_PX, fit_saddles
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.observations import Board, BoardView
 
-DETECTOR_VERSION = 7
+DETECTOR_VERSION = 8
 """Part of the key under which detections are kept."""
 WINDOW_SHARE = 0.4
 """Half side of the refinement's window in units of the smallest spacing; 0.3 to 0.5 is unbiased."""
@@ -133,7 +130,10 @@ def stretched(image: Image | Labels) -> Labels:
     low, high = np.percentile(image[::4, ::4], [0.5, 99.5])
     if image.dtype == np.uint8 and high - low > 60:
         return image.astype(np.uint8, copy=False)
-    return np.clip((image.astype(np.float32) - low) * (255.0 / max(high - low, 1e-9)), 0, 255).astype(np.uint8)
+    light = image.astype(np.float32)
+    light -= np.float32(low)
+    light *= np.float32(255.0 / max(high - low, 1e-9))
+    return np.clip(light, 0, 255, out=light).astype(np.uint8)
 
 
 def _search(grey: Labels, corners: tuple[int, int], until_s: float, *, ragged: bool) -> tuple[Array | None, bool]:
@@ -229,13 +229,6 @@ def refine(image: Image | Labels, rough: Array, spacing: float, share: float = W
     return refined
 
 
-LEAST_STEPS, LEAST_NOISES = 6.0, 4.0
-"""Smoothed over 3x3 pixels, light must range over so many steps of 255 and over so many sigmas of its noise in some block of the image;
-pure noise reaches three sigmas."""
-BLOCK_PX, SOME = 16, 99.8
-"""Side of a block in px, and the percentile of the blocks' ranges that is looked at: a board may fill little of the image."""
-CLEAR_STEPS = 40.0
-"""Steps of 255 over which an image ranges that is not called dark or flat."""
 BLURRED_PX = 3.0
 """A picture whose steepest edge has more blur than this is blurred."""
 FINE_PX = 8.0
@@ -245,28 +238,6 @@ RIM_SQUARES, MOSTLY = 0.3, 0.4
 cannot be seen, since a line of it is known by the rest."""
 GLARE_SQUARES = 1.8
 """Area, in squares, of a saturated spot within the grid that is no white square."""
-
-
-def hardly_any_contrast(image: Image | Labels) -> str | None:
-    """In words, where a grey image (H, W) of any scale holds nothing but its own noise; None: there is more in it."""
-    import cv2
-
-    light = image.astype(np.float32)
-    scale = {"uint8": 1.0, "uint16": 255 / 65535}.get(image.dtype.name, 255.0 if light.max() <= 1 else None)
-    mask = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], np.float32)
-    noise = 1.4826 * float(np.median(np.abs(cv2.filter2D(light, -1, mask)[::4, ::4]))) / 6
-    smooth = cv2.blur(light, (3, 3))
-    block = np.ones((BLOCK_PX, BLOCK_PX), np.uint8)
-    spans = (cv2.dilate(smooth, block) - cv2.erode(smooth, block))[:: BLOCK_PX // 2, :: BLOCK_PX // 2]
-    span = float(np.percentile(spans, SOME))
-    least = LEAST_STEPS if image.dtype == np.uint8 else 0.0
-    if span > max(least, LEAST_NOISES * noise) and span > 0:
-        return None
-    low, high = np.percentile(light[::4, ::4], [1, 99])
-    size = f"{low:.4g} to {high:.4g}" if scale is None else f"{scale * low:.0f} to {scale * high:.0f} of 255"
-    if scale is None or scale * (high - low) < CLEAR_STEPS:
-        return f"the image has hardly any contrast ({size})"
-    return f"the image is nothing but noise ({size})"
 
 
 def what_is_there(grey: Labels, saturated: Mask, corners: tuple[int, int], seen: Array | None) -> str:

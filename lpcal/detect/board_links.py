@@ -156,29 +156,35 @@ def _firsts(links: Array) -> list[int]:
 
 def _spread_from(first: int, edges: Array, links: Array, place: Array, seen: Array) -> list[int]:
     """What is linked to the first saddle, each given its column and row; one that would get a place that is taken stays out."""
-    axes = {first: edges[first]}
-    place[first] = 0
+    way = edges.tolist()
+    axes = {first: way[first]}
+    spots = {first: (0, 0)}
+    taken, members, queue = {(0, 0)}, [first], deque([first])
     seen[first] = True
-    taken, members, queue = {(0, 0): first}, [first], deque([first])
     while queue:
         at = queue.popleft()
-        x, y = axes[at]
-        for side, other in enumerate(links[at]):
+        (column, row), axis = spots[at], axes[at]
+        for side, other in enumerate(links[at].tolist()):
             if other < 0 or seen[other]:
                 continue
-            along = (1 - 2 * (side % 2)) * edges[at][side // 2]
-            dots = np.array([along @ x, along @ y])
-            axis = int(np.abs(dots).argmax())
-            spot = place[at].copy()
-            spot[axis] += 1 if dots[axis] > 0 else -1
-            if (spot[0], spot[1]) in taken:
+            ahead = -1 if side % 2 else 1
+            x, y = (ahead * _dot(way[at][side // 2], each) for each in axis)
+            spot = (column + (1 if x > 0 else -1), row) if abs(x) >= abs(y) else (column, row + (1 if y > 0 else -1))
+            if spot in taken:
                 continue
-            own = edges[other] if abs(edges[other][0] @ x) > abs(edges[other][0] @ y) else edges[other][::-1]
-            axes[other] = np.stack([own[0] * np.sign(own[0] @ x), own[1] * np.sign(own[1] @ y)])
-            place[other], seen[other], taken[spot[0], spot[1]] = spot, True, other
-            members.append(int(other))
+            first_is_x = abs(_dot(way[other][0], axis[0])) > abs(_dot(way[other][0], axis[1]))
+            own = way[other] if first_is_x else way[other][::-1]
+            axes[other] = [own[k] if _dot(own[k], axis[k]) >= 0 else [-own[k][0], -own[k][1]] for k in (0, 1)]
+            spots[other], seen[other] = spot, True
+            taken.add(spot)
+            members.append(other)
             queue.append(other)
+    place[members] = [spots[one] for one in members]
     return members
+
+
+def _dot(a: list[float], b: list[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1]
 
 
 def _trimmed(grid: Array) -> Array:

@@ -34,6 +34,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.kernels.library import kernel
 
 SMOOTH_PX, RING_PX, RING = 1.3, 3.5, 24
 """Smoothing before the Hessian and radius of the ring, in px of the image searched, and samples on the ring: squares of 5 px and more
@@ -71,18 +72,20 @@ def saddle_points(grey: Labels) -> SaddlePoints:
     greatest = (strength >= cv2.dilate(strength, np.ones((5, 5), np.uint8))) & (strength > LEAST_STRENGTH)
     rim = int(np.ceil(RING_PX)) + 1
     greatest[:rim], greatest[-rim:], greatest[:, :rim], greatest[:, -rim:] = False, False, False, False
-    row, column = np.nonzero(greatest)
-    order = np.argsort(-strength[row, column])[: 4 * MOST]
-    row, column = row[order], column[order]
+    at = np.flatnonzero(greatest)
+    if len(at) > (most := 4 * MOST):
+        at = at[np.argpartition(strength.ravel()[at], len(at) - most)[-most:]]
     # Sobel's derivatives of second order are four times the curvature
-    H = np.stack([xx[row, column], xy[row, column], xy[row, column], yy[row, column]], axis=-1).reshape(-1, 2, 2).astype(float) / 4
-    slope = [(light[row, column + 1] - light[row, column - 1]) / 2, (light[row + 1, column] - light[row - 1, column]) / 2]
-    step = -np.linalg.solve(H, np.stack(slope, axis=-1)[..., None])[..., 0]
-    places = np.stack([column, row], axis=-1) + np.clip(step, -1.5, 1.5)
+    xx, yy, xy = (each.ravel()[at].astype(float) / 4 for each in (xx, yy, xy))
+    beside, below = ((light.ravel()[at + way] - light.ravel()[at - way]).astype(float) / 2 for way in (1, light.shape[1]))
+    step = np.stack([xy * below - yy * beside, xy * beside - xx * below], axis=-1) / (xx * yy - xy * xy)[:, None]
+    places = np.stack([at % light.shape[1], at // light.shape[1]], axis=-1) + np.clip(step, -1.5, 1.5)
     like, span = likeness(light, places, np.full(len(places), RING_PX))
     likely = np.flatnonzero((like > LIKE) & (span > LEAST_STEP))
+    likely = likely[np.argsort(-strength.ravel()[at[likely]], kind="stable")]
+    H = np.stack([xx, xy, xy, yy], axis=-1)[likely].reshape(-1, 2, 2)
     places = places[likely]
-    curvature, axes = np.linalg.eigh(H[likely])
+    curvature, axes = np.linalg.eigh(H)
     tangent = np.sqrt(np.maximum(curvature[:, 1], 0) / np.maximum(-curvature[:, 0], 1e-9))
     kept = (tangent > SHARPEST_TAN) & (tangent < 1 / SHARPEST_TAN)
     rows = np.flatnonzero(kept)[:MOST]
@@ -93,17 +96,20 @@ def saddle_points(grey: Labels) -> SaddlePoints:
 
 def likeness(light: Array, places: Array, radius_px: Array) -> tuple[Array, Array]:
     """How much the light about places (N, 2) is a corner's on rings of radii (N,), and the range of light there; -1 outside the image."""
-    import cv2
-
-    if not len(places):
-        return np.zeros(0), np.zeros(0)
     angle = 2 * np.pi * np.arange(RING) / RING
-    ring = places[:, None] + radius_px[:, None, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    inside = np.all((ring >= 0) & (ring <= np.array(light.shape[1::-1]) - 1), axis=(1, 2))
-    at = np.nan_to_num(ring, nan=-1.0).astype(np.float32)
-    samples = np.concatenate(
-        [cv2.remap(light, at[k : k + 30000, :, 0], at[k : k + 30000, :, 1], cv2.INTER_LINEAR) for k in range(0, len(at), 30000)]
-    ).astype(float)
+    compass = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    if run := kernel("ring"):
+        like, span = np.empty(len(places)), np.empty(len(places))
+        given = (np.ascontiguousarray(one, float) for one in (compass, places, radius_px))
+        run(len(places), *light.shape, np.ascontiguousarray(light, np.float32), *given, QUARTERS, like, span)
+        return like, span
+    last = np.array(light.shape[1::-1]) - 1
+    inside = np.all((places - radius_px[:, None] >= 0) & (places + radius_px[:, None] <= last), axis=1)
+    x, y = np.moveaxis(np.where(inside[:, None], places, 0)[:, None] + np.where(inside, radius_px, 0)[:, None, None] * compass, -1, 0)
+    column, row = np.minimum(x.astype(int), last[0] - 1), np.minimum(y.astype(int), last[1] - 1)
+    u, v = x - column, y - row
+    above = (1 - u) * light[row, column] + u * light[row, column + 1]
+    samples = (1 - v) * above + v * ((1 - u) * light[row + 1, column] + u * light[row + 1, column + 1])
     about = samples - samples.mean(axis=1, keepdims=True)
     like = np.sum(about * np.roll(about, RING // 2, axis=1), axis=1) / np.maximum(np.sum(about**2, axis=1), 1e-9)
     sides = np.sum((about > 0) != (np.roll(about, 1, axis=1) > 0), axis=1)
@@ -168,11 +174,10 @@ def fit_saddles(image: Image, grid: Array, half_px: int, every: int = 1) -> Sadd
 def _fit(image: Image, corners: Array, angles: Array, half: int) -> tuple[Array, Array, Array]:
     """Corners (n, 2) and their sigmas (n,) where the fit is believed; else as they were, NaN; and the edges' blur (n,)."""
     offsets, light, weight, middle = _windows(image, corners, half)
-    numbers, covariance = _levenberg_marquardt(np.concatenate([corners - middle, angles], axis=1), offsets, light, weight)
+    numbers, variance = _levenberg_marquardt(np.concatenate([corners - middle, angles], axis=1), offsets, light, weight)
     places = middle + numbers[:, :2]
     believed = np.linalg.norm(places - corners, axis=1) < STRAY * half
     believed &= np.abs(np.sin(numbers[:, 2] - numbers[:, 3])) > LEAST_ANGLE_SIN
-    variance = np.trace(covariance[:, :2, :2], axis1=1, axis2=2) / 2
     believed &= variance > 0
     sigma_px = np.sqrt(np.maximum(variance, 0.0))
     return np.where(believed[:, None], places, corners), np.where(believed, sigma_px, np.nan), np.exp(numbers[:, 4])
@@ -213,8 +218,12 @@ def _windows(image: Image, corners: Array, half: int) -> tuple[Any, ...]:
 
 
 def _levenberg_marquardt(start: Array, offsets: Array, light: Array, weight: Array) -> tuple[Array, Array]:
-    """Numbers (n, 10) from places and angles (n, 4), and their covariance (n, 10, 10) by the scatter; each corner has its own damping."""
+    """Numbers (n, 10) from places and angles (n, 4), and the place's variance (n,) by the scatter; each corner has its own damping."""
     numbers = np.concatenate([start, np.zeros((len(start), NUMBERS - 4))], axis=1)
+    if run := kernel("saddles"):
+        limits, variance = np.array([*PRECISION, STEP_LIMIT, *np.log(BLUR_PX), MOST_DAMPING, TINY]), np.empty(len(start))
+        run(*weight.shape, STEPS, limits, *(np.ascontiguousarray(one, np.float32) for one in (offsets, light, weight)), numbers, variance)
+        return numbers, variance
     numbers[:, 5:7] = _first_light(numbers, offsets, light, weight)
     damping, moving = np.full(len(start), 1e-3), np.ones(len(start), dtype=bool)
     J, residual = _linearised(numbers, offsets, light, weight)
@@ -237,7 +246,8 @@ def _levenberg_marquardt(start: Array, offsets: Array, light: Array, weight: Arr
         damping[rows] *= np.where(better, 0.2, 10.0)
         moving[rows] = (np.abs(step[:, :5]) > PRECISION).any(axis=1) & (damping[rows] < MOST_DAMPING)
     N = (np.swapaxes(J, 1, 2) @ J).astype(float) + TINY * np.eye(NUMBERS)
-    return numbers, np.linalg.inv(N) * (cost / np.maximum(weight.sum(axis=1) - NUMBERS, 1))[:, None, None]
+    free = np.maximum(weight.sum(axis=1) - NUMBERS, 1)
+    return numbers, np.trace(np.linalg.inv(N)[:, :2, :2], axis1=1, axis2=2) / 2 * cost / free
 
 
 def _edges(numbers: Array, offsets: Array) -> tuple[Any, ...]:

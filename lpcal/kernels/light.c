@@ -38,21 +38,6 @@ KERNEL void lpcal_cluster(int64_t count, int64_t leds, const double *x, const do
     }
 }
 
-/* As the exponential of kernel.h, in single precision: of a number up to 80, right to 1e-7 of itself. */
-static inline float exponential_single(float y) {
-    float within = y < -87.0f ? -87.0f : y, shifted = within * 1.44269504f + 12582912.0f, whole = shifted - 12582912.0f;
-    float r = (within - whole * 0.693359375f) + whole * 2.12194440e-4f, sum = 1.0f / 5040.0f;
-    sum = sum * r + 1.0f / 720.0f;
-    sum = sum * r + 1.0f / 120.0f;
-    sum = sum * r + 1.0f / 24.0f;
-    sum = sum * r + 1.0f / 6.0f;
-    sum = sum * r + 0.5f;
-    sum = sum * r + 1.0f;
-    sum = sum * r + 1.0f;
-    float scaled = of_bits_single(bits_of_single(sum) + (bits_of_single(shifted) << 23));
-    return y < -87.0f ? 0.0f : scaled;
-}
-
 /* As the logarithm of kernel.h, in single precision. */
 static inline float logarithm_single(float x) {
     uint32_t u = bits_of_single(x);

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
+from lpcal.detect import saddle
 from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import integrate, multigrid, pieces
@@ -354,6 +355,28 @@ def blocks(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for one in images for each in (one.signal, one.sigma, one.usable, one.rays_C)])
 
 
+def crossing(rng: np.random.Generator, count: int) -> tuple[Array, Array]:
+    """A picture of blurred squares' corners, in steps of 255, and where they are."""
+    places = np.stack([20.0 + 25 * (np.arange(count) % 10), 20.0 + 25 * (np.arange(count) // 10)], axis=1) + rng.random((count, 2))
+    y, x = np.indices((int(places[:, 1].max()) + 20, 270))
+    near = np.hypot(x[..., None] - places[:, 0], y[..., None] - places[:, 1]).argmin(axis=-1)
+    u, v = x - places[near, 0], y - places[near, 1]
+    light = 120 + 80 * np.tanh((u + 0.2 * v) / 1.5) * np.tanh((v - 0.1 * u) / 1.5) + rng.normal(size=x.shape)
+    return light.astype(np.float32), places
+
+
+def ring(rng: np.random.Generator) -> Array:
+    light, places = crossing(rng, 40)
+    asked = np.concatenate([places, [[270.0, 100.0], [-3.0, 5.0], [np.nan, 4.0]], rng.random((300, 2)) * [269, 100]])
+    return np.concatenate(saddle.likeness(light, asked, np.full(len(asked), 3.5)))
+
+
+def saddles(rng: np.random.Generator) -> Array:
+    light, places = crossing(rng, 60)
+    start, angles = places + 0.4 * (rng.random(places.shape) - 0.5), np.tile([0.1, 1.75], (len(places), 1))
+    return np.concatenate([each.ravel() for each in saddle._fit(light, start, angles, 7)])
+
+
 CASES: dict[Callable, tuple[float, set[str]]] = {
     hidden: (0.0, {"hidden"}),
     behind: (1e-13, {"behind"}),
@@ -394,6 +417,8 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     cluster_single: (1e-5, {"cluster_single"}),
     cluster_slope: (1e-5, {"cluster_slope"}),
     blocks: (0.0, {"blocks", "block_means"}),
+    ring: (1e-12, {"ring"}),
+    saddles: (1e-6, {"saddles"}),
     solved: (1e-8, {"multigrid"}),
     integrated: (1e-4, {"integrated", "steps"}),
 }
