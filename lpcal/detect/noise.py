@@ -9,9 +9,11 @@ Source: Immerkaer 1996.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image, Labels
+from lpcal.geometry.arrays import Image, Labels
 
 LEAST_STEPS, LEAST_NOISES = 6.0, 4.0
 """Smoothed over 3x3 pixels, light must range over so many steps of 255 and over so many sigmas of its noise in some block of the image;
@@ -41,7 +43,7 @@ def hardly_any_contrast(image: Image | Labels) -> str | None:
     return f"the image is nothing but noise ({size})"
 
 
-def _second_differences(light: Array) -> Array:
+def _second_differences(light: Any) -> Any:
     """The second difference along x of that along y at every fourth pixel of every fourth row of an image (H, W)."""
     for axis in (0, 1):
         at = np.arange(0, light.shape[axis], 4)
@@ -51,7 +53,7 @@ def _second_differences(light: Array) -> Array:
     return light
 
 
-def _over_blocks(light: Array, extreme: np.ufunc) -> Array:
+def _over_blocks(light: Any, extreme: np.ufunc) -> Any:
     """The extreme over blocks of an image (H, W), each half over the next."""
     half = BLOCK_PX // 2
     for _ in range(2):  # down the columns, then along the rows
