@@ -91,7 +91,7 @@ def test_a_strip_that_two_lights_reach_is_told_by_its_neighbours(left: tuple[int
     assert np.median(errors_deg(whole.b, n)[~strip]) < 0.5
 
 
-def half_shadowed(monkeypatch: pytest.MonkeyPatch, friends: int) -> float:
+def half_shadowed(monkeypatch: pytest.MonkeyPatch, friends: float) -> float:
     """Mean error, degrees, in a line of two pixels where a shadow of four of six lights begins and each sample keeps what it happens to."""
     monkeypatch.setattr(field, "FRIENDS", friends)
     seen, lit, n, clean = ball(6)
@@ -104,7 +104,7 @@ def half_shadowed(monkeypatch: pytest.MonkeyPatch, friends: int) -> float:
 
 
 def test_where_a_shadow_ends_the_neighbours_begin(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert half_shadowed(monkeypatch, field.FRIENDS) < 0.7 * half_shadowed(monkeypatch, 0)
+    assert half_shadowed(monkeypatch, field.FRIENDS) < 0.7 * half_shadowed(monkeypatch, 0.0)
 
 
 def test_a_shadow_lit_from_around_is_no_dark_matter() -> None:
