@@ -23,6 +23,7 @@ from lpcal.fusion.align import SHARED, Aligned, Start, align
 from lpcal.fusion.bending import bending_of
 from lpcal.fusion.between import Body, at_points
 from lpcal.fusion.pairs import Placed
+from lpcal.fusion.pieces import cleared
 from lpcal.fusion.vertices import albedo_of
 from lpcal.fusion.views import PlacedView, renewed
 from lpcal.fusion.volume import Triangles
@@ -115,7 +116,7 @@ def again(aligned: Aligned, model: Triangles, images: Images, progress: Progress
     shared = np.concatenate([aligned.parameters[:7], np.zeros(SHARED - 7)])  # depths hold their tilt and bending now
     start_of = Start(shared, own, [{} for _ in state])
     found = align(views, aligned.H_PC_covariance, progress, start_of, state[0].bending.step_px)
-    return replace(found, before_m=aligned.before_m), reflectance
+    return replace(cleared(found), before_m=aligned.before_m), reflectance
 
 
 class _Smoothed:

@@ -79,7 +79,7 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
     `gate_m` is how far apart the two surfaces may be, along the normal, to be taken for one.
     """
     p_A, n_p, from_p = first
-    facing = np.flatnonzero(_faces(p_A, n_p, second))
+    facing = np.flatnonzero(faces(p_A, n_p, second))
     if len(facing) < 10:
         return None
     seen = _Facing.of(p_A[facing], n_p[facing], second, gate_m)
@@ -107,11 +107,12 @@ def votes(first: tuple[Array, Array], second: Placed, gate_m: float) -> tuple[Ma
     """
     p_A, n_p = first
     seen = _Facing.of(p_A, n_p, second, gate_m)
-    facing = _faces(p_A, n_p, second)
+    facing = faces(p_A, n_p, second)
     return seen.agree & facing, seen.through | (seen.unlike & facing)
 
 
-def _faces(p_A: Array, n_p: Array, second: Placed) -> Mask:
+def faces(p_A: Array, n_p: Array, second: Placed) -> Mask:
+    """Which points (N, 3) with normals (N, 3) face a view."""
     to_camera = second.H_AC[:3, 3] - p_A
     return np.asarray(np.einsum("ij,ij->i", n_p, to_camera) > 0.3 * np.linalg.norm(to_camera, axis=1))
 

@@ -14,9 +14,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from lpcal.fusion.align import Aligned, showing
+from lpcal.fusion.fronts import Fronts
 from lpcal.fusion.pairs import Placed, votes
 from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import se3
@@ -38,6 +41,8 @@ CONTRADICTED = 0.4
 """Share of the points that the others judge which they may contradict: some lie at steps that the view has smoothed."""
 SECOND = 0.6
 """Share of the best score that no other distance may reach: where two are as good, nothing is known."""
+SEEN_THROUGH = 2
+"""Views that see through a place of another view from which on it is not shown: one of them may be wrong itself."""
 PRIOR_SIGMAS = 2.0
 """By how many of its sigmas a piece may have to move where one view alone confirms it."""
 
@@ -79,6 +84,11 @@ class Among:
     """Places of the views that have a piece which is placed."""
     gate_m: float
 
+    @cached_property
+    def fronts(self) -> Fronts:
+        """What stands before what."""
+        return Fronts(self.state)
+
     def look_for(self, view: int, label: int) -> Piece:
         """The step of log distance at which the others confirm a piece."""
         one = self.state[view]
@@ -101,6 +111,7 @@ class Among:
                 agree += yes
                 contradict += no
                 support[:, k] = yes.sum(axis=1)
+        contradict = contradict + self.fronts.deny(view, row, column, np.exp(steps)[:, None] * x_C[:, 2], self.gate_m)
         confirmed, denied = ((agree > 0) & (agree >= contradict)).sum(axis=1), (contradict > agree).sum(axis=1)
         return self._believed(found, steps, confirmed, denied, support, len(row))
 
@@ -153,41 +164,51 @@ class Among:
         return np.arange(first, last, self.gate_m / 2 / one.view.distance_m)
 
 
-def confirmed_share(state: Sequence[Placed], place: int, gate_m: float) -> tuple[dict[int, float], dict[int, int]]:
+def confirmed_share(fronts: Fronts, place: int, gate_m: float) -> tuple[dict[int, float], dict[int, int]]:
     """The share of every piece's judged points that the others confirm, and how many views confirm some of it, by the labels of a view.
 
     The share is 1 where they judge too few.
     """
-    one = state[place]
-    p_A, n_A, _ = one.points()
+    one = fronts.state[place]
+    p_A, n_A, from_A = one.points()
     label = one.view.component[one.row, one.column]
     numbers = [number for number, _ in one.view.pieces]
     size = np.bincount(label, minlength=256)
     agree, contradict, supporters = np.zeros(len(p_A), np.intp), np.zeros(len(p_A), np.intp), np.zeros(256, np.intp)
-    for k, other in enumerate(state):
+    for k, other in enumerate(fronts.state):
         if k != place and len(p_A) and may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no
             supporters += np.bincount(label[yes], minlength=256) >= np.maximum(SUPPORT * size, FEWEST_SUPPORT)
+    contradict += fronts.deny(place, one.row, one.column, from_A @ one.H_AC[:3, 2], gate_m)
     confirmed = np.bincount(label[(agree > 0) & (agree >= contradict)], minlength=256)
     judged = confirmed + np.bincount(label[contradict > agree], minlength=256)
     share = np.where(judged >= FEWEST_POINTS, confirmed / np.maximum(judged, 1), 1.0)
     return {number: float(share[number]) for number in numbers}, {number: int(supporters[number]) for number in numbers}
 
 
-def seen_through(state: Sequence[Placed], place: int, gate_m: float, outvoted: int) -> Mask:
+def seen_through(fronts: Fronts, place: int, gate_m: float, outvoted: int) -> Mask:
     """Pixels (H, W) of a placed view that at least so many others contradict, and more than confirm them."""
-    one = state[place]
+    one = fronts.state[place]
     row, column = np.nonzero(one.view.witness)
-    p_A, n_A, _ = replace(one, row=row, column=column).points()
+    p_A, n_A, from_A = replace(one, row=row, column=column).points()
     agree, contradict = np.zeros((2, len(row)), np.int16)
-    for k, other in enumerate(state):
+    for k, other in enumerate(fronts.state):
         if k != place and len(row) and may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no
+    contradict = contradict + fronts.deny(place, row, column, from_A @ one.H_AC[:3, 2], gate_m)
     gone = np.zeros(one.view.witness.shape, bool)
     bad = (contradict >= outvoted) & (contradict > agree)
     gone[row[bad], column[bad]] = True
     return gone
+
+
+def cleared(aligned: Aligned) -> Aligned:
+    """Aligned views without the pixels that SEEN_THROUGH others at least contradict, and more than confirm them."""
+    fronts = Fronts(aligned.placed)
+    gate_m = GATE_PX * float(np.median([one.view.footprint_m for one in aligned.placed]))
+    gone = [seen_through(fronts, place, gate_m, SEEN_THROUGH) for place in range(len(aligned.placed))]
+    return replace(aligned, placed=tuple(showing(one, one.view.without(mask)) for one, mask in zip(aligned.placed, gone, strict=True)))

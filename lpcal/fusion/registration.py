@@ -15,21 +15,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.errors import DegenerateError
-from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view, showing
+from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view
 from lpcal.fusion.bending import bending_of
 from lpcal.fusion.consensus import MOST_HEARD_SIGMAS, Doubted, agreement, moved_too_far, outvoted
+from lpcal.fusion.fronts import Fronts
 from lpcal.fusion.pairs import Placed
-from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, confirmed_share, labels_by_size, only, seen_through
+from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, cleared, confirmed_share, labels_by_size, only
 from lpcal.fusion.views import PlacedView
 from lpcal.geometry.arrays import Array
 from lpcal.records.outcome import Progress, silent
 
 FEWEST = 2
 """Views that a model takes: of one alone `lpcal reconstruct` makes a mesh."""
+LOOKS = 3
+"""How often all are aligned anew because pieces were found: where the views stand better, more are."""
 PASSES = 4
 """How often pieces are looked for: those that were found may confirm others."""
-SEEN_THROUGH = 2
-"""Views that see through a place of another view from which on it is not shown: one of them may be wrong itself."""
 
 
 @dataclass(frozen=True)
@@ -67,18 +68,20 @@ def registered(name: str, views: Sequence[PlacedView], H_PC_covariance: Array, p
     aligned = align([alone[k] for k in kept], H_PC_covariance, progress, step_px=step_px)
     before_m, fresh = aligned.before_m, True
     search.take(aligned, kept)
-    while True:
-        if search.look() or not fresh or len(search.kept) < len(kept):
+    for _ in range(LOOKS + len(views)):
+        found = search.look()
+        if found or not fresh or len(search.kept) < len(kept):
             kept = search.kept
             _refuse_apart(name, kept, len(views), pairs)
             aligned = align([search.shown(k) for k in kept], H_PC_covariance, progress, search.start(kept), step_px)
             search.take(aligned, kept)
         pieces = search.judged(aligned, kept)
         doubt = _doubtful(aligned, kept, pieces)
-        if doubt is None or len(search.why) >= len(views) // 2 or len(kept) <= FEWEST + 1:
+        fresh = doubt is None
+        if doubt is not None and len(search.why) < len(views) // 2 and len(kept) > FEWEST + 1:
+            search.drop(doubt)
+        elif not found or search.looks >= LOOKS:
             break
-        search.drop(doubt)
-        fresh = False
     shown = replace(_as_shown(search, aligned, kept, pieces), before_m=before_m)
     return Registered(shown, tuple(kept), {k: why for k, why in search.why.items() if k not in kept}, shares, pieces)
 
@@ -114,6 +117,7 @@ class _Search:
         self.shared: Array = np.zeros(SHARED)
         self.own: dict[int, Array] = {}
         self.refused: set[int] = set()
+        self.looks = 0
 
     def take(self, aligned: Aligned, kept: Sequence[int]) -> None:
         """Where the aligned views stand. At first their largest pieces count as found, those that the others do not contradict there."""
@@ -168,6 +172,7 @@ class _Search:
         Of a view that was left out its largest piece comes first: its distance may change by so many sigmas and not more.
         """
         some = False
+        self.looks += 1
         for _ in range(PASSES):
             among = Among(self.state(), self.views, self.kept, self.gate_m)
             new = {}
@@ -200,8 +205,9 @@ class _Search:
     def judged(self, aligned: Aligned, kept: Sequence[int]) -> dict[int, tuple[Piece, ...]]:
         """Every piece of the aligned views with what the others say of it now."""
         said = {}
+        fronts = Fronts(aligned.placed)
         for place, k in enumerate(kept):
-            shares, supporters = confirmed_share(aligned.placed, place, self.gate_m)
+            shares, supporters = confirmed_share(fronts, place, self.gate_m)
             pieces = [self.found[k, label] for label, _ in self.views[k].pieces if (k, label) in self.found]
             for at, piece in enumerate(pieces):
                 if piece.why is None:
@@ -220,5 +226,4 @@ def _as_shown(search: _Search, aligned: Aligned, kept: Sequence[int], pieces: di
     """The aligned views without the pieces that are left out, and without what others see through."""
     views = [only(search.views[k], [one.label for one in pieces[k] if one.why is None]) for k in kept]
     state = [replace(one, view=view) for one, view in zip(aligned.placed, views, strict=True)]
-    gone = [seen_through(state, place, search.gate_m, SEEN_THROUGH) for place in range(len(state))]
-    return replace(aligned, placed=tuple(showing(one, one.view.without(mask)) for one, mask in zip(state, gone, strict=True)))
+    return cleared(replace(aligned, placed=tuple(state)))
