@@ -29,6 +29,7 @@ from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, context, flats, layers, mask, outline, regions, room_light
 from lpcal.segmentation.regions import Pictures, Regions, View
+from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view import sight
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 
@@ -128,7 +129,7 @@ class Seen:
         """The coarse view, and which of its pixels (P,) are lit."""
         image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, mask.COARSE_PIXELS))
         table = LightTable.of(image, self.lights, self.distance_m)
-        lit = np.sum(image.signal > mask.LIT_SIGMAS * image.sigma, axis=0) >= 3
+        lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
         return View(image, table, flats.sweep(image, table, self.distance_m)), lit
 
 

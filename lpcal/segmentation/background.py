@@ -43,7 +43,7 @@ BESIDE = {
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
 HOLE = 0.005
-"""Share of the object's area under which a hole in it is filled."""
+"""Share of the object's area under which a hole in it is filled, in coarse pixels and in full size."""
 LIKELY = (0.01, 0.99)
 """Odds beyond which a region counts no more for its neighbours."""
 CARRIED = 5

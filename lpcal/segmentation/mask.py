@@ -18,6 +18,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.regions import View
+from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
@@ -27,14 +28,10 @@ MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
 MOST_LIGHTS = 16
 """Lights that the mask is found by, spread over all: more do not improve it."""
-LIT_SIGMAS = 6.0
-"""Standard deviations of its noise over which a sample is lit."""
 FIT_SIGMAS = 3.0
 """Misfit under which a plane explains the rim of an image whose room light is not known."""
 SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
-HOLE_SHARE = 0.004
-"""Share of the object under which a hole in it is filled."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02
@@ -248,7 +245,7 @@ def tidy(mask: Mask) -> Mask:
     kept = np.isin(label, np.flatnonzero(size >= SMALLEST_SHARE * size.max()))
     holes, _ = raster.labelled(~kept)
     area = np.bincount(holes.ravel())
-    small = np.flatnonzero(area < HOLE_SHARE * kept.sum())
+    small = np.flatnonzero(area < background.HOLE * kept.sum())
     return np.asarray(kept | np.isin(holes, small[small > 0]))
 
 

@@ -15,11 +15,10 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
+from lpcal.segmentation.samples import MODEL
 from lpcal.view import bands
 from lpcal.view.sight import Sight, light_vectors
 
-MODEL = 0.03
-"""Share of a signal that a plane's model may lack: light from elsewhere, ripples of the lobe."""
 SHADE = 0.5
 """A signal under this share of what the second highest predicts is in shadow."""
 WEAK = 0.1

@@ -15,6 +15,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.calibration import Light
 from lpcal.segmentation import flats, layers, room_samples
+from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.sight import Grey, second, strength
 
@@ -22,14 +23,12 @@ FEW_PIXELS, PIXELS = 1300, 5200
 """Coarse pixels at which levels are tried, and at which the room's light is mapped."""
 LEVELS = (0.005, 0.015, 0.045, 0.13, 0.4, 1.2)
 """Levels tried, in units of a lamp's irradiance at the working distance: from one that no camera sees to a lit room."""
-LIT_SIGMAS = 6.0
-"""Standard deviations of noise by which a lit sample exceeds a pixel's least."""
 RARE_ROUNDS = 2
 """Times that the cost of each explanation is set by how rare it is: a plane that holds a few pixels by chance then spares nothing."""
 USUAL, USUAL_STD = 0.1, 1.3
 """The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures show next to nothing."""
 SHARED = 60.0
-"""Pixels whose errors are alike: what the explanations lack is smooth over a surface."""
+"""Pixels or samples whose errors are alike: what the explanations of the room's light lack is smooth over a surface."""
 UNSURE = 0.1
 """Share of the room's light at a pixel that is left in doubt: how far it was off on simulated scenes, besides level and albedo."""
 

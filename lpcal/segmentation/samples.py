@@ -19,8 +19,10 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view.sight import second
 
+LIT_SIGMAS = 6.0
+"""Standard deviations of its noise by which a lit sample exceeds what shows without the light."""
 MODEL = 0.03
-"""Share of a signal that a model of matte matter lacks."""
+"""Share of a signal that a model of matte matter lacks: light from elsewhere, ripples of a lobe."""
 BRIGHTER, DARKER = 0.1, 0.015
 """Light from other surfaces, as a share of a pixel's brightest sample, by which a sample may be brighter, and darker, than predicted."""
 OUTLIER = 25.0

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.integration.of_normals import UNKNOWN_DISTANCE
 from lpcal.records.surface import Alternative, Component
 from lpcal.shading import normals
 from lpcal.surface import basins, uncertainty
@@ -18,8 +19,6 @@ from lpcal.surface.rounds import Scene, State
 
 STATED_DISTANCE = 0.003
 """Relative standard deviation of a distance that the user states."""
-UNKNOWN_DISTANCE = 0.5
-"""Relative standard deviation of a distance that nothing determines."""
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:

@@ -25,7 +25,7 @@ from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress
-from lpcal.shading import field
+from lpcal.shading import field, gloss
 from lpcal.shading.field import Field
 from lpcal.shading.gloss import Gloss
 from lpcal.shading.normals import Estimate, albedo_of
@@ -51,8 +51,6 @@ BAND_ROWS = 256
 """Rows of the tiles in which maps are finished."""
 LOOSELY = 1e-3
 """Share of its hold that the coarse depth has next to its breaks, which it places only to a coarse pixel."""
-WIDTH2 = 9.0
-"""Square of a residual, in standard deviations, at which a sample's weight for the first albedo has fallen to a quarter."""
 FACING = 0.1
 """Least cosine of a light that is used for a pixel's first albedo."""
 
@@ -294,7 +292,7 @@ def _albedo_by(n: Array, seen: sight.Sight, lit: Lit, hidden: Mask | None) -> Ar
     albedo = np.einsum("kp,kp->p", counted * shading, seen.signal) / total
     for _ in range(2):
         square = (seen.signal - albedo * shading) ** 2 / (seen.sigma**2 + (field.MODEL * seen.signal) ** 2 + (0.1 * albedo * shading) ** 2)
-        robust = counted / (1 + square / WIDTH2) ** 2
+        robust = counted / (1 + square / gloss.WIDTH2) ** 2
         albedo = np.sum(robust * shading * seen.signal, axis=0) / np.maximum(np.sum(robust * shading**2, axis=0), 1e-300)
     return np.maximum(albedo, 1e-9)
 

@@ -31,7 +31,7 @@ from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.segmentation import background, mask, planes, room_light, room_samples
-from lpcal.segmentation.room_light import RoomLight
+from lpcal.segmentation.room_light import SHARED, RoomLight
 from lpcal.shading import normals
 from lpcal.view import sight
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
@@ -142,8 +142,6 @@ LEVELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.14, 0.18, 0.23, 0.3, 0.4, 0.55, 0
 """c_0 tried first, in units of what a pixel facing the lights sends back of one of them."""
 TILT = 0.35
 """Prior standard deviation of c / c_0, each part."""
-SHARED = 60.0
-"""Samples that err alike: what the law lacks is smooth over the object."""
 NEEDED_GAIN = 0.05
 """The misfit must fall by this share, or there is no room light to be seen."""
 STEPS = 100

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import surface_constants
 from compare_houses import house
 from lpcal.cli.main import COMMANDS
 
@@ -20,6 +21,8 @@ MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
 MODULE_LINES, FUNCTION_LINES = 400, 60
 SURFACE_MODULES = 20
 """Modules of the surface stage beside its ``__init__``."""
+SURFACE_CONSTANTS = 397
+"""Numeric constants of the surface stage and what it stands on at most, by tools/surface_constants.py; 60 would do."""
 MOST_SINGLE = 20.0
 """Per cent of the lines that may stand in modules that exactly one other module imports."""
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc", "base", "core", "manager", "managers"}
@@ -73,6 +76,15 @@ def test_the_surface_stage_reads_as_its_method() -> None:
     folder = REPOSITORY / "lpcal" / "surface"
     rooms = [name_of(path) for path in MODULES if path.is_relative_to(folder) and path.name != "__init__.py"]
     assert 10 < len(rooms) <= SURFACE_MODULES, rooms
+
+
+def test_the_surface_stage_gains_no_constants() -> None:
+    """Its choices are to follow from energies and from fits that tools repeat, not from numbers that someone has chosen."""
+    module = surface_constants.of_module(ast.parse("A, B = 1.5, 2\nC = {'a': 0.1}\nD = A**2\nE = 'x'\nF = np.linspace(0, 1, 3)\nlow = 3"))
+    assert list(module) == ["A", "B", "C", "F"]
+    found = surface_constants.of_stage(REPOSITORY / "lpcal")
+    count = sum(map(len, found.values()))
+    assert 60 < count <= SURFACE_CONSTANTS, f"{count}: {found}"
 
 
 def test_a_module_says_what_it_is() -> None:
