@@ -33,6 +33,10 @@ MOST_SCALE_SIGMAS = 5.0
 """By how many of its sigmas the distance of a view's largest piece may have grown."""
 
 
+FEWEST_OTHERS = 3
+"""Views of which the middle one says what distances were changed by usually: of fewer one wrong one is half of it."""
+
+
 @dataclass(frozen=True)
 class Doubted:
     """A view that is left out: its place in the list, and why, in words."""
@@ -110,6 +114,11 @@ def _grown(aligned: Aligned, place: int) -> tuple[float, float]:
     largest = int(np.argmax(sizes))
     grown = float(aligned.parameters[start + largest])
     return grown, abs(grown) / view.pieces[largest][1]
+
+
+def usual_growth(deltas: Sequence[float]) -> float:
+    """By how much some views' log distances grew usually: what lights that are off do to all of them is no view's mistake."""
+    return float(np.median(deltas)) if len(deltas) >= FEWEST_OTHERS else 0.0
 
 
 def _weighted_median(values: Array, weights: Array) -> float:

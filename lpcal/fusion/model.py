@@ -16,6 +16,7 @@ import numpy as np
 
 from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
+from lpcal.fusion.consensus import usual_growth
 from lpcal.fusion.missing import missing
 from lpcal.fusion.pieces import Piece
 from lpcal.fusion.registration import Registered, registered
@@ -30,7 +31,7 @@ from lpcal.records.model import ModelFigures, ObjectModel, PieceInModel, ViewInM
 from lpcal.records.outcome import Progress, silent
 
 REMARKABLE = 2.5
-"""By how many of its sigmas a view's distance must have been changed to be remarked: one right view in eighty is."""
+"""By how many of its sigmas a view's distance must have changed otherwise than the others' to be remarked: one right view in eighty."""
 CONTRADICTION = 3.0
 """By how many sigmas of a vertex views must differ to be said to disagree there."""
 
@@ -94,8 +95,9 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
     warnings += [
         f"{view.name} has too few points in common with the others: placed by its pose alone" for view in said if view.agreement is None
     ]
+    largest = {k: max((one for one in places.pieces[k] if one.why is None), key=lambda one: one.pixels) for k in kept}
     for k in kept:
-        warnings += _stretched(views[k], places.pieces[k])
+        warnings += _stretched(views[k], largest[k], usual_growth([one.delta for other, one in largest.items() if other != k]))
     for one in said:
         lost = [piece for piece in one.pieces if piece.why is not None]
         warnings += [f"{one.name}: a piece of {piece.pixels} pixels is left out: {piece.why}" for piece in lost]
@@ -118,15 +120,17 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
     )
 
 
-def _stretched(view: PlacedView, pieces: Sequence[Piece]) -> list[str]:
-    """A remark where the distance of a view's largest piece was changed by many of its sigmas: it is used, and shown to have been wrong."""
-    placed = [piece for piece in pieces if piece.why is None]
-    largest = max(placed, key=lambda piece: piece.pixels)
-    sigmas = abs(largest.delta) / dict(view.pieces)[largest.label]
+def _stretched(view: PlacedView, piece: Piece, usual: float) -> list[str]:
+    """A remark where the distance of a view's largest piece was changed otherwise than the others', by many of its sigmas.
+
+    It is used, and shown to have been wrong. `usual` is what the others' logarithms were changed by.
+    """
+    sigmas = abs(piece.delta - usual) / dict(view.pieces)[piece.label]
     if sigmas < REMARKABLE:
         return []
-    by_m = np.expm1(largest.delta) * view.distance_m
-    return [f"{view.name}: its distance was changed by {1e3 * by_m:+.1f} mm, {sigmas:.1f} of its sigmas, to fit the others"]
+    by_mm, usual_mm = (1e3 * view.distance_m * np.expm1(delta) for delta in (piece.delta, usual))
+    apart = f"the others' by {usual_mm:+.1f} mm, {sigmas:.1f} of its sigmas apart"
+    return [f"{view.name}: its distance was changed by {by_mm:+.1f} mm, {apart}, to fit the others"]
 
 
 def _pieces(view: PlacedView, pieces: Sequence[Piece]) -> tuple[PieceInModel, ...]:

@@ -17,7 +17,7 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view
 from lpcal.fusion.bending import bending_of
-from lpcal.fusion.consensus import MOST_HEARD_SIGMAS, Doubted, agreement, moved_too_far, outvoted
+from lpcal.fusion.consensus import MOST_HEARD_SIGMAS, Doubted, agreement, moved_too_far, outvoted, usual_growth
 from lpcal.fusion.fronts import Fronts
 from lpcal.fusion.pairs import Placed
 from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, cleared, confirmed_share, labels_by_size, only
@@ -176,13 +176,14 @@ class _Search:
         for _ in range(PASSES):
             among = Among(self.state(), self.views, self.kept, self.gate_m)
             new = {}
+            usual = usual_growth([self.found[k, self.mains[k]].delta for k in self.kept if self.mains[k] in self.labels(k)])
             for k, view in enumerate(self.views):
                 placed = self.labels(k)
                 for label, std in view.pieces:
                     if k in self.refused or label in placed or (not placed and label != self.mains[k]):
                         continue
                     piece = among.look_for(k, label)
-                    sigmas = abs(piece.delta) / std
+                    sigmas = abs(piece.delta - usual) / std
                     if piece.why is None and not placed and sigmas > MOST_HEARD_SIGMAS:
                         by_m = piece.delta * view.distance_m
                         piece = replace(

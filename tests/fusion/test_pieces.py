@@ -175,3 +175,16 @@ def test_a_view_at_a_wrong_distance_is_named_whether_used_or_not(sigmas: float, 
     assert model.warnings[0].startswith("stop_04")
     assert "sigmas" in model.warnings[0]
     assert rms_m(model) < 1.2 * rms_m(whole()[1])
+
+
+def test_a_distance_is_wrong_by_what_sets_it_apart_from_the_others() -> None:
+    """All are 1.6 % too far, as lights that are off make them, and one 4.8 % too near: that one is remarked, though it moved by less."""
+    surfaces = [replace(one, depth=one.depth * np.float32(np.exp(0.016))) for one in scene().surfaces]
+    surfaces = [replace(one, components=(replace(one.components[0], scale_std=0.02),)) for one in surfaces]
+    surfaces[4] = replace(surfaces[4], depth=surfaces[4].depth * np.float32(np.exp(-0.064)))
+    model = lpcal.fuse(surfaces, step_m=0.0024)
+    remarks = [line for line in model.warnings if "its distance was changed" in line or "its distance differs" in line]
+    assert len(remarks) == 1
+    assert remarks[0].startswith("stop_04")
+    others = np.median([view.distance_change_m for k, view in enumerate(model.views) if k != 4 and view.distance_change_m is not None])
+    assert others < -0.002
