@@ -57,6 +57,7 @@ LIBRARIES = ("numpy", "scipy", "opencv-contrib-python-headless", "mrcal", "casad
 # many small matrices: threads of the linear algebra cost more than they bring; set before numpy is imported, the user's setting wins
 for _variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
+os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it would read the metadata of every package that is installed
 
 BUG = 1
 USAGE = 2

@@ -33,7 +33,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image, Labels, Mask
+from lpcal.geometry.arrays import Array, Image, Index, Labels, Mask
 from lpcal.kernels.library import kernel
 
 SMOOTH_PX, RING_PX, RING = 1.3, 3.5, 24
@@ -45,6 +45,8 @@ QUARTERS = 4
 """Times that light crosses its mean on the ring about a corner."""
 LEAST_STRENGTH = 1.0
 """Least value of -det H times 16, in (steps of light per px^2)^2: a corner of 10 steps of contrast in focus has 20."""
+MOST_STEP_PX = 1.5
+"""A saddle lies no further than this, in px along an axis, from the pixel at which -det H is greatest."""
 MOST = 4000
 """Saddles kept, the strongest: a board of 60x40 has 2400, and more only cost time."""
 LEAST_STEP = 4.0
@@ -67,23 +69,14 @@ def saddle_points(grey: Labels) -> SaddlePoints:
     import cv2
 
     light = cv2.GaussianBlur(grey, (0, 0), SMOOTH_PX).astype(np.float32)
-    xx, yy, xy = (cv2.Sobel(light, cv2.CV_32F, *order, ksize=3) for order in ((2, 0), (0, 2), (1, 1)))
-    strength = xy * xy - xx * yy
-    greatest = (strength >= cv2.dilate(strength, np.ones((5, 5), np.uint8))) & (strength > LEAST_STRENGTH)
-    rim = int(np.ceil(RING_PX)) + 1
-    greatest[:rim], greatest[-rim:], greatest[:, :rim], greatest[:, -rim:] = False, False, False, False
-    at = np.flatnonzero(greatest)
+    at, strength = _greatest(light)
     if len(at) > (most := 4 * MOST):
-        at = at[np.argpartition(strength.ravel()[at], len(at) - most)[-most:]]
-    # Sobel's derivatives of second order are four times the curvature
-    xx, yy, xy = (each.ravel()[at].astype(float) / 4 for each in (xx, yy, xy))
-    beside, below = ((light.ravel()[at + way] - light.ravel()[at - way]).astype(float) / 2 for way in (1, light.shape[1]))
-    step = np.stack([xy * below - yy * beside, xy * beside - xx * below], axis=-1) / (xx * yy - xy * xy)[:, None]
-    places = np.stack([at % light.shape[1], at // light.shape[1]], axis=-1) + np.clip(step, -1.5, 1.5)
+        at = at[strength[at] >= np.partition(strength[at], len(at) - most)[len(at) - most]]
+    places, H = _moved(light, at)
     like, span = likeness(light, places, np.full(len(places), RING_PX))
     likely = np.flatnonzero((like > LIKE) & (span > LEAST_STEP))
-    likely = likely[np.argsort(-strength.ravel()[at[likely]], kind="stable")]
-    H = np.stack([xx, xy, xy, yy], axis=-1)[likely].reshape(-1, 2, 2)
+    likely = likely[np.argsort(-strength[at[likely]], kind="stable")]
+    H = H[likely][:, [0, 1, 1, 2]].reshape(-1, 2, 2)
     places = places[likely]
     curvature, axes = np.linalg.eigh(H)
     tangent = np.sqrt(np.maximum(curvature[:, 1], 0) / np.maximum(-curvature[:, 0], 1e-9))
@@ -92,6 +85,41 @@ def saddle_points(grey: Labels) -> SaddlePoints:
     bright, dark, tangent = axes[rows, :, 1], axes[rows, :, 0], tangent[rows, None]
     edges = np.stack([bright + tangent * dark, bright - tangent * dark], axis=1)
     return SaddlePoints(places[rows], edges / np.linalg.norm(edges, axis=-1, keepdims=True), bright)
+
+
+def _greatest(light: Array) -> tuple[Index, Array]:
+    """Pixels, counted row by row, at which -det H is greatest about, and 16 times that of every pixel, of smoothed light (H, W)."""
+    rim = int(np.ceil(RING_PX)) + 1
+    if run := kernel("curved"):
+        strength, at, found = np.empty(light.shape, np.float32), np.empty(light.size, np.int64), np.zeros(1, np.int64)
+        run(*light.shape, light, LEAST_STRENGTH, rim, strength, at, found)
+        return at[: found[0]].copy(), strength.ravel()
+    import cv2
+
+    xx, yy, xy = (cv2.Sobel(light, cv2.CV_32F, *order, ksize=3) for order in ((2, 0), (0, 2), (1, 1)))
+    strength = xy * xy - xx * yy
+    greatest = (strength >= cv2.dilate(strength, np.ones((5, 5), np.uint8))) & (strength > LEAST_STRENGTH)
+    greatest[:rim], greatest[-rim:], greatest[:, :rim], greatest[:, -rim:] = False, False, False, False
+    return np.flatnonzero(greatest), strength.ravel()
+
+
+def _moved(light: Array, at: Index) -> tuple[Array, Array]:
+    """Places (N, 2) where the gradient of light (H, W) is 0 about pixels, and its Hessian (N, 3) at them: xx, xy, yy."""
+    down = light.shape[1]
+    if run := kernel("moved"):
+        places, H = np.empty((len(at), 2)), np.empty((len(at), 3))
+        run(len(at), down, light, at, MOST_STEP_PX, places, H)
+        return places, H
+    # Sobel's derivatives of second order are four times the curvature
+    around = {(x, y): light.ravel()[at + y * down + x].astype(float) / 4 for x in (-1, 0, 1) for y in (-1, 0, 1)}
+    column = {x: around[x, -1] + 2 * around[x, 0] + around[x, 1] for x in (-1, 0, 1)}
+    row = {y: around[-1, y] + 2 * around[0, y] + around[1, y] for y in (-1, 0, 1)}
+    xx, yy = column[-1] - 2 * column[0] + column[1], row[-1] - 2 * row[0] + row[1]
+    xy = around[1, 1] - around[-1, 1] - around[1, -1] + around[-1, -1]
+    beside, below = 2 * (around[1, 0] - around[-1, 0]), 2 * (around[0, 1] - around[0, -1])
+    step = np.stack([xy * below - yy * beside, xy * beside - xx * below], axis=-1) / (xx * yy - xy * xy)[:, None]
+    places = np.stack([at % down, at // down], axis=-1) + np.clip(step, -MOST_STEP_PX, MOST_STEP_PX)
+    return places, np.stack([xx, xy, yy], axis=-1)
 
 
 def likeness(light: Array, places: Array, radius_px: Array) -> tuple[Array, Array]:

@@ -254,15 +254,20 @@ def refuse_curved(radiance: Radiance, outline: Outline) -> None:
 
 
 def _exponent(radiance: Radiance, k: int, outline: Outline) -> float | None:
-    signal = radiance.signal[k] if radiance.signal.ndim == 3 else radiance.signal[k].mean(axis=2)
-    rows, columns = np.indices(signal.shape)
-    x, y = (columns - outline.centre_px[0]) / outline.radius_px, (rows - outline.centre_px[1]) / outline.radius_px
-    peak = float(np.percentile(signal[np.hypot(x, y) < DISC], 98))
-    use = (np.hypot(x, y) < DISC) & ~radiance.saturated[k] & (signal > LIT * peak)
+    rim = [(int(middle - outline.radius_px), int(middle + outline.radius_px) + 2) for middle in outline.centre_px[::-1]]
+    box = tuple(slice(max(first, 0), max(last, 0)) for first, last in rim)
+    signal, ambient = (one if one.ndim == 2 else one.mean(axis=2) for one in (radiance.signal[k][box], radiance.ambient[box]))
+    rows, columns = np.ogrid[: radiance.ambient.shape[0], : radiance.ambient.shape[1]]
+    x = (columns[:, box[1]] - outline.centre_px[0]) / outline.radius_px
+    y = (rows[box[0]] - outline.centre_px[1]) / outline.radius_px
+    x, y = np.broadcast_arrays(x, y)
+    inside = np.hypot(x, y) < DISC
+    peak = float(np.percentile(signal[inside], 98))
+    use = inside & ~radiance.saturated[k][box] & (signal > LIT * peak)
     if use.sum() < FEWEST or peak <= 0:
         return None
     n = np.stack([x, y, np.sqrt(np.maximum(1 - x**2 - y**2, 0))], axis=-1)[use]
-    room = np.maximum(radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2), 0.0)[use] / peak
+    room = np.maximum(ambient, 0.0)[use] / peak
     total = signal[use] / peak + room
     misfit = [_misfit(n, total**e - room**e) for e in EXPONENTS]
     return float(EXPONENTS[int(np.argmin(misfit))])

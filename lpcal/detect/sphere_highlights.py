@@ -49,8 +49,8 @@ def find_highlight(image: Image, noise: float, saturated: Mask, centre_px: Array
     """
     from scipy.ndimage import gaussian_filter
 
-    rows, columns = np.indices(image.shape)
-    inside = np.hypot(columns - centre_px[0], rows - centre_px[1]) < INSIDE * radius_px
+    rows, columns = np.ogrid[: image.shape[0], : image.shape[1]]
+    inside = (columns - centre_px[0]) ** 2 + (rows - centre_px[1]) ** 2 < (INSIDE * radius_px) ** 2
     box = _box(inside)
     part, inside, full = image[box].astype(float), inside[box], saturated[box]
     corner, scale = np.array([box[1].start, box[0].start]), max(1.0, radius_px / LARGE_RADIUS_PX)

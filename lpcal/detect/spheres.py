@@ -229,8 +229,9 @@ def _room_light(view: SphereView, outline: Outline) -> list[str]:
 
 
 def _disc(radiance: Radiance, outline: Outline) -> Mask:
-    rows, columns = np.indices(radiance.saturated.shape[1:])
-    return np.asarray(np.hypot(columns - outline.centre_px[0], rows - outline.centre_px[1]) < MATTE_DISC * outline.radius_px)
+    height, width = radiance.saturated.shape[1:]
+    rows, columns = np.ogrid[:height, :width]
+    return np.asarray((columns - outline.centre_px[0]) ** 2 + (rows - outline.centre_px[1]) ** 2 < (MATTE_DISC * outline.radius_px) ** 2)
 
 
 def _shaded(radiance: Radiance, lit: Sequence[str], outline: Outline) -> tuple[list[str], list[str]]:

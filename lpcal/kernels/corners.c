@@ -1,6 +1,69 @@
-/* Corners of a chessboard in an image of singles. Twins: detect/saddle.py (likeness, _levenberg_marquardt). */
+/* Corners of a chessboard in an image of singles. Twins: detect/saddle.py (_greatest, _moved, likeness, _levenberg_marquardt). */
 
 #include "kernel.h"
+
+#define BLOCK 256
+
+/* The greatest of five numbers beside each other, `way` apart, of which x is the middle one. */
+static inline float greatest(const float *x, int64_t way) {
+    float first = x[-2 * way] > x[-way] ? x[-2 * way] : x[-way], second = x[way] > x[2 * way] ? x[way] : x[2 * way];
+    first = first > second ? first : second;
+    return first > *x ? first : *x;
+}
+
+/* Sixteen times -det of the Hessian (rows, columns), 0 on the rim, by Sobel's derivatives; and the pixels `at`, `found` of them, that are
+   `rim` or more within, where it is over `least` and no less than in the 5 x 5 pixels about. */
+KERNEL void lpcal_curved(int64_t rows, int64_t columns, const float *light, double least, int64_t rim, float *strength, int64_t *at,
+                         int64_t *found) {
+    float floor = (float)least;
+    memset(strength, 0, (size_t)(rows * columns) * sizeof *strength);
+    *found = 0;
+    for (int64_t row = 1; row < rows - 1; row++) {
+        const float *b = light + row * columns, *a = b - columns, *c = b + columns;
+        float *to = strength + row * columns;
+        for (int64_t x = 1; x < columns - 1; x++) {
+            float left = a[x - 1] + 2.0f * b[x - 1] + c[x - 1], middle = a[x] + 2.0f * b[x] + c[x];
+            float right = a[x + 1] + 2.0f * b[x + 1] + c[x + 1];
+            float above = a[x - 1] + 2.0f * a[x] + a[x + 1], below = c[x - 1] + 2.0f * c[x] + c[x + 1];
+            float level = b[x - 1] + 2.0f * b[x] + b[x + 1], xy = c[x + 1] - c[x - 1] - a[x + 1] + a[x - 1];
+            to[x] = xy * xy - (left - 2.0f * middle + right) * (above - 2.0f * level + below);
+        }
+    }
+    rim = rim > 2 ? rim : 2;
+    for (int64_t row = rim; row < rows - rim; row++)
+        for (int64_t first = rim; first < columns - rim; first += BLOCK) {
+            int64_t some = columns - rim - first < BLOCK ? columns - rim - first : BLOCK;
+            const float *here = strength + row * columns + first;
+            float most[BLOCK + 4];
+            bool is[BLOCK];
+            for (int64_t x = 0; x < some + 4; x++) most[x] = greatest(here + x - 2, columns);
+            for (int64_t x = 0; x < some; x++) is[x] = (here[x] > floor) & (here[x] >= greatest(most + x + 2, 1));
+            for (int64_t x = 0; x < some; x++) {
+                at[*found] = row * columns + first + x;
+                *found += is[x];
+            }
+        }
+}
+
+/* Where (count, 2) the gradient is 0 about the pixels `at`, no further than `most` along an axis, and the Hessian xx xy yy (count, 3). */
+KERNEL void lpcal_moved(int64_t count, int64_t columns, const float *light, const int64_t *at, double most, double *places, double *hessian) {
+    for (int64_t p = 0; p < count; p++) {
+        double of[3][3], *H = hessian + 3 * p;
+        for (int y = 0; y < 3; y++)
+            for (int x = 0; x < 3; x++) of[y][x] = (double)light[at[p] + (y - 1) * columns + x - 1] / 4;
+        double left = of[0][0] + 2 * of[1][0] + of[2][0], middle = of[0][1] + 2 * of[1][1] + of[2][1];
+        double right = of[0][2] + 2 * of[1][2] + of[2][2], above = of[0][0] + 2 * of[0][1] + of[0][2];
+        double level = of[1][0] + 2 * of[1][1] + of[1][2], below = of[2][0] + 2 * of[2][1] + of[2][2];
+        H[0] = left - 2 * middle + right;
+        H[1] = of[2][2] - of[2][0] - of[0][2] + of[0][0];
+        H[2] = above - 2 * level + below;
+        double beside = 2 * (of[1][2] - of[1][0]), down = 2 * (of[2][1] - of[0][1]), scale = H[0] * H[2] - H[1] * H[1];
+        double step[2] = {(H[1] * down - H[2] * beside) / scale, (H[1] * beside - H[0] * down) / scale};
+        for (int i = 0; i < 2; i++) step[i] = step[i] > most ? most : step[i] < -most ? -most : step[i];
+        places[2 * p] = (double)(at[p] % columns) + step[0];
+        places[2 * p + 1] = (double)(at[p] / columns) + step[1];
+    }
+}
 
 #define RING 24 /* samples on a ring, as in detect/saddle.py */
 
@@ -11,7 +74,8 @@ static inline double sample(const float *light, int64_t rows, int64_t columns, d
     row = row < rows - 2 ? row : rows - 2;
     const float *at = light + row * columns + column;
     double u = x - (double)column, v = y - (double)row;
-    return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[columns] + u * at[columns + 1]);
+    double above = (1 - u) * (double)at[0] + u * (double)at[1], below = (1 - u) * (double)at[columns] + u * (double)at[columns + 1];
+    return (1 - v) * above + v * below;
 }
 
 /* How much the light about places (count, 2) is a corner's on rings of radii (count), and its range; -1 and 0 outside the picture.

@@ -371,6 +371,18 @@ def ring(rng: np.random.Generator) -> Array:
     return np.concatenate(saddle.likeness(light, asked, np.full(len(asked), 3.5)))
 
 
+def curved(rng: np.random.Generator) -> Array:
+    light = np.rint(crossing(rng, 40)[0])
+    at, strength = saddle._greatest(light)
+    inner = strength.reshape(light.shape)[1:-1, 1:-1]
+    return np.concatenate([at.astype(float), inner.ravel()])
+
+
+def moved(rng: np.random.Generator) -> Array:
+    light = np.rint(crossing(rng, 40)[0])
+    return np.concatenate([each.ravel() for each in saddle._moved(light, saddle._greatest(light)[0])])
+
+
 def saddles(rng: np.random.Generator) -> Array:
     light, places = crossing(rng, 60)
     start, angles = places + 0.4 * (rng.random(places.shape) - 0.5), np.tile([0.1, 1.75], (len(places), 1))
@@ -417,6 +429,8 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     cluster_single: (1e-5, {"cluster_single"}),
     cluster_slope: (1e-5, {"cluster_slope"}),
     blocks: (0.0, {"blocks", "block_means"}),
+    curved: (0.0, {"curved"}),
+    moved: (1e-13, {"curved", "moved"}),
     ring: (1e-12, {"ring"}),
     saddles: (1e-6, {"saddles"}),
     solved: (1e-8, {"multigrid"}),
