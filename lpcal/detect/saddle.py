@@ -87,7 +87,7 @@ def saddle_points(grey: Labels) -> SaddlePoints:
     return SaddlePoints(places[rows], edges / np.linalg.norm(edges, axis=-1, keepdims=True), bright)
 
 
-def _greatest(light: Array) -> tuple[Index, Array]:
+def _greatest(light: Array) -> tuple[Index, Image]:
     """Pixels, counted row by row, at which -det H is greatest about, and 16 times that of every pixel, of smoothed light (H, W)."""
     rim = int(np.ceil(RING_PX)) + 1
     if run := kernel("curved"):
