@@ -63,7 +63,7 @@ def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
 
     A bridge of a pixel or two between the ends of a break does not hold two pieces together.
     """
-    label = _connected(grid, np.where(_beside_breaks(grid, weight, mask), 0.0, weight), mask)
+    label = connected(grid, (weight > BREAK_WEIGHT) & ~_beside_breaks(grid, weight, mask))
     size = np.bincount(label)
     smallest = max(SMALLEST_PIXELS, SMALLEST_SHARE * len(label))
     return _joined(label, np.flatnonzero(size >= smallest), mask)
@@ -74,7 +74,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
 
     A jump between two pieces may have been taken in two: a strip of a few pixels is left in between, that belongs half to either.
     """
-    label = _connected(grid, weight, mask)
+    label = connected(grid, weight > BREAK_WEIGHT)
     kept = []
     for one in np.flatnonzero(np.bincount(label) > SLIVER_PX**2):
         place = np.zeros(mask.shape, bool)
@@ -103,17 +103,17 @@ def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
     return np.asarray(near[grid.a] | near[grid.b])
 
 
-def _connected(grid: Grid, weight: Array, mask: Mask) -> Indices:
-    """A label (P,) for each set of pixels that are connected over edges that are no breaks."""
-    whole = weight > BREAK_WEIGHT
+def connected(grid: Grid, whole: Mask) -> Indices:
+    """A label (P,) for each set of pixels that are connected over edges that are whole (edges,)."""
+    pixels = len(grid.rows)
     if run := kernel("connected"):
-        label = np.empty(int(mask.sum()), np.int64)
-        run(len(label), len(whole), grid.a, grid.b, whole, label)
+        label = np.empty(pixels, np.int64)
+        run(pixels, len(whole), grid.a, grid.b, np.ascontiguousarray(whole), label)
         return label
     from scipy import sparse
     from scipy.sparse.csgraph import connected_components
 
-    links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(int(mask.sum()), int(mask.sum())))
+    links = sparse.coo_array((np.ones(whole.sum()), (grid.a[whole], grid.b[whole])), shape=(pixels, pixels))
     return np.asarray(connected_components(links, directed=False)[1], np.int64)
 
 

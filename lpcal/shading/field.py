@@ -78,7 +78,7 @@ class Field:
 
 
 @dataclass(frozen=True)
-class _States:
+class States:
     """The samples (L, P): residuals and variances as lit and as in shadow, and the chance of each to be lit."""
 
     lit: Array
@@ -116,7 +116,7 @@ def solve(
     for k in range(rounds):
         so_far, middle, last = (b, shine), np.median(albedo), k > 1 or before is not None
         if glossy is not None and last:
-            state = _states(few, few_lit, b[some], few_hidden, None, 1.0)
+            state = states(few, few_lit, b[some], few_hidden, None, 1.0)
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
             shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / middle)
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
@@ -169,12 +169,12 @@ def alike(grid: Grid, b: Array, known: Mask) -> Array:
     return np.asarray(np.where(of > 0, like / np.maximum(of, 1), 1.0))
 
 
-def _shown(lit: Lit, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
+def shown_gloss(lit: Lit, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
     """Gloss (L, P) that the lobe shows."""
     return None if shine is None else shine.ks * lit.E * gloss.lobe(lit.d, lambert.unit(b)[0], v, shine.roughness)
 
 
-def _states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> _States:
+def states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> States:
     """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
     bright = np.maximum(lambert.dot(lit.direct, b), 0.0)
     thrown = 0.0 if lit.thrown is None else np.maximum(lambert.dot(lit.thrown, b), 0.0)
@@ -189,7 +189,7 @@ def _states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array |
     if hidden is not None:
         against = np.where(hidden, dark**2 / dark2 - (left - bright) ** 2 / spread2 - HIDDEN, against)
     chance = 1 / (1 + np.exp(-np.clip(against / (2 * warmth), -30, 30)))
-    return _States(left - bright, spread2, dark, dark2, chance)
+    return States(left - bright, spread2, dark, dark2, chance)
 
 
 def _weights(seen: Sight, chance: Array, residual: Array, spread2: Array) -> Array:
@@ -223,8 +223,8 @@ def _gathered(
         usable = np.ascontiguousarray(seen.usable)
         run(*signal.shape, d, E, J.size > 0, J, signal, sigma, usable, unlit.size > 0, unlit, at, view, constants, own, right)
         return own, right
-    shown = _shown(lit, b, v, shine)
-    state = _states(seen, lit, b, hidden, shown, warmth)
+    shown = shown_gloss(lit, b, v, shine)
+    state = states(seen, lit, b, hidden, shown, warmth)
 
     as_lit = _weights(seen, state.chance, state.lit, state.spread2)
     in_shadow = _weights(seen, 1 - state.chance, state.shadow, state.shadow_spread2)
@@ -299,8 +299,8 @@ def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, befor
 
     def of(at: slice) -> tuple[Array, Array, Array, Array, Array]:
         some, light, b = seen.at(at), lit.at(at), before.b[at]
-        shown = _shown(light, b, v[at], before.gloss)
-        state = _states(some, light, b, None if hidden is None else hidden[:, at], shown, 1.0)
+        shown = shown_gloss(light, b, v[at], before.gloss)
+        state = states(some, light, b, None if hidden is None else hidden[:, at], shown, 1.0)
         weight = _weights(some, state.chance, state.lit, state.spread2)
         own = np.einsum("kp,kpi,kpj->pij", weight, light.B, light.B)
         pull = np.einsum("kp,kpi->pi", weight * state.lit, light.B)
@@ -320,8 +320,8 @@ def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, befor
 
 def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
     """What each pixel's own samples say, of those that are lit by the field and agree with it."""
-    shown = _shown(lit, b, v, shine)
-    state = _states(seen, lit, b, hidden, shown, 1.0)
+    shown = shown_gloss(lit, b, v, shine)
+    state = states(seen, lit, b, hidden, shown, 1.0)
     square = state.lit**2 / state.spread2
     reached = seen.usable & (lambert.dot(lit.direct, b) > 0)
     inliers = reached & (state.chance > 0.5) & (square < gloss.WIDTH2)

@@ -34,6 +34,9 @@ ROUNDS = 3
 OTHER = 0.08
 """Light from other surfaces and gloss, as a share of what the lamps make of matte matter, at which a pixel says nothing of the palette."""
 
+COLOURS = 4
+"""Albedos of a palette that a search tries at most."""
+
 
 @dataclass(frozen=True)
 class Pull:
@@ -88,6 +91,18 @@ class Palette:
         chance = density / (density + RARE / (2 * SPAN))
         albedo = np.exp(self.middle + np.clip(mean, level - 1, level + 1))
         return Pull(albedo, chance / (SIGMA**2 + variance) / albedo**2)
+
+    def costs(self) -> Array:
+        """Minus twice the logarithm (BINS,) of the chance of each bin's albedo, from that of the likeliest."""
+        chance = self.density + RARE / (2 * SPAN)
+        return np.asarray(-2 * np.log(chance / chance.max()))
+
+    def colours(self) -> Array:
+        """Logarithms (C,) of the albedos at which it is densest, the likeliest first, at most COLOURS."""
+        inner = self.density[1:-1]
+        top = np.flatnonzero((inner >= self.density[:-2]) & (inner > self.density[2:]) & (inner > RARE / (2 * SPAN))) + 1
+        top = top[np.argsort(-self.density[top], kind="stable")][:COLOURS]
+        return np.asarray(self.middle + (top + 0.5) / BINS * 2 * SPAN - SPAN)
 
 
 def width(rounds: int) -> float:

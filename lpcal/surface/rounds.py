@@ -19,11 +19,11 @@ from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.shading import field, normals, palette
+from lpcal.shading import field, normals, palette, search
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
-from lpcal.surface import basins, bounce, distance
+from lpcal.surface import basins, bounce, distance, renewed
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -57,7 +57,9 @@ a tenth of that, make the shape, the other views its distance."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from estimates of single pixels."""
 FULL_ROUNDS = 3
-"""Rounds at full size at most after those of the blocks."""
+"""Rounds at full size at most after those of the blocks, and after a search."""
+SEARCHES = 3
+"""How often other minima of the field are searched at most, each time in the light that the surface so far throws."""
 
 
 @dataclass(frozen=True)
@@ -149,15 +151,39 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     scene = scene.closely()
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
-        return _swept(scene, _until_settled(scene, once(scene, begin, None, 0), 1, progress))
+        settled = _until_settled(scene, once(scene, begin, None, 0), 1, progress)
+        return _swept(scene, _renewed(scene, settled, progress) if scene.near else settled)
     held = None if scene.held is None else scene.held.in_blocks(blocks)
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
     def in_blocks(what: str, done: int, total: int) -> None:
         progress(f"{what} in coarse pixels", done, total)
 
-    settled = _swept(coarse, _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks))
+    settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
+    settled = _swept(coarse, _renewed(coarse, settled, in_blocks))
     return _swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
+
+
+def _renewed(scene: Scene, state: State, progress: Progress) -> State:
+    """The state with regions whose normals another minimum of the energies explains better, settled anew.
+
+    A gloss that is fitted to a field which has just changed can stray, and one that was fitted to the wrong field can be what is wrong:
+    both are tried.
+    """
+    for _ in range(SEARCHES):
+        albedos = _palette(state, ROUNDS)
+        if albedos is None:
+            break
+        costs = search.Costs(scene.seen, state.lit, hidden_lights(scene, np.exp(state.u), state, state.lit)[1], state.field.gloss, albedos)
+        found = renewed.another_minimum(scene.grid, costs, state.own, state.u, state.field)
+        if found is None:
+            break
+        other = replace(state, field=found, normals=lambert.unit(found.b)[0])
+        held = _until_settled(scene, other, ROUNDS - FULL_ROUNDS, progress, gloss_known=True)
+        ends = [held, once(scene, held.u, held)]
+        by = [replace(costs, lit=one.lit, shine=one.field.gloss) for one in ends]
+        state = ends[np.argmin([search.energy(of, scene.grid, one.field.b).sum() for of, one in zip(by, ends, strict=True)])]
+    return state
 
 
 def _swept(scene: Scene, state: State) -> State:
@@ -184,12 +210,14 @@ def _swept(scene: Scene, state: State) -> State:
     return replace(again, weight=state.weight, moved=state.moved)
 
 
-def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
+def _until_settled(
+    scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False, gloss_known: bool = False
+) -> State:
     """The state after rounds from the one of number `first` on, until one changes next to nothing."""
     rounds = ROUNDS if scene.near else 1
     for k in range(first, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
-        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known)
+        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known, gloss_known=gloss_known)
         state = replace(state, moved=np.abs(state.u - before.u))
         if k >= SHAPED_ROUND and _settled(scene, state):
             break
@@ -202,8 +230,12 @@ def _carried(blocks: Blocks, state: State) -> State:
     lit = blocks.lit(state.lit)
     seen, before = blocks.seen, blocks.estimate(state.found)
     usable = normals.candidates(seen, lit.E) & before.inliers
-    start = normals.estimate(seen, lit, usable, normals.variances(seen)).b
-    b = np.where(np.isfinite(start[:, :1]), start, blocks.between(state.field.b))
+    start, b = normals.estimate(seen, lit, usable, normals.variances(seen)).b, blocks.between(state.field.b)
+    known, albedos = np.isfinite(start[:, 0]), _palette(state, ROUNDS)
+    if albedos is not None:
+        cost = search.Costs(seen, lit, None, state.field.gloss, albedos).of(np.stack([np.where(known[:, None], start, b), b], axis=1))
+        known &= cost[:, 0] < cost[:, 1]
+    b = np.where(known[:, None], start, b)
     tilt_rad = None if state.field.tilt_rad is None else state.field.tilt_rad[blocks.of_pixel]
     whole = Field(b, blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
     return State(
@@ -226,8 +258,8 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
-    """One round from u (P,) and the state before, whose reflected light stays where it is known.
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False, gloss_known: bool = False) -> State:
+    """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
 
     Raises
     ------
@@ -257,7 +289,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         usable,
         hidden,
         before,
-        glossy if (k >= GLOSS_ROUND or not scene.near) and not thrown_known else None,
+        glossy if (k >= GLOSS_ROUND or not scene.near) and not (thrown_known or gloss_known) else None,
         CARRIED_ROUNDS if thrown_known else None,
         albedos,
     )

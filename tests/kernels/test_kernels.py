@@ -22,8 +22,9 @@ from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.segmentation import background, cut, flats, layers, planes, room_samples, samples
-from lpcal.shading import field, gloss, normals
+from lpcal.shading import field, gloss, normals, search
 from lpcal.shading.normals import Estimate
+from lpcal.shading.palette import Palette
 from lpcal.surface import bounce, distance
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
@@ -100,6 +101,28 @@ def gathered(rng: np.random.Generator) -> Array:
     return np.concatenate([part.ravel() for case in cases for part in field._gathered(seen, case[0], b, v, *case[1:])])
 
 
+def costs_of(rng: np.random.Generator) -> tuple[list[search.Costs], Array]:
+    """What candidates cost in light with and without gloss, light of other surfaces and hidden lights; and a b (P, 3) of each pixel."""
+    signal, B, usable, variance = shading(rng, pixels=200)
+    d, E = lambert.unit(B)
+    b, v = rng.normal(size=(200, 3)), lambert.unit(rng.normal(size=(200, 3)))[0]
+    seen = Sight(np.ones((10, 20), bool), -v, signal, np.sqrt(variance), usable, True)
+    albedos = Palette.of(b, rng.random(200), np.zeros(200), 0.1)
+    more = Lit(d, E, 0.1 * rng.normal(size=d.shape))
+    cases = [(Lit(d, E), None, None), (more, rng.random(signal.shape) < 0.2, None), (more, None, gloss.Gloss(0.3, 0.2, 0.5))]
+    return [search.Costs(seen, *case, albedos) for case in cases], b
+
+
+def candidates(rng: np.random.Generator) -> Array:
+    costs, b = costs_of(rng)
+    return np.concatenate([one.of(b[:, None] + 0.3 * rng.normal(size=(200, 40, 3))).ravel() for one in costs])
+
+
+def directions(rng: np.random.Generator) -> Array:
+    costs, _ = costs_of(rng)
+    return np.concatenate([one.over_directions(search._hemisphere(40), 5.0)[0].ravel() for one in costs])
+
+
 def lobe(rng: np.random.Generator) -> Array:
     d, n, v = (lambert.unit(rng.normal(size=(*shape, 3)))[0] for shape in ((5, 300), (300,), (300,)))
     return np.concatenate([gloss.lobe(d, n, v, roughness).ravel() for roughness in (0.06, 0.5)])
@@ -136,7 +159,7 @@ def many(rng: np.random.Generator) -> Array:
 def connected(rng: np.random.Generator) -> Array:
     mask = rng.random((60, 70)) < 0.8
     grid = Grid.of(mask)
-    return pieces._connected(grid, rng.random(len(grid.a)) - 0.35, mask).astype(float)
+    return pieces.connected(grid, rng.random(len(grid.a)) > 0.37).astype(float)
 
 
 def masks(rng: np.random.Generator) -> list[Mask]:
@@ -403,6 +426,8 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     lobe_costs: (1e-12, {"lobe_costs"}),
     many: (1e-8, {"many", "weighted"}),
     gathered: (1e-10, {"gathered"}),
+    candidates: (1e-9, {"candidates"}),
+    directions: (1e-9, {"directions"}),
     coupled: (1e-9, {"coupled"}),
     cubic: (1e-13, {"cubic"}),
     between: (1e-12, {"lattice"}),
