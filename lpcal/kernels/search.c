@@ -151,3 +151,25 @@ KERNEL void lpcal_directions(int64_t L, int64_t P, int64_t D, const double *d, c
         }
     }
 }
+
+/* What neighbours with candidates y (Q, K, 3), believed by `known` (Q, K), say of candidates x (Q, N, 3): (Q, N), nothing of the likeliest.
+   Twin: shading/search.py (_said). `turn2` and `link2` are the squares at which links yield, see shading/field.py. */
+KERNEL void lpcal_said(int64_t Q, int64_t N, int64_t K, const double *x, const double *y, const double *known, double turn2, double link2,
+                       double *found) {
+    for (int64_t q = 0; q < Q; q++) {
+        const double *there = y + 3 * K * q, *by = known + K * q;
+        double least = by[0];
+        for (int64_t k = 1; k < K; k++) least = by[k] < least ? by[k] : least;
+        for (int64_t i = 0; i < N; i++) {
+            const double *here = x + 3 * (N * q + i);
+            double best = 1e300, length2 = dot3(here, here);
+            for (int64_t k = 0; k < K; k++) {
+                double apart[3] = {here[0] - there[3 * k], here[1] - there[3 * k + 1], here[2] - there[3 * k + 2]};
+                double both = sqrt(length2 * dot3(there + 3 * k, there + 3 * k)) * turn2, far = dot3(apart, apart) / greater(both, 1e-300);
+                double one = by[k] + far / (1.0 + far / link2);
+                best = one < best ? one : best;
+            }
+            found[N * q + i] = best - least;
+        }
+    }
+}

@@ -38,22 +38,8 @@ PARTICLES = 4
 """Candidates that a pixel holds: with six or ten the regions that are mended in 29 simulated scenes are the same."""
 SWEEPS = 6
 """Sweeps over all pixels: with twelve the same."""
-TRIED = 2
-"""Turns of its own candidates that a pixel tries in a sweep."""
-WIDEST = 3
-"""The turns' standard deviation is half of field.TURN, halved again up to so many times less one."""
-ALIKE2 = 4e-4
-"""Square of the difference of two candidates, as a share of the albedo's, under which one stands for both: a degree."""
 SAMPLES = 6
-"""Brightest samples of a pixel that propose an albedo for a normal."""
-MOST_LIGHTS = 12
-"""Lights by which directions are tried at most: candidates are then judged by all."""
-BRIGHTEST = 2.0
-"""Albedo that is tried at most, of the field's brightest hundredth."""
-AROUND = 2
-"""Pixels about one whose samples are unexplained that are searched with it."""
-SEED = 1
-NEIGHBOURS = 4
+"""Brightest samples of a pixel that propose an albedo for a normal; directions are tried by twice as many lights at most."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +98,7 @@ class Costs:
     def over_directions(self, n: Array, most: float) -> tuple[Array, Array]:
         """Least cost (P, D) of normals n (D, 3) over the albedos that palette and samples propose up to one, and those albedos (P, D)."""
         count = len(self.seen.signal)
-        some = np.unique(np.linspace(0, count - 1, min(count, MOST_LIGHTS)).round().astype(int))
+        some = np.unique(np.linspace(0, count - 1, min(count, 2 * SAMPLES)).round().astype(int))
         few = self if len(some) == count else self.of_lights(some)
         pixels = self.seen.pixels
         parts = bands.each(pixels, len(some) * len(n), lambda here: few.at(here)._over_directions(n, most))  # noqa: SLF001 - its own
@@ -181,15 +167,15 @@ def propose(costs: Costs, grid: Grid, b: Array) -> Array:
     now = costs.of(b[:, None])[:, 0]
     unexplained = np.zeros(costs.seen.mask.shape, bool)
     unexplained[costs.seen.mask] = now > np.maximum(field.PRICE, costs.seen.usable.sum(axis=0))
-    wanted = np.flatnonzero(raster.grown(unexplained, AROUND)[costs.seen.mask])
+    wanted = np.flatnonzero(raster.grown(unexplained)[costs.seen.mask])
     if len(wanted) == 0:
         return b
-    rng = np.random.default_rng(SEED)
+    rng = np.random.default_rng(1)
     of = costs.at(wanted)
     x, u = np.repeat(b[:, None], PARTICLES, axis=1), np.repeat(now[:, None], PARTICLES, axis=1)
-    x[wanted] = _starts(of, b[wanted], BRIGHTEST * float(np.percentile(np.linalg.norm(b, axis=1), 99)), rng)
+    x[wanted] = _starts(of, b[wanted], float(np.linalg.norm(b, axis=1).max()), rng)
     u[wanted] = of.of(x[wanted])
-    beliefs = _Beliefs(x, u, np.zeros((*u.shape, NEIGHBOURS)), _neighbours(grid))
+    beliefs = _Beliefs(x, u, np.zeros((*u.shape, 4)), _neighbours(grid))
     colour = (grid.rows[wanted] + grid.columns[wanted]) % 2
     parts = [(wanted[one], costs.at(wanted[one])) for one in (colour == 0, colour == 1)]
     for _ in range(SWEEPS):
@@ -225,8 +211,8 @@ def _starts(of: Costs, b: Array, most: float, rng: np.random.Generator) -> Array
 
 
 def _neighbours(grid: Grid) -> Indices:
-    """The pixels (P, NEIGHBOURS) to the left, to the right, above and below; -1 where there is none."""
-    found = np.full((len(grid.rows), NEIGHBOURS), -1, np.int64)
+    """The pixels (P, 4) to the left, to the right, above and below; -1 where there is none."""
+    found = np.full((len(grid.rows), 4), -1, np.int64)
     for axis, edges in enumerate((grid.horizontal, ~grid.horizontal)):
         found[grid.b[edges], 2 * axis] = grid.a[edges]
         found[grid.a[edges], 2 * axis + 1] = grid.b[edges]
@@ -242,9 +228,9 @@ class _Beliefs:
     u: Array
     """(P, PARTICLES)."""
     said: Array
-    """(P, PARTICLES, NEIGHBOURS) messages that came in."""
+    """(P, PARTICLES, 4) messages that came in."""
     beside: Indices
-    """(P, NEIGHBOURS)."""
+    """(P, 4)."""
 
     def best(self, some: Indices | slice = slice(None)) -> Array:
         """The candidates (Q, 3) of some pixels that are believed most."""
@@ -256,14 +242,14 @@ class _Beliefs:
         beside = self.beside[here]
         theirs = self.best(np.maximum(beside, 0).ravel()).reshape(*beside.shape, 3)
         theirs = np.where((beside >= 0)[..., None], theirs, self.x[here, :1])
-        which = rng.integers(0, PARTICLES, (len(here), TRIED))
-        wide = field.TURN / 2 * 0.5 ** rng.integers(0, WIDEST, (len(here), TRIED))
+        which = rng.integers(0, PARTICLES, (len(here), PARTICLES // 2))
+        wide = field.TURN / 2 * rng.random(which.shape)
         own = np.take_along_axis(self.x[here], which[..., None], axis=1)
         turned = own + (np.linalg.norm(own, axis=2) * wide)[..., None] * rng.normal(size=own.shape)
         new = np.concatenate([theirs, turned], axis=1)
         x = np.concatenate([self.x[here], new], axis=1)
         u = np.concatenate([self.u[here], costs.of(new)], axis=1)
-        said = np.stack([self._message(beside[:, side], side, x) for side in range(NEIGHBOURS)], axis=2)
+        said = np.stack([self._message(beside[:, side], side, x) for side in range(4)], axis=2)
         kept = _different(x, u + said.sum(axis=2))
         self.x[here] = np.take_along_axis(x, kept[..., None], axis=1)
         self.u[here] = np.take_along_axis(u, kept, axis=1)
@@ -274,12 +260,19 @@ class _Beliefs:
         q = np.maximum(there, 0)
         back = side ^ 1  # the side on which they have this pixel
         known = self.u[q] + self.said[q].sum(axis=2) - self.said[q, :, back]
-        one, other = np.linalg.norm(x, axis=2), np.linalg.norm(self.x[q], axis=2)
-        both = one[:, :, None] * other[:, None]
-        apart = (one**2)[:, :, None] + (other**2)[:, None] - 2 * (x @ self.x[q].transpose(0, 2, 1))
-        apart = np.maximum(apart, 0.0) / np.maximum(both * field.TURN**2, 1e-300)
-        found = (known[:, None] + apart / (1 + apart / field.LINK2)).min(axis=2) - known.min(axis=1)[:, None]
+        found = _said(x, self.x[q], known)
         return np.where(there[:, None] >= 0, found, 0.0)
+
+
+def _said(x: Array, y: Array, known: Array) -> Array:
+    """What neighbours with candidates y (Q, K, 3), believed by `known` (Q, K), say of candidates x (Q, N, 3): (Q, N)."""
+    if run := kernel("said"):
+        given = (np.ascontiguousarray(one, float) for one in (x, y, known))
+        found = np.empty(x.shape[:2])
+        run(*x.shape[:2], y.shape[1], *given, field.TURN**2, field.LINK2, found)
+        return found
+    square = apart(x[:, :, None], y[:, None])
+    return np.asarray((known[:, None] + square / (1 + square / field.LINK2)).min(axis=2) - known.min(axis=1)[:, None])
 
 
 def _different(x: Array, belief: Array) -> Indices:
@@ -290,5 +283,5 @@ def _different(x: Array, belief: Array) -> Indices:
         one = left.argmin(axis=1)
         kept.append(one)
         apart = x - x[each, one][:, None]
-        left = np.where(lambert.dot(apart, apart) < ALIKE2 * albedo2, left + 1e6, left)
+        left = np.where(lambert.dot(apart, apart) < (field.TURN / 8) ** 2 * albedo2, left + 1e6, left)  # one of them is enough
     return np.stack(kept, axis=1)

@@ -19,9 +19,6 @@ from lpcal.shading import field, search
 from lpcal.shading.field import Field
 from lpcal.view.sight import Sight
 
-POLISHED = 3
-"""Rounds of the field from what the search found: its candidates are some degrees off, which depth would show as much as a wrong region."""
-
 
 def another_minimum(grid: Grid, costs: search.Costs, own: Own, u: Array, before: Field) -> Field | None:
     """The field with the regions of a search that cost less by samples and by depth; None where there are none.
@@ -30,7 +27,7 @@ def another_minimum(grid: Grid, costs: search.Costs, own: Own, u: Array, before:
     """
     seen = costs.seen
     proposed = replace(before, b=search.propose(costs, grid, before.b))
-    found = field.solve(seen, grid, costs.lit, costs.hidden, proposed, None, POLISHED, costs.palette).b
+    found = field.solve(seen, grid, costs.lit, costs.hidden, proposed, palette=costs.palette).b  # candidates are some degrees off
     changed = search.apart(before.b, found) > 1
     if not changed.any():
         return None

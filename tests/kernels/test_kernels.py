@@ -123,6 +123,10 @@ def directions(rng: np.random.Generator) -> Array:
     return np.concatenate([one.over_directions(search._hemisphere(40), 5.0)[0].ravel() for one in costs])
 
 
+def said(rng: np.random.Generator) -> Array:
+    return search._said(rng.normal(size=(300, 9, 3)), rng.normal(size=(300, 4, 3)), 5 * rng.random((300, 4)))
+
+
 def lobe(rng: np.random.Generator) -> Array:
     d, n, v = (lambert.unit(rng.normal(size=(*shape, 3)))[0] for shape in ((5, 300), (300,), (300,)))
     return np.concatenate([gloss.lobe(d, n, v, roughness).ravel() for roughness in (0.06, 0.5)])
@@ -428,6 +432,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     gathered: (1e-10, {"gathered"}),
     candidates: (1e-9, {"candidates"}),
     directions: (1e-9, {"directions"}),
+    said: (1e-12, {"said"}),
     coupled: (1e-9, {"coupled"}),
     cubic: (1e-13, {"cubic"}),
     between: (1e-12, {"lattice"}),
