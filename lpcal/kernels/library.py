@@ -34,7 +34,7 @@ SIGNATURES = {
     "coupled": "i i m f f f f f f d i d",
     "cubic": "i i i i s s d d f n f s",
     "curved": "i i s d i s n n",
-    "directions": "i i i f f i f f f b i b f f i f f i f i n d f f f",
+    "directions": "i i i f f i f f f b i b f f i f f i f i n d d f f f",
     "distort": "i f f f f",
     "entries": "i f f i f i i i f f d d b f",
     "few": "i i f f b f f d i i d d f b f f f",

@@ -111,11 +111,12 @@ KERNEL void lpcal_candidates(int64_t L, int64_t P, int64_t N, const double *d, c
 }
 
 /* Least cost (P, D) of normals n (D, 3) over albedos, and those albedos (P, D): over `levels` (A,), and what each of the samples `by` (B, P),
-   numbers of lights, says where it is lit, up to `most`. `work` (L, 32) is work space. */
+   numbers of lights, says where it is lit, from `least` to `most`. `work` (L, 32) is work space. */
 KERNEL void lpcal_directions(int64_t L, int64_t P, int64_t D, const double *d, const double *E, int64_t has_J, const double *J,
                              const double *signal, const double *sigma, const bool *usable, int64_t has_hidden, const bool *hidden,
                              const double *v, const double *c, int64_t bins, const double *table, const double *n, int64_t A,
-                             const double *levels, int64_t B, const int64_t *by, double most, double *work, double *cost, double *albedo) {
+                             const double *levels, int64_t B, const int64_t *by, double least, double most, double *work, double *cost,
+                             double *albedo) {
     Given of = {L, P, bins, d, E, has_J ? J : 0, signal, sigma, v, c, table, usable, has_hidden ? hidden : 0};
     Candidates at;
     memset(work, 0, sizeof(double) * (size_t)(L * BLOCK));
@@ -137,14 +138,14 @@ KERNEL void lpcal_directions(int64_t L, int64_t P, int64_t D, const double *d, c
                     double light = E[s] * greater(d[3 * s] * x + d[3 * s + 1] * y + d[3 * s + 2] * z, 0.0);
                     if (has_J) light += greater(J[3 * s] * x + J[3 * s + 1] * y + J[3 * s + 2] * z, 0.0);
                     double one = (signal[s] - work[k * BLOCK + i]) / greater(light, 1e-300);
-                    at.a[i] = one > 0.0 ? (one < most ? one : most) : 1e-12;
+                    at.a[i] = one > least ? (one < most ? one : most) : least;
                 }
                 begin(&of, p, some, &at);
                 for (int64_t k = 0; k < L; k++) add_sample(&of, k, p, top2, some, &at, work + k * BLOCK);
                 for (int64_t i = 0; i < some; i++) {
-                    double *least = cost + p * D + first + i;
-                    if (slot > 0 && at.sum[i] >= *least) continue;
-                    *least = at.sum[i];
+                    double *lowest = cost + p * D + first + i;
+                    if (slot > 0 && at.sum[i] >= *lowest) continue;
+                    *lowest = at.sum[i];
                     albedo[p * D + first + i] = at.a[i];
                 }
             }

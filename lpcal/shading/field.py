@@ -142,7 +142,8 @@ def _tilt_rad(b: Array, own: Array) -> Array:
     held = own + loose[:, None, None] * np.eye(3)
     covariance = lambert.inverse_3x3(held)
     steep = np.isnan(covariance[:, 0, 0])  # samples of one direction so strong that the prior looks like nothing beside them
-    covariance[steep] = np.linalg.inv(held[steep])
+    strength, axis = np.linalg.eigh(own[steep] / loose[steep, None, None])
+    covariance[steep] = (axis / (np.maximum(strength, 0.0) + 1)[:, None]) @ axis.transpose(0, 2, 1) / loose[steep, None, None]
     across = np.trace(covariance, axis1=1, axis2=2) - np.einsum("pi,pij,pj->p", n, covariance, n)
     return np.asarray(np.sqrt(np.maximum(across, 0.0) / 2) / np.maximum(albedo, 1e-12))
 

@@ -58,6 +58,11 @@ class Costs:
         """Directions (P, 3) to the viewer."""
         return np.asarray(-self.seen.rays_C / np.linalg.norm(self.seen.rays_C, axis=1, keepdims=True))
 
+    @property
+    def least(self) -> float:
+        """Albedo that is tried at least: the lowest that the palette holds."""
+        return float(np.exp(self.palette.middle - palette.SPAN))
+
     def at(self, some: Indices | slice) -> Costs:
         """Those of some of the pixels."""
         return Costs(self.seen.at(some), self.lit.at(some), None if self.hidden is None else self.hidden[:, some], self.shine, self.palette)
@@ -110,7 +115,7 @@ class Costs:
         levels = np.exp(self.palette.colours())
         if run := kernel("directions"):
             cost, albedo, work = np.empty((signal.shape[1], len(n))), np.empty((signal.shape[1], len(n))), np.empty((len(signal), 32))
-            run(*signal.shape, len(n), *self._given(), n, len(levels), levels, len(by), by, most, work, cost, albedo)
+            run(*signal.shape, len(n), *self._given(), n, len(levels), levels, len(by), by, self.least, most, work, cost, albedo)
             return cost, albedo
         found = [self._over_albedos(one, levels, by, most) for one in n]
         return np.stack([cost for cost, _ in found], axis=1), np.stack([albedo for _, albedo in found], axis=1)
@@ -124,7 +129,7 @@ class Costs:
         if self.lit.thrown is not None:
             light = light + np.maximum(self.lit.thrown @ n, 0.0)
         proposed = np.take_along_axis(left / np.maximum(light, 1e-300), by, axis=0)
-        proposed = np.where(proposed > 0, np.minimum(proposed, most), 1e-12)
+        proposed = np.clip(proposed, self.least, most)
         albedo = np.concatenate([np.broadcast_to(levels[:, None], (len(levels), len(each))), proposed])
         cost = np.stack([self._of_one(one[:, None] * each) for one in albedo])
         least = cost.argmin(axis=0)[None]
