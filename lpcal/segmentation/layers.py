@@ -163,6 +163,13 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
     return labels, layers, cost
 
 
+def energy(view: View, labels: Labels, cost: Array) -> float:
+    """What labels (rows, columns) cost by the costs of their layers (layers, rows, columns) and their boundaries."""
+    across, down = boundary(strength(view.image.maps))
+    own = np.minimum(np.take_along_axis(cost, labels[None], axis=0)[0], cost.min(axis=0) + CEILING)
+    return float(own.sum() + across[labels[:, 1:] != labels[:, :-1]].sum() + down[labels[1:] != labels[:-1]].sum())
+
+
 def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     image, table = view.image, view.table

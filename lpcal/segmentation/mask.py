@@ -19,6 +19,7 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.regions import View
 from lpcal.segmentation.samples import LIT_SIGMAS
+from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
@@ -34,6 +35,10 @@ SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
+MANY_PLANES, STARTS = 5, 3
+"""Planes from which they are searched from so many starts: a wall, a table and a plinth's two sides are four."""
+TIED = 1.25
+"""Energies of layers up to so many times the least are ties: in 18 simulated scenes the least of such was as often the worse."""
 BESIDE_POINT = 0.02
 """Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
 DOUBTED, DOUBT_POWER = 0.19, 2.2
@@ -159,7 +164,7 @@ def _by_layers(
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
     view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
-    labels, found, cost = layers.label(view, flats.find(image, table, view.swept, lit, distance_m), lit, float(np.log(distance_m)))
+    labels, found, cost = _labelled(view, lit, distance_m)
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
     judged = background.in_context(judged, view, labels, *outline.levels_of(image.maps, room, image.factor))
@@ -189,6 +194,27 @@ def _by_layers(
     layer = _layer(fine, labels, behind, kinds, image.factor)
     whole = Found(fine, how, walls, layer=layer, of_plane=of_plane, factor=image.factor)
     return whole if alone else replace(whole, expected_wrong=doubt.share, why=why)
+
+
+def _labelled(view: View, lit: Mask, distance_m: float) -> tuple[Labels, layers.Layers, Array]:
+    """The layers of the coarse pixels; where planes are many, the first of several that none beats clearly.
+
+    Planes are found one after the other, each by what is left: a wall that light from elsewhere bends can come apart at the first, in ways
+    that hang on rounding. Then the search begins again from images with their own noise added.
+    """
+
+    def labelled(image: Coarse) -> tuple[Labels, layers.Layers, Array]:
+        planes_found = flats.find(image, view.table, view.swept, lit, distance_m)
+        return layers.label(view, planes_found, lit, float(np.log(distance_m)))
+
+    first, rng = labelled(view.image), np.random.default_rng(1)
+    if len(first[1].planes) < MANY_PLANES:
+        return first
+    image = view.image
+    noisy = [replace(image, signal=image.signal + image.sigma * rng.standard_normal(image.signal.shape)) for _ in range(STARTS - 1)]
+    starts = [first, *bands.shared(labelled, noisy)]
+    energies = [layers.energy(view, labels, cost) for labels, _, cost in starts]
+    return next(one for one, by in zip(starts, energies, strict=True) if by <= max(TIED * min(energies), min(energies)))
 
 
 def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
