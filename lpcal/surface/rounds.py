@@ -58,8 +58,8 @@ CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from estimates of single pixels."""
 FULL_ROUNDS = 3
 """Rounds at full size at most after those of the blocks, and after a search."""
-SEARCHES = 3
-"""How often other minima of the field are searched at most, each time in the light that the surface so far throws."""
+SEARCHES, SEARCHED = 3, 0.01
+"""How often other minima are searched at most, each time in the light that the surface so far throws; again where so much changed."""
 
 
 @dataclass(frozen=True)
@@ -167,22 +167,22 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
 def _renewed(scene: Scene, state: State, progress: Progress) -> State:
     """The state with regions whose normals another minimum of the energies explains better, settled anew.
 
-    A gloss that is fitted to a field which has just changed can stray, and one that was fitted to the wrong field can be what is wrong:
-    both are tried.
+    A gloss fitted to a field that has just changed can stray, one fitted to the wrong field can be what is wrong: both are tried.
     """
     for _ in range(SEARCHES):
-        albedos = _palette(state, ROUNDS)
-        if albedos is None:
+        if (albedos := _palette(state, ROUNDS)) is None:
             break
-        costs = search.Costs(scene.seen, state.lit, hidden_lights(scene, np.exp(state.u), state, state.lit)[1], state.field.gloss, albedos)
-        found = renewed.another_minimum(scene.grid, costs, state.own, state.u, state.field)
-        if found is None:
+        hidden = hidden_lights(scene, np.exp(state.u), state, state.lit)[1]
+        costs, before = search.Costs(scene.seen, state.lit, hidden, state.field.gloss, albedos), state.field
+        if (found := renewed.another_minimum(scene.grid, costs, state.own, state.u, before)) is None:
             break
         other = replace(state, field=found, normals=lambert.unit(found.b)[0])
         held = _until_settled(scene, other, ROUNDS - FULL_ROUNDS, progress, gloss_known=True)
         ends = [held, once(scene, held.u, held)]
         by = [replace(costs, lit=one.lit, shine=one.field.gloss) for one in ends]
         state = ends[np.argmin([search.energy(of, scene.grid, one.field.b).sum() for of, one in zip(by, ends, strict=True)])]
+        if np.mean(np.any(found.b != before.b, axis=1)) < SEARCHED:
+            break
     return state
 
 
