@@ -1,7 +1,8 @@
 """The numeric constants of the surface stage: ``python tools/surface_constants.py [FOLDER]`` (lpcal by default).
 
-A constant is a name in capitals that a module of STAGE sets to numbers alone: literals, tuples and dicts of them, arithmetic on them. What
-is reckoned from another constant is none. Prints each, their number in each package and in all, and which have name and value in common.
+A constant is a name in capitals that a module of STAGE sets to numbers alone: literals, tuples and dicts of them, arithmetic on them.
+What is computed from another constant does not count. Prints each constant, how many there are in each package and in all, and which have
+their name and value in common.
 """
 
 from __future__ import annotations

@@ -31,8 +31,6 @@ MOST_HEARD_SIGMAS = 3.0
 """By how many of its sigmas the distance of a view that was left out may have to change to be taken in: 20 mm too far is not."""
 MOST_SCALE_SIGMAS = 5.0
 """By how many of its sigmas the distance of a view's largest piece may have grown."""
-
-
 FEWEST_OTHERS = 3
 """Views of which the middle one says what distances were changed by usually: of fewer one wrong one is half of it."""
 

@@ -4,22 +4,8 @@
 #include "kernel.h"
 
 #define BLOCK 64
-#define STEEPEST 0.05
-#define TAU_HALF 3.14159265358979323846
 
 enum { MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, GLOSS_DOUBT, WIDTH2, STRENGTH, ROUGHNESS, WARMTH };
-
-static inline double square(double x) { return x * x; }
-
-static inline double greater(double a, double b) { return a > b ? a : b; }
-
-/* Gloss of a light from d at a normal n, seen from v: see shading/gloss.py (lobe); all its quotients in one. */
-static inline double lobe(const double d[3], const double n[3], const double v[3], double a2) {
-    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, nh = greater(dot3(h, n), 0.0), lit = greater(dot3(d, n), 0.0);
-    double q = nh * nh / greater(dot3(h, h), 1e-18) * (a2 - 1.0) + 1.0, nv = greater(dot3(v, n), STEEPEST);
-    double along = lit + sqrt(a2 + (1.0 - a2) * (lit * lit)) + 1e-12, back = nv + sqrt(a2 + (1.0 - a2) * (nv * nv)) + 1e-12;
-    return a2 * lit / (TAU_HALF * (q * q) * along * back);
-}
 
 /* How the lobe changes with the normal, along the tangents: see shading/gloss.py (turned). */
 static inline void turned(const double d[3], const double n[3], const double v[3], double a2, double found[3]) {

@@ -7,8 +7,6 @@
 #define HALF 32
 #define TOGETHER 8 /* twice as many factors of a product before its logarithm is taken: far from the ends of what doubles hold */
 
-static inline double square(double x) { return x * x; }
-
 /* b (2, 3) of two right sides by the same symmetric positive matrix M (its upper half, row by row), which is L D L'. */
 static inline void solved(const double M[6], const double right[6], double b[6]) {
     double small = 1e-9 * (M[0] + M[3] + M[5]) + 1e-300;

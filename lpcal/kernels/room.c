@@ -8,9 +8,7 @@
 
 enum { MODEL2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, WIDTH2, DEEP, SPREAD, TIE };
 
-static inline double square(double x) { return x * x; }
 static inline double lesser(double a, double b) { return a < b ? a : b; }
-static inline double greater(double a, double b) { return a > b ? a : b; }
 
 /* A block of pixels: signals, variance but for the signal's part, share of the signal's square in the variance, and whether they count. */
 typedef struct {

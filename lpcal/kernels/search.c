@@ -1,11 +1,9 @@
-/* What the samples of pixels, a palette and the view cost at candidates for b. Twin: shading/search.py (Costs). Light comes from directions d
+/* What the samples of pixels, a palette and the view cost at candidates for b. Twins: shading/search.py (_of_candidates, _of_directions). Light comes from directions d
    (L, P, 3) with irradiances E (L, P), and as J (L, P, 3) from other surfaces. */
 
 #include "kernel.h"
 
-#define BLOCK 32
-#define STEEPEST 0.05
-#define TAU_HALF 3.14159265358979323846
+#define BLOCK 32 /* of shading/search.py's work space, too */
 
 enum { MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, GLOSS_DOUBT, WIDTH2, STRENGTH, ROUGHNESS, MIDDLE, SPAN, TOWARDS };
 
@@ -20,21 +18,13 @@ typedef struct {
     double n[3][BLOCK], a[BLOCK], sum[BLOCK];
 } Candidates;
 
-static inline double square(double x) { return x * x; }
-
-static inline double greater(double a, double b) { return a > b ? a : b; }
-
 /* Gloss of light k at the normals of some candidates: see shading/gloss.py (lobe). */
 static void glosses(const Given *of, int64_t k, int64_t p, int64_t some, const Candidates *at, double shown[BLOCK]) {
     const double *d = of->d + 3 * (k * of->P + p), *v = of->v + 3 * p;
     double a2 = square(of->c[ROUGHNESS]), strength = of->c[STRENGTH] * of->E[k * of->P + p];
-    double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, short_h = 1.0 / greater(dot3(h, h), 1e-18);
     for (int64_t i = 0; i < some; i++) {
-        double x = at->n[0][i], y = at->n[1][i], z = at->n[2][i];
-        double nh = greater(h[0] * x + h[1] * y + h[2] * z, 0.0), lit = greater(d[0] * x + d[1] * y + d[2] * z, 0.0);
-        double nv = greater(v[0] * x + v[1] * y + v[2] * z, STEEPEST), q = nh * nh * short_h * (a2 - 1.0) + 1.0;
-        double along = lit + sqrt(a2 + (1.0 - a2) * (lit * lit)) + 1e-12, back = nv + sqrt(a2 + (1.0 - a2) * (nv * nv)) + 1e-12;
-        shown[i] = strength * a2 * lit / (TAU_HALF * (q * q) * along * back);
+        double n[3] = {at->n[0][i], at->n[1][i], at->n[2][i]};
+        shown[i] = strength * lobe(d, n, v, a2);
     }
 }
 
@@ -154,8 +144,8 @@ KERNEL void lpcal_directions(int64_t L, int64_t P, int64_t D, const double *d, c
 }
 
 /* What neighbours with candidates y (Q, K, 3), believed by `known` (Q, K), say of candidates x (Q, N, 3): (Q, N), nothing of the likeliest.
-   Twin: shading/search.py (_said). `turn2` and `link2` are the squares at which links yield, see shading/field.py. */
-KERNEL void lpcal_said(int64_t Q, int64_t N, int64_t K, const double *x, const double *y, const double *known, double turn2, double link2,
+   Twin: shading/search.py (_messages). `turn2` and `link2` are the squares at which links yield, see shading/field.py. */
+KERNEL void lpcal_messages(int64_t Q, int64_t N, int64_t K, const double *x, const double *y, const double *known, double turn2, double link2,
                        double *found) {
     for (int64_t q = 0; q < Q; q++) {
         const double *there = y + 3 * K * q, *by = known + K * q;

@@ -160,12 +160,16 @@ def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
     return pieces.fill(grid, b, known & (alike(grid, b, known) >= FRIENDS))
 
 
+def apart(x: Array, y: Array) -> Array:
+    """Squares of the differences of b x and y (..., 3), in shares TURN of their albedo."""
+    both = np.linalg.norm(x, axis=-1) * np.linalg.norm(y, axis=-1) * TURN**2
+    return np.asarray(lambert.dot(x - y, x - y) / np.maximum(both, 1e-300))
+
+
 def alike(grid: Grid, b: Array, known: Mask) -> Array:
     """The share (P,) of a pixel's known neighbours whose b (P, 3) a link counts as one surface with its own; 1 where none is known."""
-    albedo = np.linalg.norm(b, axis=1)
-    apart = np.sum((b[grid.a] - b[grid.b]) ** 2, axis=1)
     both = known[grid.a] & known[grid.b]
-    near = both & (apart < LINK2 * TURN**2 * albedo[grid.a] * albedo[grid.b])
+    near = both & (apart(b[grid.a], b[grid.b]) < LINK2)
     like, of = (np.bincount(grid.a, one, len(b)) + np.bincount(grid.b, one, len(b)) for one in (near, both))
     return np.asarray(np.where(of > 0, like / np.maximum(of, 1), 1.0))
 
@@ -255,9 +259,7 @@ class _System:
         """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
         albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
         both = albedo[grid.a] * albedo[grid.b]
-        apart = b[grid.a] - b[grid.b]
-        apart = lambert.dot(apart, apart) / (both * TURN**2)
-        link = 1 / (both * TURN**2) / (1 + apart / LINK2) ** 2
+        link = 1 / (both * TURN**2) / (1 + apart(b[grid.a], b[grid.b]) / LINK2) ** 2
         total = np.bincount(grid.a, link, len(b)) + np.bincount(grid.b, link, len(b))
         block = own.copy()
         block.reshape(-1, 9)[:, ::4] += total[:, None]

@@ -1,17 +1,17 @@
 r"""Another minimum of the field's energy, found by trying normals all over the hemisphere where the field leaves samples unexplained.
 
-The field (shading.field) is the minimum next to its start. Where few lights reach, a gloss is strong or other surfaces throw most of the
-light, there are others, and neighbours lead each other astray. Here each pixel whose cost is high holds some candidates for b: the field's,
-the least local minima over directions and albedos, and one drawn by its odds; they pass messages to their neighbours (min-sum belief
-propagation), and in each sweep try their neighbours' best and small turns of their own (particles). Symbols: cost u_p(b) of a pixel's
-samples, palette and view, link s(b, b') of the field, candidates X_q::
+The field (shading.field) is the minimum next to its start. Where few lights reach, a gloss is strong or most of the light is
+interreflected, there are others, and neighbours that are wrong alike hold each other there. Here each pixel whose cost is high holds some
+candidates for b: the field's, the least local minima over directions and albedos, and one drawn by its odds. Pixels pass messages to their
+neighbours (min-sum belief propagation), and in each sweep try their neighbours' best and small turns of their own candidates (particles).
+Symbols: cost u_p(b) of a pixel's samples, palette and view, link s(b, b') of the field, candidates X_q::
 
     m_qp(b) = min over b' in X_q of  u_q(b') + sum of m_rq(b') over neighbours r but p  +  s(b, b')
 
     u_p(b) = sum_k min(rho(lit), rho(in shadow) + PRICE)  -  2 log p(log a)  -  2 log(n . v)
 
 p is the palette's (shading.palette); n . v is the area that a piece of surface covers in the picture. The result is a proposal: whether a
-region of it is right is judged by this energy and that of the depth together (surface.renewed).
+region of it is right is judged by this energy and that of the depth together (surface.minima).
 
 Sources: Besse, Rother, Fitzgibbon and Kautz 2014, Int. J. Computer Vision 110 (PatchMatch belief propagation); Felzenszwalb and
 Huttenlocher 2006, Int. J. Computer Vision 70 (min-sum messages, two colours of pixels in turn).
@@ -19,7 +19,7 @@ Huttenlocher 2006, Int. J. Computer Vision 70 (min-sum messages, two colours of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,11 +33,11 @@ from lpcal.view import bands
 from lpcal.view.sight import Indices, Lit, Sight
 
 DIRECTIONS = 160
-"""Normals of a hemisphere that are tried: 11 degrees apart, as near as the rounds of the field then need."""
+"""Normals of a hemisphere that are tried, 11 degrees apart: with 90 an eighth less is gained in 28 simulated scenes."""
 PARTICLES = 4
-"""Candidates that a pixel holds: with six or ten the regions that are mended in 29 simulated scenes are the same."""
+"""Candidates that a pixel holds: with six as much is gained in 28 simulated scenes, with ten a fifteenth more in twice the time."""
 SWEEPS = 6
-"""Sweeps over all pixels: with twelve the same."""
+"""Sweeps over all pixels: with twelve no more is gained."""
 SAMPLES = 6
 """Brightest samples of a pixel that propose an albedo for a normal; directions are tried by twice as many lights at most."""
 
@@ -65,77 +65,29 @@ class Costs:
 
     def at(self, some: Indices | slice) -> Costs:
         """Those of some of the pixels."""
-        return Costs(self.seen.at(some), self.lit.at(some), None if self.hidden is None else self.hidden[:, some], self.shine, self.palette)
+        hidden = None if self.hidden is None else self.hidden[:, some]
+        return replace(self, seen=self.seen.at(some), lit=self.lit.at(some), hidden=hidden)
 
     def of_lights(self, some: Indices) -> Costs:
         """Those by some of the lights."""
-        seen = Sight(
-            self.seen.mask, self.seen.rays_C, self.seen.signal[some], self.seen.sigma[some], self.seen.usable[some], self.seen.central
-        )
+        seen = replace(self.seen, signal=self.seen.signal[some], sigma=self.seen.sigma[some], usable=self.seen.usable[some])
         lit = Lit(self.lit.d[some], self.lit.E[some], None if self.lit.thrown is None else self.lit.thrown[some])
-        return Costs(seen, lit, None if self.hidden is None else self.hidden[some], self.shine, self.palette)
+        return replace(self, seen=seen, lit=lit, hidden=None if self.hidden is None else self.hidden[some])
 
     def of(self, b: Array) -> Array:
         """The cost (P, N) of candidates b (P, N, 3)."""
-        parts = bands.each(len(b), len(self.seen.signal) * b.shape[1], lambda some: self.at(some)._of(b[some]))  # noqa: SLF001 - its own
+        parts = bands.each(len(b), len(self.seen.signal) * b.shape[1], lambda some: _of_candidates(self.at(some), b[some]))
         return np.concatenate(parts)
-
-    def _of(self, b: Array) -> Array:
-        if run := kernel("candidates"):
-            cost = np.empty(b.shape[:2])
-            run(len(self.seen.signal), len(b), b.shape[1], *self._given(), np.ascontiguousarray(b, float), cost)
-            return cost
-        return np.stack([self._of_one(one) for one in b.transpose(1, 0, 2)], axis=1)
-
-    def _of_one(self, b: Array) -> Array:
-        """The cost (P,) of one candidate b (P, 3) each."""
-        n, albedo = lambert.unit(b)
-        state = field.states(self.seen, self.lit, b, self.hidden, field.shown_gloss(self.lit, b, self.v, self.shine), 1.0)
-        hidden = np.zeros(state.lit.shape, bool) if self.hidden is None else self.hidden
-        in_shadow, as_lit = _robust(state.shadow**2 / state.shadow_spread2), _robust(state.lit**2 / state.spread2)
-        in_shadow = in_shadow + np.where((lambert.dot(self.lit.direct, b) > 0) & ~hidden, field.PRICE, 0.0)
-        least = np.minimum(in_shadow, as_lit + np.where(hidden, field.HIDDEN, 0.0))
-        towards = np.maximum(lambert.dot(self.v, n), field.TOWARDS)
-        level = (np.log(np.maximum(albedo, 1e-12)) - self.palette.middle + palette.SPAN) / (2 * palette.SPAN) * palette.BINS - 0.5
-        by_palette = np.interp(level, np.arange(palette.BINS), self.palette.costs())
-        return np.asarray(np.where(self.seen.usable, least, 0.0).sum(axis=0) - 2 * np.log(towards) + by_palette)
 
     def over_directions(self, n: Array, most: float) -> tuple[Array, Array]:
         """Least cost (P, D) of normals n (D, 3) over the albedos that palette and samples propose up to one, and those albedos (P, D)."""
         count = len(self.seen.signal)
         some = np.unique(np.linspace(0, count - 1, min(count, 2 * SAMPLES)).round().astype(int))
         few = self if len(some) == count else self.of_lights(some)
-        pixels = self.seen.pixels
-        parts = bands.each(pixels, len(some) * len(n), lambda here: few.at(here)._over_directions(n, most))  # noqa: SLF001 - its own
+        parts = bands.each(self.seen.pixels, len(some) * len(n), lambda here: _of_directions(few.at(here), n, most))
         return np.concatenate([cost for cost, _ in parts]), np.concatenate([albedo for _, albedo in parts])
 
-    def _over_directions(self, n: Array, most: float) -> tuple[Array, Array]:
-        signal = np.where(self.seen.usable, self.seen.signal, 0.0)
-        by = np.ascontiguousarray(np.argsort(-signal, axis=0, kind="stable")[:SAMPLES], np.int64)
-        levels = np.exp(self.palette.colours())
-        if run := kernel("directions"):
-            cost, albedo, work = np.empty((signal.shape[1], len(n))), np.empty((signal.shape[1], len(n))), np.empty((len(signal), 32))
-            run(*signal.shape, len(n), *self._given(), n, len(levels), levels, len(by), by, self.least, most, work, cost, albedo)
-            return cost, albedo
-        found = [self._over_albedos(one, levels, by, most) for one in n]
-        return np.stack([cost for cost, _ in found], axis=1), np.stack([albedo for _, albedo in found], axis=1)
-
-    def _over_albedos(self, n: Array, levels: Array, by: Indices, most: float) -> tuple[Array, Array]:
-        """Least cost (P,) of one normal (3,), and its albedo (P,)."""
-        each = np.broadcast_to(n, (self.seen.pixels, 3))
-        shown = field.shown_gloss(self.lit, each, self.v, self.shine)
-        left = self.seen.signal if shown is None else self.seen.signal - shown
-        light = np.maximum(self.lit.direct @ n, 0.0)
-        if self.lit.thrown is not None:
-            light = light + np.maximum(self.lit.thrown @ n, 0.0)
-        proposed = np.take_along_axis(left / np.maximum(light, 1e-300), by, axis=0)
-        proposed = np.clip(proposed, self.least, most)
-        albedo = np.concatenate([np.broadcast_to(levels[:, None], (len(levels), len(each))), proposed])
-        cost = np.stack([self._of_one(one[:, None] * each) for one in albedo])
-        least = cost.argmin(axis=0)[None]
-        return np.take_along_axis(cost, least, axis=0)[0], np.take_along_axis(albedo, least, axis=0)[0]
-
-    def _given(self) -> tuple[object, ...]:
+    def given(self) -> tuple[object, ...]:
         """What kernels are given of it."""
         lit, seen, shine = self.lit, self.seen, self.shine
         d, E, signal, sigma, v, table = (
@@ -149,20 +101,66 @@ class Costs:
         return d, E, J.size > 0, J, signal, sigma, np.ascontiguousarray(seen.usable), unlit.size > 0, unlit, v, c, len(table), table
 
 
+def _of_candidates(costs: Costs, b: Array) -> Array:
+    """The cost (P, N) of candidates b (P, N, 3)."""
+    if run := kernel("candidates"):
+        cost = np.empty(b.shape[:2])
+        run(len(costs.seen.signal), len(b), b.shape[1], *costs.given(), np.ascontiguousarray(b, float), cost)
+        return cost
+    return np.stack([_of_one(costs, one) for one in b.transpose(1, 0, 2)], axis=1)
+
+
+def _of_one(costs: Costs, b: Array) -> Array:
+    """The cost (P,) of one candidate b (P, 3) each."""
+    (n, albedo), v, colours = lambert.unit(b), costs.v, costs.palette
+    state = field.states(costs.seen, costs.lit, b, costs.hidden, field.shown_gloss(costs.lit, b, v, costs.shine), 1.0)
+    hidden = np.zeros(state.lit.shape, bool) if costs.hidden is None else costs.hidden
+    in_shadow, as_lit = _robust(state.shadow**2 / state.shadow_spread2), _robust(state.lit**2 / state.spread2)
+    in_shadow = in_shadow + np.where((lambert.dot(costs.lit.direct, b) > 0) & ~hidden, field.PRICE, 0.0)
+    least = np.minimum(in_shadow, as_lit + np.where(hidden, field.HIDDEN, 0.0))
+    towards = np.maximum(lambert.dot(v, n), field.TOWARDS)
+    level = (np.log(np.maximum(albedo, 1e-12)) - colours.middle + palette.SPAN) / (2 * palette.SPAN) * palette.BINS - 0.5
+    by_palette = np.interp(level, np.arange(palette.BINS), colours.costs())
+    return np.asarray(np.where(costs.seen.usable, least, 0.0).sum(axis=0) - 2 * np.log(towards) + by_palette)
+
+
+def _of_directions(costs: Costs, n: Array, most: float) -> tuple[Array, Array]:
+    """Least cost (P, D) of normals n (D, 3) over albedos up to one, and those albedos (P, D)."""
+    signal = np.where(costs.seen.usable, costs.seen.signal, 0.0)
+    by = np.ascontiguousarray(np.argsort(-signal, axis=0, kind="stable")[:SAMPLES], np.int64)
+    levels = np.exp(costs.palette.colours())
+    if run := kernel("directions"):
+        cost, albedo = np.empty((2, signal.shape[1], len(n)))
+        work = np.empty((len(signal), 32))  # BLOCK of kernels/search.c
+        run(*signal.shape, len(n), *costs.given(), n, len(levels), levels, len(by), by, costs.least, most, work, cost, albedo)
+        return cost, albedo
+    found = [_over_albedos(costs, one, levels, by, most) for one in n]
+    return np.stack([cost for cost, _ in found], axis=1), np.stack([albedo for _, albedo in found], axis=1)
+
+
+def _over_albedos(costs: Costs, n: Array, levels: Array, by: Indices, most: float) -> tuple[Array, Array]:
+    """Least cost (P,) of one normal (3,), and its albedo (P,)."""
+    each = np.broadcast_to(n, (costs.seen.pixels, 3))
+    shown = field.shown_gloss(costs.lit, each, costs.v, costs.shine)
+    left = costs.seen.signal if shown is None else costs.seen.signal - shown
+    light = np.maximum(costs.lit.direct @ n, 0.0)
+    if costs.lit.thrown is not None:
+        light = light + np.maximum(costs.lit.thrown @ n, 0.0)
+    proposed = np.clip(np.take_along_axis(left / np.maximum(light, 1e-300), by, axis=0), costs.least, most)
+    albedo = np.concatenate([np.broadcast_to(levels[:, None], (len(levels), len(each))), proposed])
+    cost = np.stack([_of_one(costs, one[:, None] * each) for one in albedo])
+    least = cost.argmin(axis=0)[None]
+    return np.take_along_axis(cost, least, axis=0)[0], np.take_along_axis(albedo, least, axis=0)[0]
+
+
 def _robust(square: Array) -> Array:
     """Geman and McClure's cost of squares of residuals in standard deviations."""
     return square / (1 + square / gloss.WIDTH2)
 
 
-def apart(x: Array, y: Array) -> Array:
-    """Squares of the differences of b x and y (..., 3), in shares field.TURN of their albedo."""
-    both = np.linalg.norm(x, axis=-1) * np.linalg.norm(y, axis=-1) * field.TURN**2
-    return np.asarray(lambert.dot(x - y, x - y) / np.maximum(both, 1e-300))
-
-
 def energy(costs: Costs, grid: Grid, b: Array) -> Array:
     """The energy of a field b (P, 3), pixel by pixel (P,): a link's is shared by its ends."""
-    square = apart(b[grid.a], b[grid.b])
+    square = field.apart(b[grid.a], b[grid.b])
     link = square / (1 + square / field.LINK2) / 2
     return costs.of(b[:, None])[:, 0] + np.bincount(grid.a, link, len(b)) + np.bincount(grid.b, link, len(b))
 
@@ -185,7 +183,7 @@ def propose(costs: Costs, grid: Grid, b: Array) -> Array:
     parts = [(wanted[one], costs.at(wanted[one])) for one in (colour == 0, colour == 1)]
     for _ in range(SWEEPS):
         for here, own in parts:
-            beliefs.renew(here, own, rng)
+            beliefs.resample(here, own, rng)
     return beliefs.best()
 
 
@@ -226,23 +224,23 @@ def _neighbours(grid: Grid) -> Indices:
 
 @dataclass(frozen=True)
 class _Beliefs:
-    """Candidates of all pixels, what they cost, and what neighbours say of them; renewed in place."""
+    """Candidates of all pixels, what they cost, and what neighbours say of them; resampled in place."""
 
     x: Array
     """(P, PARTICLES, 3)."""
     u: Array
     """(P, PARTICLES)."""
-    said: Array
-    """(P, PARTICLES, 4) messages that came in."""
+    messages: Array
+    """(P, PARTICLES, 4): those that came in."""
     beside: Indices
     """(P, 4)."""
 
     def best(self, some: Indices | slice = slice(None)) -> Array:
         """The candidates (Q, 3) of some pixels that are believed most."""
-        least = (self.u[some] + self.said[some].sum(axis=2)).argmin(axis=1)
+        least = (self.u[some] + self.messages[some].sum(axis=2)).argmin(axis=1)
         return np.asarray(np.take_along_axis(self.x[some], least[:, None, None], axis=1)[:, 0])
 
-    def renew(self, here: Indices, costs: Costs, rng: np.random.Generator) -> None:
+    def resample(self, here: Indices, costs: Costs, rng: np.random.Generator) -> None:
         """New candidates of some pixels (Q,), no two of them neighbours, with the messages about them."""
         beside = self.beside[here]
         theirs = self.best(np.maximum(beside, 0).ravel()).reshape(*beside.shape, 3)
@@ -254,29 +252,29 @@ class _Beliefs:
         new = np.concatenate([theirs, turned], axis=1)
         x = np.concatenate([self.x[here], new], axis=1)
         u = np.concatenate([self.u[here], costs.of(new)], axis=1)
-        said = np.stack([self._message(beside[:, side], side, x) for side in range(4)], axis=2)
-        kept = _different(x, u + said.sum(axis=2))
+        messages = np.stack([self._message(beside[:, side], side, x) for side in range(4)], axis=2)
+        kept = _different(x, u + messages.sum(axis=2))
         self.x[here] = np.take_along_axis(x, kept[..., None], axis=1)
         self.u[here] = np.take_along_axis(u, kept, axis=1)
-        self.said[here] = np.take_along_axis(said, kept[..., None], axis=1)
+        self.messages[here] = np.take_along_axis(messages, kept[..., None], axis=1)
 
     def _message(self, there: Indices, side: int, x: Array) -> Array:
         """What the neighbours (Q,) on one side say of candidates x (Q, N, 3); 0 where there is none."""
         q = np.maximum(there, 0)
         back = side ^ 1  # the side on which they have this pixel
-        known = self.u[q] + self.said[q].sum(axis=2) - self.said[q, :, back]
-        found = _said(x, self.x[q], known)
+        known = self.u[q] + self.messages[q].sum(axis=2) - self.messages[q, :, back]
+        found = _messages(x, self.x[q], known)
         return np.where(there[:, None] >= 0, found, 0.0)
 
 
-def _said(x: Array, y: Array, known: Array) -> Array:
+def _messages(x: Array, y: Array, known: Array) -> Array:
     """What neighbours with candidates y (Q, K, 3), believed by `known` (Q, K), say of candidates x (Q, N, 3): (Q, N)."""
-    if run := kernel("said"):
+    if run := kernel("messages"):
         given = (np.ascontiguousarray(one, float) for one in (x, y, known))
         found = np.empty(x.shape[:2])
         run(*x.shape[:2], y.shape[1], *given, field.TURN**2, field.LINK2, found)
         return found
-    square = apart(x[:, :, None], y[:, None])
+    square = field.apart(x[:, :, None], y[:, None])
     return np.asarray((known[:, None] + square / (1 + square / field.LINK2)).min(axis=2) - known.min(axis=1)[:, None])
 
 
@@ -287,6 +285,6 @@ def _different(x: Array, belief: Array) -> Indices:
     for _ in range(PARTICLES):
         one = left.argmin(axis=1)
         kept.append(one)
-        apart = x - x[each, one][:, None]
-        left = np.where(lambert.dot(apart, apart) < (field.TURN / 8) ** 2 * albedo2, left + 1e6, left)  # one of them is enough
+        off = x - x[each, one][:, None]
+        left = np.where(lambert.dot(off, off) < (field.TURN / 8) ** 2 * albedo2, left + 1e6, left)  # one of them is enough
     return np.stack(kept, axis=1)

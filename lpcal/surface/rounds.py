@@ -23,7 +23,7 @@ from lpcal.shading import field, normals, palette, search
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
-from lpcal.surface import basins, bounce, distance, renewed
+from lpcal.surface import basins, bounce, distance, minima
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -57,9 +57,9 @@ a tenth of that, make the shape, the other views its distance."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from estimates of single pixels."""
 FULL_ROUNDS = 3
-"""Rounds at full size at most after those of the blocks, and after a search."""
+"""Most rounds at full size after those of the blocks, and after a search."""
 SEARCHES, SEARCHED = 3, 0.01
-"""How often other minima are searched at most, each time in the light that the surface so far throws; again where so much changed."""
+"""Number of searches for other minima at most; share of pixels that one must change for another, as that changes interreflected light."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
         settled = _until_settled(scene, once(scene, begin, None, 0), 1, progress)
-        return _swept(scene, _renewed(scene, settled, progress) if scene.near else settled)
+        return _swept(scene, _searched(scene, settled, progress) if scene.near else settled)
     held = None if scene.held is None else scene.held.in_blocks(blocks)
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
@@ -160,11 +160,11 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
         progress(f"{what} in coarse pixels", done, total)
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    settled = _swept(coarse, _renewed(coarse, settled, in_blocks))
+    settled = _swept(coarse, _searched(coarse, settled, in_blocks))
     return _swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
 
 
-def _renewed(scene: Scene, state: State, progress: Progress) -> State:
+def _searched(scene: Scene, state: State, progress: Progress) -> State:
     """The state with regions whose normals another minimum of the energies explains better, settled anew.
 
     A gloss fitted to a field that has just changed can stray, one fitted to the wrong field can be what is wrong: both are tried.
@@ -174,7 +174,7 @@ def _renewed(scene: Scene, state: State, progress: Progress) -> State:
             break
         hidden = hidden_lights(scene, np.exp(state.u), state, state.lit)[1]
         costs, before = search.Costs(scene.seen, state.lit, hidden, state.field.gloss, albedos), state.field
-        if (found := renewed.another_minimum(scene.grid, costs, state.own, state.u, before)) is None:
+        if (found := minima.another_minimum(scene.grid, costs, state.own, state.u, before)) is None:
             break
         other = replace(state, field=found, normals=lambert.unit(found.b)[0])
         held = _until_settled(scene, other, ROUNDS - FULL_ROUNDS, progress, gloss_known=True)

@@ -123,8 +123,8 @@ def directions(rng: np.random.Generator) -> Array:
     return np.concatenate([one.over_directions(search._hemisphere(40), 5.0)[0].ravel() for one in costs])
 
 
-def said(rng: np.random.Generator) -> Array:
-    return search._said(rng.normal(size=(300, 9, 3)), rng.normal(size=(300, 4, 3)), 5 * rng.random((300, 4)))
+def messages(rng: np.random.Generator) -> Array:
+    return search._messages(rng.normal(size=(300, 9, 3)), rng.normal(size=(300, 4, 3)), 5 * rng.random((300, 4)))
 
 
 def lobe(rng: np.random.Generator) -> Array:
@@ -432,7 +432,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     gathered: (1e-10, {"gathered"}),
     candidates: (1e-9, {"candidates"}),
     directions: (1e-9, {"directions"}),
-    said: (1e-12, {"said"}),
+    messages: (1e-12, {"messages"}),
     coupled: (1e-9, {"coupled"}),
     cubic: (1e-13, {"cubic"}),
     between: (1e-12, {"lattice"}),

@@ -10,9 +10,9 @@ import pytest
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration.integrate import Grid, Own, integrate, steps
-from lpcal.shading import field, search
+from lpcal.shading import field, normals, search
 from lpcal.shading.palette import Palette
-from lpcal.surface import renewed
+from lpcal.surface import minima
 from lpcal.view.sight import Lit, Sight
 
 SIZE = 48
@@ -52,6 +52,12 @@ def errors_deg(b: Array, n: Array) -> Array:
     return np.degrees(np.arccos(np.clip(np.sum(lambert.unit(b)[0] * lambert.unit(n)[0], axis=1), -1, 1)))
 
 
+def solved(seen: Sight, lit: Lit, grid: Grid) -> field.Field:
+    """The field that starts from single pixels."""
+    alone = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
+    return field.solve(seen, grid, lit, None, alone)
+
+
 def costs_of(seen: Sight, lit: Lit, b: Array) -> search.Costs:
     return search.Costs(seen, lit, None, None, Palette.of(b, np.zeros(len(b)), np.zeros(len(b)), 0.05))
 
@@ -83,17 +89,17 @@ def test_a_region_is_taken_where_its_normals_make_a_surface(monkeypatch: pytest.
     proposal = np.where(wrong[:, None], turned(b, 40), b)
     own = Own(np.full(len(u), 1.0), u)
     depth, _ = integrate(grid, *steps(grid, lambert.unit(before)[0], seen.rays_C, central=True), own, u, graduated=False)
-    start = field.Field(before, None, None)  # type: ignore[arg-type]
+    start = replace(solved(seen, lit, grid), b=before)
     monkeypatch.setattr(search, "propose", lambda *_: proposal)
-    monkeypatch.setattr(field, "solve", lambda *given, **_: replace(given[4]))
+    monkeypatch.setattr(field, "solve", lambda *given, **_: given[4])
     monkeypatch.setattr(search, "energy", lambda _costs, _grid, at: errors_deg(at, proposal))
-    taken = renewed.another_minimum(grid, costs_of(seen, lit, b), own, depth, start)
+    taken = minima.another_minimum(grid, costs_of(seen, lit, b), own, depth, start)
     assert taken is not None
     assert np.mean(errors_deg(taken.b, b)[right] < 1) > 0.9
     assert np.mean(errors_deg(taken.b, b)[wrong] < 1) > 0.9
 
 
 def test_nothing_to_take_is_said() -> None:
-    seen, lit, grid, b, u = waves(6)
-    start = field.solve(seen, grid, lit, None, field.Field(b, None, None), None)  # type: ignore[arg-type]
-    assert renewed.another_minimum(grid, costs_of(seen, lit, start.b), Own(np.ones(len(u)), u), u, start) is None
+    seen, lit, grid, _, u = waves(6)
+    start = solved(seen, lit, grid)
+    assert minima.another_minimum(grid, costs_of(seen, lit, start.b), Own(np.ones(len(u)), u), u, start) is None

@@ -28,10 +28,10 @@ def another_minimum(grid: Grid, costs: search.Costs, own: Own, u: Array, before:
     seen = costs.seen
     proposed = replace(before, b=search.propose(costs, grid, before.b))
     found = field.solve(seen, grid, costs.lit, costs.hidden, proposed, palette=costs.palette).b  # candidates are some degrees off
-    changed = search.apart(before.b, found) > 1
+    changed = field.apart(before.b, found) > 1
     if not changed.any():
         return None
-    whole = changed[grid.a] & changed[grid.b] & (search.apart(found[grid.a], found[grid.b]) < field.LINK2)
+    whole = changed[grid.a] & changed[grid.b] & (field.apart(found[grid.a], found[grid.b]) < field.LINK2)
     region = pieces.connected(grid, whole)
     found = np.where(changed[:, None], found, before.b)
     by_samples = search.energy(costs, grid, before.b) - search.energy(costs, grid, found)
