@@ -67,17 +67,19 @@ static void added(Pixels *to, int64_t some, const double *d, const double *E, co
     }
 }
 
-/* own (P, 3, 3) and right (P, 3) of the normal equations. `hidden` (L, P) and J are read where they are there; c holds the constants. */
-KERNEL void lpcal_gathered(int64_t L, int64_t P, const double *d, const double *E, int64_t has_J, const double *J, const double *signal,
-                           const double *sigma, const bool *usable, int64_t has_hidden, const bool *hidden, const double *b,
-                           const double *v, const double *c, double *own, double *right) {
+/* own (P, 3, 3) and right (P, 3) of the normal equations, of pixels from the first to the last. `hidden` (L, P) and J are read where they are there; c holds the constants. */
+KERNEL void lpcal_gathered(int64_t L, int64_t P, int64_t alike, const double *d, const double *E, int64_t has_J, const double *J,
+                           const double *signal, const double *sigma, const bool *usable, int64_t has_hidden, const bool *hidden,
+                           const double *b, const double *v, const double *c, int64_t first, int64_t last, double *own,
+                           double *right) {
     bool glossy = c[STRENGTH] > 0.0;
     double a2 = c[ROUGHNESS] * c[ROUGHNESS];
     Besides with;
     Pixels of;
+    Light light;
     memset(&with, 0, sizeof with);
-    for (int64_t first = 0; first < P; first += BLOCK) {
-        int64_t some = P - first < BLOCK ? P - first : BLOCK;
+    for (; first < last; first += BLOCK) {
+        int64_t some = last - first < BLOCK ? last - first : BLOCK;
         memset(of.M, 0, sizeof of.M);
         memset(of.right, 0, sizeof of.right);
         for (int64_t p = 0; p < some; p++) {
@@ -94,16 +96,17 @@ KERNEL void lpcal_gathered(int64_t L, int64_t P, const double *d, const double *
             for (int64_t p = 0; p < some; p++) of.top[p] = greater(of.top[p], signal[k * P + first + p]);
         for (int64_t k = 0; k < L; k++) {
             int64_t at = k * P + first;
+            lit(&light, d, E, alike, P, k, first, some);
             for (int64_t p = 0; has_J && p < some; p++)
                 for (int i = 0; i < 3; i++) with.thrown[i][p] = J[3 * (at + p) + i];
             for (int64_t p = 0; has_hidden && p < some; p++) with.hidden[p] = hidden[at + p] ? 1.0 : 0.0;
             for (int64_t p = 0; glossy && p < some; p++) {
-                double change[3], strength = c[STRENGTH] * E[at + p];
-                with.shown[p] = strength * lobe(d + 3 * (at + p), of.n[p], v + 3 * (first + p), a2);
-                turned(d + 3 * (at + p), of.n[p], v + 3 * (first + p), a2, change);
+                double change[3], strength = c[STRENGTH] * light.E[p];
+                with.shown[p] = strength * lobe(light.d + 3 * p, of.n[p], v + 3 * (first + p), a2);
+                turned(light.d + 3 * p, of.n[p], v + 3 * (first + p), a2, change);
                 for (int i = 0; i < 3; i++) with.change[i][p] = strength / of.albedo[p] * change[i];
             }
-            added(&of, some, d + 3 * at, E + at, signal + at, sigma + at, usable + at, &with, c);
+            added(&of, some, light.d, light.E, signal + at, sigma + at, usable + at, &with, c);
         }
         for (int64_t p = 0; p < some; p++) {
             double *to = own + 9 * (first + p);

@@ -127,3 +127,21 @@ static inline double lobe(const double d[3], const double n[3], const double v[3
     double along = lit + sqrt(a2 + (1.0 - a2) * (lit * lit)) + 1e-12, back = nv + sqrt(a2 + (1.0 - a2) * (nv * nv)) + 1e-12;
     return a2 * lit / (TAU_HALF * (q * q) * along * back);
 }
+
+#define MOST_BESIDE 64 /* pixels of a block at most */
+
+/* Directions (some, 3) and irradiances (some) of a light at pixels from the first on: of distant lights, which are alike everywhere, one each
+   is given, and repeated here. */
+typedef struct {
+    const double *d, *E;
+    double way[3 * MOST_BESIDE], level[MOST_BESIDE];
+} Light;
+
+static inline void lit(Light *to, const double *d, const double *E, int64_t alike, int64_t P, int64_t k, int64_t first, int64_t some) {
+    to->d = alike ? to->way : d + 3 * (k * P + first);
+    to->E = alike ? to->level : E + k * P + first;
+    for (int64_t p = 0; alike && p < some; p++) {
+        to->level[p] = E[k];
+        for (int i = 0; i < 3; i++) to->way[3 * p + i] = d[3 * k + i];
+    }
+}

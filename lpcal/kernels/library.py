@@ -23,6 +23,7 @@ SWITCH = "LPCAL_KERNELS"
 """Environment variable: `numpy` leaves the library alone and lets the twins do all the work."""
 
 SIGNATURES = {
+    "agreeing": "i i i f f i f f f b i b f f f d i i f f b f f f f",
     "behind": "i f i i f f f",
     "block_means": "i i i i i f f f",
     "blocks": "i i i i i i s s b f f f b",
@@ -37,15 +38,17 @@ SIGNATURES = {
     "directions": "i i i f f i f f f b i b f f i f f i f i n d d f f f",
     "distort": "i f f f f",
     "entries": "i f f i f i i i f f d d b f",
+    "evidence": "i i i f f i f f f b i b f f f f f f i i f f f f",
     "few": "i i f f b f f d i i d d f b f f f",
     "free": "i i f f b f s f i f f",
-    "gathered": "i i f f i f f f b i b f f f f f",
+    "gathered": "i i i f f i f f f b i b f f f i i f f",
     "hidden": "i f f i i i f f d d b",
     "integrated": "i n m m f f f f i i f d d d d d f f f s i i d d d d",
     "joined": "i i i i i f f f f",
     "joined_singles": "i i i i i f f s s",
     "labelled": "i i b m m m",
     "lattice": "i i i f f f",
+    "links": "i i n n f f d d f f f",
     "lobe": "i i f f f d f",
     "lobe_costs": "i i i f f f f f d d d f",
     "many": "i i f f b f f d d d d i d i d d f f b f f f",

@@ -120,7 +120,7 @@ def solve(
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
             shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / middle)
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
-        own_samples, right = _all_gathered(seen, lit, b, v, hidden, shine, warmth)
+        own_samples, right = _gathered(seen, lit, b, v, hidden, shine, warmth)
         drawn, of_palette = (0.0, 0.0) if palette is None else palette.pull(b).on(lambert.unit(b)[0])
         b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
@@ -129,10 +129,7 @@ def solve(
         if last and warmth == 1.0 and same:
             break  # every further round would be this one again
 
-    def own(at: slice) -> Estimate:
-        return _by_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
-
-    return Field(b, joined(bands.each(seen.pixels, len(seen.signal), own)), shine, _tilt_rad(b, own_samples))
+    return Field(b, _by_pixels(seen, lit, b, v, hidden, shine), shine, _tilt_rad(b, own_samples))
 
 
 def _tilt_rad(b: Array, own: Array) -> Array:
@@ -202,32 +199,41 @@ def _weights(seen: Sight, chance: Array, residual: Array, spread2: Array) -> Arr
     return np.where(seen.usable, chance / (1 + residual**2 / spread2 / gloss.WIDTH2) ** 2 / spread2, 0.0)
 
 
-def _all_gathered(
-    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
-) -> tuple[Array, Array]:
-    """`_gathered` of all pixels, band by band."""
-
-    def of(at: slice) -> tuple[Array, Array]:
-        return _gathered(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine, warmth)
-
-    parts = bands.each(seen.pixels, len(seen.signal), of)
-    return np.concatenate([own for own, _ in parts]), np.concatenate([right for _, right in parts])
+def _given(
+    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float = 1.0
+) -> tuple[object, ...]:
+    """What kernels are given of samples, light, b (P, 3), directions to the viewer, and constants."""
+    ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
+    constants = np.array([MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, gloss.DOUBT, gloss.WIDTH2, ks, roughness, warmth])
+    alike = lit.d.strides[1] == lit.E.strides[1] == 0
+    light = (lit.d[:, :1], lit.E[:, :1]) if alike else (lit.d, lit.E)
+    d, E, signal, sigma, at, view = (np.ascontiguousarray(one, float) for one in (*light, seen.signal, seen.sigma, b, v))
+    J = np.zeros(0) if lit.thrown is None else np.ascontiguousarray(lit.thrown, float)
+    unlit = np.zeros(0, bool) if hidden is None else np.ascontiguousarray(hidden)
+    usable = np.ascontiguousarray(seen.usable)
+    return *signal.shape, alike, d, E, J.size > 0, J, signal, sigma, usable, unlit.size > 0, unlit, at, view, constants
 
 
 def _gathered(
     seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
 ) -> tuple[Array, Array]:
-    """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrix (P, 3, 3) and right side (P, 3)."""
+    """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrices (P, 3, 3) and right sides (P, 3)."""
     if run := kernel("gathered"):
-        ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
-        constants = np.array([MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, gloss.DOUBT, gloss.WIDTH2, ks, roughness, warmth])
-        d, E, signal, sigma, at, view = (np.ascontiguousarray(one, float) for one in (lit.d, lit.E, seen.signal, seen.sigma, b, v))
-        J = np.zeros(0) if lit.thrown is None else np.ascontiguousarray(lit.thrown, float)
-        unlit = np.zeros(0, bool) if hidden is None else np.ascontiguousarray(hidden)
-        own, right = np.empty((seen.pixels, 3, 3)), np.empty((seen.pixels, 3))
-        usable = np.ascontiguousarray(seen.usable)
-        run(*signal.shape, d, E, J.size > 0, J, signal, sigma, usable, unlit.size > 0, unlit, at, view, constants, own, right)
+        given, own, right = _given(seen, lit, b, v, hidden, shine, warmth), np.empty((seen.pixels, 3, 3)), np.empty((seen.pixels, 3))
+        bands.each(seen.pixels, len(seen.signal), lambda at: run(*given, at.start, at.stop, own, right))
         return own, right
+
+    def of(at: slice) -> tuple[Array, Array]:
+        return _gathered_of(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine, warmth)
+
+    parts = bands.each(seen.pixels, len(seen.signal), of)
+    return np.concatenate([own for own, _ in parts]), np.concatenate([right for _, right in parts])
+
+
+def _gathered_of(
+    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
+) -> tuple[Array, Array]:
+    """`_gathered` of some pixels."""
     shown = shown_gloss(lit, b, v, shine)
     state = states(seen, lit, b, hidden, shown, warmth)
 
@@ -257,6 +263,11 @@ class _System:
     @classmethod
     def at(cls, grid: Grid, b: Array, own: Array) -> _System:
         """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
+        if run := kernel("links"):
+            link, block, work = np.empty(len(grid.a)), np.empty((len(b), 3, 3)), np.empty(len(b))
+            given = (grid.a, grid.b, np.ascontiguousarray(b, float), np.ascontiguousarray(own, float))
+            run(len(link), len(b), *given, TURN**2, LINK2, work, link, block)
+            return cls(grid, block, link)
         albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
         both = albedo[grid.a] * albedo[grid.b]
         link = 1 / (both * TURN**2) / (1 + apart(b[grid.a], b[grid.b]) / LINK2) ** 2
@@ -298,7 +309,32 @@ def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, befor
     ``x . curvature x - 2 slope . x``: curvature (N, N) and slope (N,) are returned. Where a shadow ends on a smooth surface, or few lights
     reach, light that is missing would turn the normals.
     """
+    own, pull, C, square, slope = _evidence(seen, lit, hidden, before, parts)
+    system = _System.at(grid, before.b, own)
+    smooth = system.times(before.b) - np.einsum("pij,pj->pi", own, before.b)
+    answers = bands.shared(lambda one: system.solved(one, np.zeros_like(before.b)), (*C, pull - smooth))
+    taken = np.array([[np.sum(one * answer) for answer in answers] for one in C])
+    curvature = square - taken[:, :-1]
+    return (curvature + curvature.T) / 2, slope - taken[:, -1]
+
+
+def _evidence(
+    seen: Sight, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Normal equations of b and the strengths: own (P, 3, 3), pull (P, 3), across (N, P, 3), and summed square (N, N) and slope (N,)."""
     v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+    if run := kernel("evidence"):
+        (L, P), N = seen.signal.shape, len(parts)
+        given = (*_given(seen, lit, before.b, v, hidden, before.gloss), *(np.ascontiguousarray(one, float) for one in parts))
+        own, pull, across = np.empty((P, 3, 3)), np.empty((P, 3)), np.empty((N, P, 3))
+
+        def summed(at: slice) -> Array:
+            sums = np.empty(N * N + N)
+            run(*given, at.start, at.stop, own, pull, across, sums)
+            return sums
+
+        total = np.sum(bands.each(P, L, summed), axis=0)
+        return own, pull, across, total[: N * N].reshape(N, N), total[N * N :]
 
     def of(at: slice) -> tuple[Array, Array, Array, Array, Array]:
         some, light, b = seen.at(at), lit.at(at), before.b[at]
@@ -312,17 +348,31 @@ def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, befor
         return own, pull, across, np.einsum("kp,nkp,mkp->nm", weight, column, column), np.einsum("kp,nkp->n", weight * state.lit, column)
 
     own, pull, across, square, slope = zip(*bands.each(seen.pixels, len(seen.signal), of), strict=True)
-    system = _System.at(grid, before.b, np.concatenate(own))
-    C = np.concatenate(across, axis=1)
-    smooth = system.times(before.b) - np.einsum("pij,pj->pi", np.concatenate(own), before.b)
-    answers = [system.solved(one, np.zeros_like(before.b)) for one in (*C, np.concatenate(pull) - smooth)]
-    taken = np.array([[np.sum(one * answer) for answer in answers] for one in C])
-    curvature = sum(square) - taken[:, :-1]
-    return (curvature + curvature.T) / 2, sum(slope) - taken[:, -1]
+    return np.concatenate(own), np.concatenate(pull), np.concatenate(across, axis=1), np.sum(square, axis=0), np.sum(slope, axis=0)
 
 
 def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
     """What each pixel's own samples say, of those that are lit by the field and agree with it."""
+    if run := kernel("agreeing"):
+        given, (L, P) = _given(seen, lit, b, v, hidden, shine), seen.signal.shape
+        shown = np.empty((0, 0) if shine is None else (L, P))
+        own, inliers, covariance, chi2, cost = np.empty((P, 3)), np.empty((L, P), bool), np.empty((P, 3, 3)), np.empty(P), np.empty(P)
+
+        def work(at: slice) -> None:
+            some = np.empty((3, L, 64))  # BLOCK of kernels/states.c
+            run(*given, lambert.SINGULAR, at.start, at.stop, some, own, inliers, covariance, chi2, cost, shown)
+
+        bands.each(P, L, work)
+        return Estimate(own, inliers, covariance, chi2, cost, None if shine is None else shown)
+
+    def of(at: slice) -> Estimate:
+        return _of_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
+
+    return joined(bands.each(seen.pixels, len(seen.signal), of))
+
+
+def _of_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
+    """`_by_pixels` of some pixels."""
     shown = shown_gloss(lit, b, v, shine)
     state = states(seen, lit, b, hidden, shown, 1.0)
     square = state.lit**2 / state.spread2

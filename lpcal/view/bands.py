@@ -11,9 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from itertools import pairwise
 
 SAMPLES = 1 << 15
 """Samples, lights times pixels, of a band: a vector a sample is then 0.8 MB, which a core's own cache holds."""
+
+LEAST_SAMPLES, FEWEST = 1 << 13, 4
+"""Samples of a band at least, and bands that there are where they hold so many: two cores, or four, then end together."""
 
 _cores: ContextVar[int | None] = ContextVar("cores", default=None)
 _shares: ContextVar[bool] = ContextVar("shares", default=False)
@@ -36,9 +40,12 @@ def workers() -> int:
 
 
 def bands(pixels: int, lights: int) -> list[slice]:
-    """Slices of all pixels, one a band."""
-    some = max(1, SAMPLES // max(lights, 1))
-    return [slice(first, min(first + some, pixels)) for first in range(0, pixels, some)] or [slice(0, 0)]
+    """Slices of all pixels, one a band: an even number of them, equal in size, where they are more than one."""
+    samples = pixels * max(lights, 1)
+    count = max(-(-samples // SAMPLES), min(FEWEST, samples // LEAST_SAMPLES), 1)
+    count = min(count + (count > 1 and count % 2), max(pixels, 1))
+    ends = [pixels * k // count for k in range(count + 1)]
+    return [slice(first, last) for first, last in pairwise(ends)]
 
 
 def each[T](pixels: int, lights: int, work: Callable[[slice], T]) -> list[T]:

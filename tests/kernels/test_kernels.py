@@ -26,6 +26,7 @@ from lpcal.shading import field, gloss, normals, search
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
 from lpcal.surface import bounce, distance
+from lpcal.surface.full_size import NO_ESTIMATE
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
 from lpcal.view.coarse import LightTable, RoomPrior, coarse_of
@@ -90,15 +91,51 @@ def few(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for each in found])
 
 
-def gathered(rng: np.random.Generator) -> Array:
+def field_cases(rng: np.random.Generator) -> tuple[Sight, Array, list[tuple[Lit, Mask | None, gloss.Gloss | None]]]:
+    """Samples and b (P, 3), and light with what hides it and gloss: near and distant, with and without light of other surfaces."""
     signal, B, usable, variance = shading(rng, pixels=500)
     d, E = lambert.unit(B)
     b, v, dark = rng.normal(size=(500, 3)), lambert.unit(rng.normal(size=(500, 3)))[0], rng.random(signal.shape) < 0.2
     seen = Sight(np.ones((20, 25), bool), -v, signal, np.sqrt(variance), usable, True)
     plain, more = Lit(d, E), Lit(d, E, 0.1 * rng.normal(size=d.shape))
-    cases = [(plain, None, None, 1.0), (more, dark, None, 4.0), (plain, dark, gloss.Gloss(0.3, 0.2, 0.5), 1.0)]
-    cases += [(more, None, gloss.Gloss(0.1, 0.4, 0.5), 1.0)]
-    return np.concatenate([part.ravel() for case in cases for part in field._gathered(seen, case[0], b, v, *case[1:])])
+    far = Lit(np.broadcast_to(d[:, 60:61], d.shape), np.broadcast_to(E[:, 60:61], E.shape), more.thrown)
+    cases: list[tuple[Lit, Mask | None, gloss.Gloss | None]] = [(plain, None, None), (more, dark, None)]
+    cases += [(plain, dark, gloss.Gloss(0.3, 0.2, 0.5)), (more, None, gloss.Gloss(0.1, 0.4, 0.5)), (far, dark, gloss.Gloss(0.1, 0.4, 0.5))]
+    return seen, b, cases
+
+
+def gathered(rng: np.random.Generator) -> Array:
+    seen, b, cases = field_cases(rng)
+    found = [field._gathered(seen, lit, b, -seen.rays_C, dark, shine, warm) for lit, dark, shine in cases for warm in (1.0, 4.0)]
+    return np.concatenate([part.ravel() for each in found for part in each])
+
+
+def agreeing(rng: np.random.Generator) -> Array:
+    seen, b, cases = field_cases(rng)
+    b = b + 0.05 * rng.normal(size=b.shape)
+    of_case = [field._by_pixels(seen, lit, b, -seen.rays_C, dark, shine) for lit, dark, shine in cases]
+    found = []
+    for of in of_case:
+        good = np.isfinite(of.b[:, :1])
+        shown = np.zeros_like(seen.signal) if of.gloss is None else of.gloss
+        found += [of.b, of.inliers.T, np.where(good, of.covariance.reshape(-1, 9), 0.0), np.where(good[:, 0], of.chi2, 0.0), of.cost, shown]
+    return np.concatenate([each.ravel() for each in found])
+
+
+def evidence(rng: np.random.Generator) -> Array:
+    seen, b, cases = field_cases(rng)
+    parts = 0.1 * rng.normal(size=(3, *seen.signal.shape, 3))
+    found = [field._evidence(seen, lit, dark, field.Field(b, NO_ESTIMATE, shine), parts) for lit, dark, shine in cases]
+    return np.concatenate([part.ravel() for each in found for part in each])
+
+
+def links(rng: np.random.Generator) -> Array:
+    grid, b = Grid.of(rng.random((30, 40)) < 0.9), rng.normal(size=(1200, 3))
+    b = b[: len(grid.rows)]
+    b[::3] = b[0]  # alike, and b of nothing
+    b[::50] = 0.0
+    system = field._System.at(grid, b, rng.normal(size=(len(b), 3, 3)))
+    return np.concatenate([np.minimum(each.ravel(), 1e6) for each in (system.link, system.block)])
 
 
 def costs_of(rng: np.random.Generator) -> tuple[list[search.Costs], Array]:
@@ -430,6 +467,9 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     lobe_costs: (1e-12, {"lobe_costs"}),
     many: (1e-8, {"many", "weighted"}),
     gathered: (1e-10, {"gathered"}),
+    agreeing: (1e-7, {"agreeing", "lobe", "weighted"}),
+    evidence: (1e-10, {"evidence", "lobe"}),
+    links: (1e-12, {"links"}),
     candidates: (1e-9, {"candidates"}),
     directions: (1e-9, {"directions"}),
     messages: (1e-12, {"messages"}),

@@ -60,13 +60,13 @@ def test_a_pixel_that_many_lights_reach_stays_as_it_is(lights: int) -> None:
 @pytest.mark.parametrize("shine", [None, (0.2, 0.15)])
 def test_rounds_end_where_the_rest_would_change_nothing(shine: tuple[float, float] | None, monkeypatch: pytest.MonkeyPatch) -> None:
     seen, lit, _, _ = ball(6, shine=shine)
-    count, gathered = [0], field._all_gathered
+    count, gathered = [0], field._gathered
 
     def counted(*given: Any) -> tuple[Array, Array]:
         count[0] += 1
         return gathered(*given)
 
-    monkeypatch.setattr(field, "_all_gathered", counted)
+    monkeypatch.setattr(field, "_gathered", counted)
     early = found(seen, lit, glossy=0.5)[0]
     taken = count[0]
     monkeypatch.setattr(np, "array_equal", lambda *_: False)
