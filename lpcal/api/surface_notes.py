@@ -12,6 +12,7 @@ from lpcal.integration.convention import mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
+from lpcal.view import bands
 
 VAGUE_DEG = 6.0
 """Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so poorly known is of no use."""
@@ -135,15 +136,17 @@ def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -
     inside = surface.mask
     x_C = surface.depth[inside].astype(float)[:, None] * surface.rays_C[inside] if surface.metric else surface.rays_C[inside]
     n, albedo = surface.normals[inside].astype(float), _grey(surface.albedo[inside])
-    found = []
-    for k, name in enumerate(radiance.lights):
-        light = next(one for one in calibration.lights if one.name == name)
+
+    def of(k: int) -> float:
+        light = next(one for one in calibration.lights if one.name == radiance.lights[k])
         d, E = light.field(x_C)
         cosine, signal = np.sum(d * n, axis=1), _grey(radiance.signal[k][inside])
         good = (cosine > LIT) & ~radiance.saturated[k][inside] & (signal > LIT * np.median(signal))
         expected = albedo * _grey(E) * cosine
         good &= np.isfinite(expected) & (expected > 0)
-        found.append(float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan)
+        return float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan
+
+    found = bands.shared(of, range(len(radiance.lights)))
     middle = np.nanmedian(found) if np.isfinite(found).any() else np.nan
     return {name: float(value - middle) for name, value in zip(radiance.lights, found, strict=True)}
 

@@ -38,6 +38,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
 from lpcal.records.sensor import StatedSensor, ToneClaim
+from lpcal.view import bands
 
 SHORT = "short_"
 
@@ -121,8 +122,10 @@ def _read_images(groups: list[list[Path]], reader: _SameSize) -> _Read:
         sieve = full_size.read_all(paths, reader.read, len(groups[0]), first)
         full = sieve.full()
         return _Read([sieve.coarse(range(*both), full) for both in pairwise(ends)], full, sieve)
-    images = np.stack([first.image.pixels, *(reader.read(path).image.pixels for path in groups[0][1:])])
-    others = [np.stack([reader.read(path).image.pixels for path in group]) if group else np.empty(0, np.float32) for group in groups[1:]]
+    rest = bands.shared(lambda path: reader.read(path).image.pixels, paths[1:])
+    pixels = [first.image.pixels, *rest]
+    stacks = [np.stack(pixels[low:high]) if high > low else np.empty(0, np.float32) for low, high in pairwise(ends)]
+    images, others = stacks[0], stacks[1:]
     full = full_scale(images, reader.step)
     return _Read([np.asarray(stack / np.float32(full.divisor), np.float32) for stack in (images, *others)], full, None)
 

@@ -19,6 +19,7 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.segmentation.regions import SPARED, Pictures, Regions, log_depth
+from lpcal.view import bands
 
 TEXTURE = 0.1
 """Standard deviation of the logarithm of brightness on one material, besides what its neighbourhood shows: paint, folds, shadows."""
@@ -118,7 +119,7 @@ def likeness(pictures: Sequence[Image], inside: Mask, outside: Mask, by: float, 
         box = (slice(None), slice(None))
     here = asked[box]
     parts = [picture[box].astype(np.float32) for picture in pictures]
-    out, within = (_costs(parts, side[box], by, here) for side in (outside, inside))
+    out, within = bands.shared(lambda side: _costs(parts, side[box], by, here), (outside, inside))
     return [np.clip((a - b) / 2, -MOST, MOST) for a, b in zip(out, within, strict=True)]
 
 

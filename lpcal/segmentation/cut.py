@@ -12,6 +12,7 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
+from lpcal.view import bands
 
 STEPS = 200
 MARGIN = 2
@@ -100,8 +101,11 @@ def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
     """
     import cv2
 
-    within, beyond = (cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, 3) for side in (mask, ~mask))
-    inner, outer = _near(signal, within), _near(signal, beyond)
+    def near(side: Mask) -> tuple[Image, Image]:
+        depth = cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, 3)
+        return np.asarray(depth, np.float32), _near(signal, depth)
+
+    (within, inner), (beyond, outer) = bands.shared(near, (mask, ~mask))
     step = (inner - outer) / sigma
     share = np.sum((signal - outer) / sigma * step, axis=0) / np.maximum(np.sum(step**2, axis=0), 1e-12)
     return np.asarray(np.where((within <= BESIDE_PX) & (beyond <= BESIDE_PX), share > HALF, mask))

@@ -147,11 +147,15 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
     def size(own: Mask) -> int:
         return int(raster.opened(image.image(own)).sum())
 
+    def trial(q: Array) -> tuple[int, Array]:
+        q = fitted(image, table, q, left, rounds=2)
+        return size(explains(q)), q
+
     while len(found) < MOST and left.sum() > SMALLEST * left.size:
-        trials = [fitted(image, table, q, left, rounds=2) for q in votes.peaks(left)]
+        trials = bands.shared(trial, votes.peaks(left))
         if not trials:
             break
-        q = fitted(image, table, max(trials, key=lambda one: size(explains(one))), left, rounds=4)
+        q = fitted(image, table, max(trials, key=lambda one: one[0])[1], left, rounds=4)
         own = explains(q)
         if size(own) < SMALLEST * left.size:
             break

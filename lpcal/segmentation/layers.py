@@ -21,6 +21,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
 from lpcal.segmentation.regions import View
+from lpcal.view import bands
 from lpcal.view.coarse import LightTable
 from lpcal.view.sight import Indices, strength
 
@@ -129,12 +130,16 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
         rest = np.max([one.at(bright) for one in layers.of_rest], axis=0)
         ratio = np.clip(2 * np.log(layers.of_object.at(bright) / rest), -OBJECT_SAYS, OBJECT_SAYS)
     found = [free + FREE_PRICE + matter - ratio]
-    for q, appearance in zip(layers.planes, layers.of_plane, strict=True):
+
+    def in_plane(k: int) -> Array:
+        q, appearance = layers.planes[k], layers.of_plane[k]
         m, doubt = flats.white(q, at.rays_C, at.coarse, table)
         cost, albedo, _ = samples.planar(at.signal, at.sigma, at.usable, m, doubt)
         if appearance is not None:
             cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
-        found.append(cost + matter)
+        return np.asarray(cost + matter)
+
+    found += bands.shared(in_plane, range(len(layers.planes)))
     other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
     total = np.stack([*found, nothing + layers.nothing, other])
     blind = at.usable.sum(axis=0) < 3
@@ -175,13 +180,15 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
     kept = [k for k in range(count) if np.sum(flat == k + 1) >= KEPT * flat.size]
-    planes, of_plane = [], []
-    for k in kept:
+
+    def again(k: int) -> tuple[Array, Appearance | None]:
         own = (flat == k + 1) & lit
         q = flats.fitted(image, table, layers.planes[k], own, rounds=2)
-        planes.append(q)
         albedo = np.log(np.maximum(flats.explained(image, table, q)[1][own], 1e-12))
-        of_plane.append(_appearance(albedo, albedo))
+        return q, _appearance(albedo, albedo)
+
+    both = bands.shared(again, kept)
+    planes, of_plane = [q for q, _ in both], [appearance for _, appearance in both]
     new = np.full(count + 3, 0)
     new[[k + 1 for k in kept]] = np.arange(1, len(kept) + 1)
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
@@ -191,9 +198,9 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     mine = background.judged(view, labels, planes, of_kept).mask.ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
     if free.sum() > FEWEST and rest.sum() > FEWEST:
-        both = bright[free | rest]
-        of_object = _appearance(bright[free], both)
-        each = [_appearance(bright[rest & (labels.ravel() == k + 1)], both) for k in range(len(kept))]
+        over = bright[free | rest]
+        of_object = _appearance(bright[free], over)
+        each = [_appearance(bright[rest & (labels.ravel() == k + 1)], over) for k in range(len(kept))]
         of_rest = [one for one in each if one is not None]
     brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST else layers.brightest
     rim = labels[background.rim_of(labels.shape)]

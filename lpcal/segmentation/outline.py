@@ -25,6 +25,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import cut, layers, planes
 from lpcal.segmentation.context import MOST, level, likeness
+from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, factor_of, joined
 from lpcal.view.sight import Grey, Indices, Sight, look_at, second, strength
 
@@ -203,7 +204,7 @@ def openings(maps: Grey, rays_C: Array, lights: Sequence[Light], mask: Mask, fou
     shown = np.zeros(inside.shape, bool)
     if not inside.any() or inside.all():
         return np.zeros(mask.shape, bool)
-    like = [_like(here, rays_C, lights, inside, plane) for plane in found]
+    like = bands.shared(lambda plane: _like(here, rays_C, lights, inside, plane), found)
     for candidates in (*like, _dim(strength(here), inside)):
         label, count = raster.labelled(candidates)
         for one in range(1, count + 1):

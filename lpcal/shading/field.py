@@ -347,8 +347,8 @@ def _evidence(
         across = np.einsum("kp,nkp,kpi->npi", weight, column, light.B)
         return own, pull, across, np.einsum("kp,nkp,mkp->nm", weight, column, column), np.einsum("kp,nkp->n", weight * state.lit, column)
 
-    own, pull, across, square, slope = zip(*bands.each(seen.pixels, len(seen.signal), of), strict=True)
-    return np.concatenate(own), np.concatenate(pull), np.concatenate(across, axis=1), np.sum(square, axis=0), np.sum(slope, axis=0)
+    owns, pulls, acrosses, squares, slopes = zip(*bands.each(seen.pixels, len(seen.signal), of), strict=True)
+    return np.concatenate(owns), np.concatenate(pulls), np.concatenate(acrosses, axis=1), sum(squares), sum(slopes)
 
 
 def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:

@@ -206,8 +206,15 @@ def room(radiance: Radiance) -> Image | None:
 
 def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
     """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
-    row, column = np.indices(shape[:2])
-    return rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), camera).reshape(*shape[:2], 3)
+    height, width = shape[:2]
+    rays_C = np.empty((height, width, 3))
+
+    def fill(rows: slice) -> None:
+        row, column = np.mgrid[rows, :width]
+        rays_C[rows] = rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), camera).reshape(-1, width, 3)
+
+    bands.each(height, width, fill)
+    return rays_C
 
 
 def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
