@@ -19,6 +19,7 @@ from functools import cached_property
 import numpy as np
 
 from lpcal.geometry.arrays import Array, Mask
+from lpcal.kernels.library import kernel
 
 REACH_PX, SEARCH_PX, STEP_PX = 6.0, 2.5, 0.1
 BLURS_PX = (0.4, 2.5)
@@ -119,13 +120,30 @@ class _Window:
 
     def misfits(self, terms: Callable[[Array], Array]) -> Array:
         """Squared misfit (K, offsets) of the profiles to terms about each offset; offsets a step apart share their terms."""
-        found, at, Q = [], np.zeros(0), np.zeros((0, 0))
+        if (run := kernel("slid")) and (slid := self._slid) is not None:
+            first, away, profile = slid
+            Q = np.ascontiguousarray(np.linalg.qr(terms(away))[0].T)
+            found, work = np.empty((len(profile), len(self.offsets))), np.empty((len(Q), len(self.offsets)))
+            run(*profile.shape, first, len(self.offsets), *Q.shape, profile, Q, work, found)
+            return found
+        columns, at, Q = [], np.zeros(0), np.zeros((0, 0))
         for away, part, square in self._parts:
             if len(away) != len(at) or np.abs(away - at).max() > SAME_PLACE_PX:
                 at, Q = away, np.linalg.qr(terms(away))[0]
             along = part @ Q
-            found.append(square - np.einsum("kt,kt->k", along, along))
-        return np.stack(found, axis=1)
+            columns.append(square - np.einsum("kt,kt->k", along, along))
+        return np.stack(columns, axis=1)
+
+    @cached_property
+    def _slid(self) -> tuple[int, Array, Array] | None:
+        """The first offset's first place, places relative to it, and profiles without means; None where offsets are not steps apart."""
+        near = [np.flatnonzero((self.s - one >= -self.inner) & (self.s - one <= self.outer)) for one in self.offsets]
+        first = near[0]
+        away = self.s[first] - self.offsets[0]
+        for k, (one, offset) in enumerate(zip(near, self.offsets, strict=True)):
+            if len(one) != len(first) or one[0] != first[0] + k or np.abs(self.s[one] - offset - away).max() > SAME_PLACE_PX:
+                return None
+        return int(first[0]), away, np.ascontiguousarray(self.profile - self.profile.mean(axis=1, keepdims=True))
 
     @cached_property
     def _parts(self) -> list[tuple[Array, Array, Array]]:

@@ -122,10 +122,8 @@ def _read_images(groups: list[list[Path]], reader: _SameSize) -> _Read:
         sieve = full_size.read_all(paths, reader.read, len(groups[0]), first)
         full = sieve.full()
         return _Read([sieve.coarse(range(*both), full) for both in pairwise(ends)], full, sieve)
-    rest = bands.shared(lambda path: reader.read(path).image.pixels, paths[1:])
-    pixels = [first.image.pixels, *rest]
-    stacks = [np.stack(pixels[low:high]) if high > low else np.empty(0, np.float32) for low, high in pairwise(ends)]
-    images, others = stacks[0], stacks[1:]
+    pixels = [first.image.pixels, *bands.shared(lambda path: reader.read(path).image.pixels, paths[1:])]
+    images, *others = (np.stack(pixels[low:high]) if high > low else np.empty(0, np.float32) for low, high in pairwise(ends))
     full = full_scale(images, reader.step)
     return _Read([np.asarray(stack / np.float32(full.divisor), np.float32) for stack in (images, *others)], full, None)
 
@@ -327,9 +325,9 @@ def _folded(name: str) -> str:
 def _spelled_otherwise(lights: Sequence[str], files: dict[str, Path]) -> None:
     """Give images whose names are a light's but for accents' form or capitals that light's name, where only one is."""
     for same in (_composed, _folded):
-        for light in lights:
+        for light in [light for light in lights if light not in files]:
             twins = [stem for stem in files if same(stem) == same(light) and stem not in lights]
-            if light not in files and len(twins) == 1:
+            if len(twins) == 1:
                 files[light] = files.pop(twins[0])
                 short = next((stem for stem in files if same(stem) == same(SHORT + light)), None)
                 if short is not None:

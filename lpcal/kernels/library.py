@@ -67,6 +67,7 @@ SIGNATURES = {
     "room_free": "i i f f b f s f d f i f f f f",
     "room_planar": "i i f f b f s f d f i f f b f",
     "saddles": "i i i f s s s f f",
+    "slid": "i i i i i i f f f f",
     "steps": "i i n n f f f d d d f f",
     "two_labels": "i i s s s i n i d s s",
     "thrown_fits": "i i f f f f f d d f",

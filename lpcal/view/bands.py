@@ -16,9 +16,6 @@ from itertools import pairwise
 SAMPLES = 1 << 15
 """Samples, lights times pixels, of a band: a vector a sample is then 0.8 MB, which a core's own cache holds."""
 
-LEAST_SAMPLES, FEWEST = 1 << 13, 4
-"""Samples of a band at least, and bands that there are where they hold so many: two cores, or four, then end together."""
-
 _cores: ContextVar[int | None] = ContextVar("cores", default=None)
 _shares: ContextVar[bool] = ContextVar("shares", default=False)
 """Whether this is one of the threads that share work."""
@@ -40,9 +37,9 @@ def workers() -> int:
 
 
 def bands(pixels: int, lights: int) -> list[slice]:
-    """Slices of all pixels, one a band: an even number of them, equal in size, where they are more than one."""
+    """Slices of all pixels, one a band: an even number of them, equal in size, and four where they hold a quarter of what they may."""
     samples = pixels * max(lights, 1)
-    count = max(-(-samples // SAMPLES), min(FEWEST, samples // LEAST_SAMPLES), 1)
+    count = max(-(-samples // SAMPLES), min(4, 4 * samples // SAMPLES), 1)
     count = min(count + (count > 1 and count % 2), max(pixels, 1))
     ends = [pixels * k // count for k in range(count + 1)]
     return [slice(first, last) for first, last in pairwise(ends)]

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from lpcal.detect import saddle
+from lpcal.detect import edge_profile, saddle
 from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import integrate, multigrid, pieces
@@ -453,6 +453,17 @@ def saddles(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for each in saddle._fit(light, start, angles, 7)])
 
 
+def slid(rng: np.random.Generator) -> Array:
+    step, radius = edge_profile.STEP_PX, 40.0
+    s = np.arange(-8.5, 8.5 + step / 2, step)
+    edges = np.tanh((s - rng.uniform(-1.5, 1.5, (50, 1))) / 0.8) + 0.1 * rng.normal(size=(50, len(s)))
+    window = edge_profile._Window(edges, s, np.linspace(-2.5, 2.5, 51), 2.8 + step / 2, 6.0 + step / 2)
+    assert window._slid is not None
+    assert edge_profile._Window(edges, s, np.linspace(-2.5, 2.5, 48), 2.8 + step / 2, 6.0 + step / 2)._slid is None
+    kinds = [window.misfits(lambda at, kind=kind: edge_profile._edge_terms(at, 0.9, kind, radius, step)) for kind in ("chrome", "matte")]
+    return np.concatenate([each.ravel() for each in (*kinds, window.misfits(edge_profile._smooth_terms))])
+
+
 CASES: dict[Callable, tuple[float, set[str]]] = {
     hidden: (0.0, {"hidden"}),
     behind: (1e-13, {"behind"}),
@@ -499,6 +510,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     cluster_single: (1e-5, {"cluster_single"}),
     cluster_slope: (1e-5, {"cluster_slope"}),
     blocks: (0.0, {"blocks", "block_means"}),
+    slid: (1e-12, {"slid"}),
     curved: (0.0, {"curved"}),
     moved: (1e-13, {"curved", "moved"}),
     ring: (1e-12, {"ring"}),

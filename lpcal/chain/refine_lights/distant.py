@@ -73,17 +73,18 @@ def refine_distant(views: Sequence[SphereView], lights: Sequence[str]) -> Lights
 def matte_direction(shading: Radiance, light: str, n_C: Array, seen: Mask) -> Array:
     """g (C, 3) of a light from a matte sphere's normals n_C (H, W, 3) at the pixels `seen` (H, W): direction times intensity a channel."""
     k = shading.lights.index(light)
-    data = shading.signal[k] if shading.signal.ndim == 4 else shading.signal[k][..., None]
-    usable = seen & ~shading.saturated[k]
-    grey = data.mean(axis=2)
+    data = shading.signal[k][seen]
+    data = data if data.ndim == 2 else data[:, None]
+    n, usable = n_C[seen], ~shading.saturated[k][seen]
+    grey = data.mean(axis=1)
     lit = usable & (grey > np.quantile(grey[usable], 0.3)) if usable.any() else usable
-    g = np.zeros((data.shape[2], 3))
+    g = np.zeros((data.shape[1], 3))
     for _ in range(6):
         if lit.sum() < 30:
             break
-        g = np.linalg.lstsq(n_C[lit], data[lit].astype(float), rcond=None)[0].T
+        g = np.linalg.lstsq(n[lit], data[lit].astype(float), rcond=None)[0].T
         direction = g.mean(axis=0) / max(float(np.linalg.norm(g.mean(axis=0))), 1e-12)
-        lit = usable & (n_C @ direction > FACING_LIGHT)
+        lit = usable & (n @ direction > FACING_LIGHT)
     return g
 
 
