@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", default="640x400", metavar="WxH", help="the camera's image size (default 640x400)")
     parser.add_argument("--stations", type=int, default=22, metavar="N", help="board views (default 22)")
     parser.add_argument(
-        "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 60, in session/"
+        "--session", type=int, default=0, metavar="N", help="a robot's path round an object too: captures at N stops, 4 to 400, in session/"
     )
     parser.add_argument("--object", metavar="NAME", help="the object of the session: bust (default), pair, vase, knot, stone or beast")
     parser.add_argument("--count", type=int, default=0, metavar="N", help="so many rigs, of seeds one after the other: DIR/seed_0001, ...")
@@ -39,8 +39,8 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         raise UsageError(f"--size {options.size}", needed="width x height in pixels, 120 to 8192 each", todo="write for example 640x400")
     if options.stations < 4 or options.seed < 0:
         raise UsageError(f"--stations {options.stations} --seed {options.seed}", needed="at least 4 stations, a seed of 0 or more")
-    if options.session and not 4 <= options.session <= 60:
-        raise UsageError(f"--session {options.session}", needed="4 to 60 stops", todo="write for example 16")
+    if options.session and not 4 <= options.session <= 400:
+        raise UsageError(f"--session {options.session}", needed="4 to 400 stops", todo="write for example 16")
     if options.object is not None and options.object not in SHAPES:
         raise UsageError(f"--object {options.object}", needed=f"one of {', '.join(SHAPES)}", todo="correct it")
     if options.object is not None and not options.session:

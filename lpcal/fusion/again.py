@@ -115,7 +115,7 @@ def again(aligned: Aligned, model: Triangles, images: Images, progress: Progress
         own.append(np.concatenate([stands, bent if view is not one.view else one.field[len(view.pieces) :]]))
     shared = np.concatenate([aligned.parameters[:7], np.zeros(SHARED - 7)])  # depths hold their tilt and bending now
     start_of = Start(shared, own, [{} for _ in state])
-    found = align(views, aligned.H_PC_covariance, progress, start_of, state[0].bending.step_px)
+    found = align(views, aligned.H_PC_covariance, progress, start_of, state[0].bending.step_px, aligned.partners)
     return replace(cleared(found), before_m=aligned.before_m), reflectance
 
 

@@ -15,20 +15,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from lpcal.fusion.bending import COMMON, Bending, bending_of
+from lpcal.fusion.factor import BlockMatrix, Factor
 from lpcal.fusion.pairs import Meeting, Placed, meet
+from lpcal.fusion.partners import Partners, everyone
 from lpcal.fusion.views import PlacedView, may_see
-from lpcal.geometry import se3
+from lpcal.geometry import lambert, se3
 from lpcal.geometry.arrays import Array, Index
 from lpcal.records.outcome import Progress, silent
 
 POINTS = 1300
 """Points of a view that are looked up in the others: some for each knot, and enough for all pairs."""
 KNOTS = 1400
-"""Knots of all views together, about: their information matrix is dense, and its inverse takes the cube of this."""
+"""Knots of all views together, about: where all overlap their information matrix is dense, and its factor takes the cube of this."""
+KNOTS_EACH = 16
+"""Least number of a view's knots, about, however many views there are: with four across the object it can still bend."""
 LEAST_STEP_PX, MOST_STEP_PX = 12, 96
 """Bounds of the distance between knots, in pixels."""
 ROUNDS = 6
@@ -63,11 +68,13 @@ class Aligned:
     placed: tuple[Placed, ...]
     parameters: Array
     """(n,) e, c, then each view's xi and bending."""
-    covariance: Array
-    """(n, n)."""
+    information: Factor
+    """Factor of the parameters' information matrix (n, n)."""
     starts: Index
     """(N,) place of each view's xi among the parameters."""
     pairs: dict[tuple[int, int], PairFit]
+    partners: Partners
+    """Which are compared with which."""
     sigma_m: float
     """Standard deviation of a residual between two views."""
     before_m: float
@@ -75,6 +82,11 @@ class Aligned:
     after_m: float
     H_PC_covariance: Array
     """(6, 6) prior of the error that all views share."""
+
+    @cached_property
+    def shared_covariance(self) -> Array:
+        """Covariance (SHARED, SHARED) of e and c."""
+        return self.information.covariance(np.arange(SHARED))
 
     def shift(self, view: int) -> tuple[Array, Array]:
         """Twist (6,) by which a view moved against its tracked pose, and its prior's covariance."""
@@ -92,12 +104,19 @@ class PairFit:
 
 
 def align(
-    views: Sequence[PlacedView], H_PC_covariance: Array, progress: Progress = silent, start: Start | None = None, step_px: int | None = None
+    views: Sequence[PlacedView],
+    H_PC_covariance: Array,
+    progress: Progress = silent,
+    start: Start | None = None,
+    step_px: int | None = None,
+    partners: Partners | None = None,
 ) -> Aligned:
     """Align views; `H_PC_covariance` (6, 6) is that of the transform that all placements share, zero where it is exact.
 
-    `start`: where they stand nearly; `step_px`: between the knots of their bendings, by default as `knots_px` has it.
+    `start`: where they stand nearly; `step_px`: between the knots of their bendings, by default as `knots_px` has it; `partners`: which
+    are compared with which, by default all.
     """
+    partners = everyone(len(views)) if partners is None else partners
     state = _start(views, step_px)
     problem = _Problem.of(state, H_PC_covariance)
     x = np.zeros(problem.size) if start is None else start.parameters(state)
@@ -105,23 +124,24 @@ def align(
     sigma_m, before_m = 0.0, 0.0
     gate_m = _first_gate(views, H_PC_covariance) if start is None else START_FOUND_PX * float(np.median([v.footprint_m for v in views]))
     for done in range(ROUNDS if start is None else ROUNDS_FOUND):
-        meetings = all_meetings(state, gate_m)
+        meetings = all_meetings(state, gate_m, partners)
         spread_m = spread(meetings)
         before_m = before_m or spread_m
         floor_m = LEAST_SIGMA_PX * float(np.median([view.footprint_m for view in views]))
         sigma_m = max(spread_m, floor_m)
         N, g = problem.normal_equations(state, meetings, sigma_m)
-        prior = problem.prior(state, x)
-        x = x - np.linalg.solve(N + prior, g + prior @ x)
+        g += problem.add_prior(N, state, x)
+        x = x - Factor.of(N).solve(g)
         state = problem.moved(state, x)
         gate_m = max(GATE * sigma_m, LEAST_GATE_PX * floor_m / LEAST_SIGMA_PX)
         progress("rounds of alignment", done + 1, ROUNDS if start is None else ROUNDS_FOUND)
-    meetings = all_meetings(state, gate_m)
+    meetings = all_meetings(state, gate_m, partners)
     after_m = spread(meetings)
     N, _ = problem.normal_equations(state, meetings, max(after_m, floor_m))
-    covariance = np.linalg.inv(N + problem.prior(state, x))
+    problem.add_prior(N, state, x)
+    information = Factor.of(N)
     pairs = {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
-    return Aligned(tuple(state), x, covariance, problem.starts, pairs, max(after_m, floor_m), before_m, after_m, H_PC_covariance)
+    return Aligned(tuple(state), x, information, problem.starts, pairs, partners, max(after_m, floor_m), before_m, after_m, H_PC_covariance)
 
 
 @dataclass(frozen=True)
@@ -150,19 +170,22 @@ class Start:
         return _Problem.of(state, np.zeros((6, 6))).moved(state, self.parameters(state))
 
 
-def compared(views: Sequence[PlacedView], H_PC_covariance: Array, step_px: int | None = None) -> dict[tuple[int, int], PairFit]:
-    """How views agree where their placements put them."""
-    meetings = all_meetings(_start(views, step_px), _first_gate(views, H_PC_covariance))
+def compared(
+    views: Sequence[PlacedView], H_PC_covariance: Array, step_px: int | None = None, partners: Partners | None = None
+) -> dict[tuple[int, int], PairFit]:
+    """How views agree with their partners where their placements put them."""
+    partners = everyone(len(views)) if partners is None else partners
+    meetings = all_meetings(_start(views, step_px), _first_gate(views, H_PC_covariance), partners)
     return {key: PairFit(found.agree, found.contradict, spread({key: found})) for key, found in meetings.items()}
 
 
-def all_meetings(state: Sequence[Placed], gate_m: float) -> dict[tuple[int, int], Meeting]:
-    """What every view's points meet in every other view."""
-    points = [one.points() for one in state]
+def all_meetings(state: Sequence[Placed], gate_m: float, partners: Partners) -> dict[tuple[int, int], Meeting]:
+    """What every view's points meet in its partners."""
     found = {}
-    for i in range(len(state)):
-        for j in range(len(state)):
-            met = meet(points[i], state[j], gate_m) if i != j and may_see(state[j].view, state[j].H_AC, points[i][0]) else None
+    for i, one in enumerate(state):
+        points = one.points()
+        for j in partners[i]:
+            met = meet(points, state[j], gate_m) if may_see(state[j].view, state[j].H_AC, points[0]) else None
             if met is not None:
                 found[i, j] = met
     return found
@@ -177,7 +200,7 @@ def spread(meetings: dict[tuple[int, int], Meeting]) -> float:
 def knots_px(views: Sequence[PlacedView]) -> int:
     """Pixels between knots of the views' bendings."""
     area = sum(int((view.component > 0).sum()) for view in views)
-    return int(np.clip(np.sqrt(area / KNOTS), LEAST_STEP_PX, MOST_STEP_PX))
+    return int(np.clip(np.sqrt(area / max(KNOTS, KNOTS_EACH * len(views))), LEAST_STEP_PX, MOST_STEP_PX))
 
 
 def _start(views: Sequence[PlacedView], step_px: int | None = None) -> list[Placed]:
@@ -232,17 +255,27 @@ class _Problem:
         size = SHARED + sum(sizes)
         return cls(starts, size, H_PC_covariance)
 
-    def prior(self, state: Sequence[Placed], x: Array) -> Array:
-        """Information (n, n) of the priors, where the views' bendings stand."""
-        prior = np.zeros((self.size, self.size))
-        prior[:6, :6] = _information(self.H_PC_covariance)
+    @property
+    def blocks(self) -> Index:
+        """(N + 2,) the first parameter of what all share and of each view, and their number."""
+        return np.array([0, *self.starts, self.size])
+
+    def add_prior(self, N: BlockMatrix, state: Sequence[Placed], x: Array) -> Array:
+        """Add the information of the priors, where the views' bendings stand, to that of the points; the priors' gradient (n,)."""
         common = np.repeat([SHARED_SCALE_STD, SHARED_TILT_STD, SHARED_BEND_STD], [1, 2, 3])
-        prior[range(6, SHARED), range(6, SHARED)] = common**-2.0
+        shared = np.diag(np.concatenate([np.zeros(6), common**-2.0]))
+        shared[:6, :6] = _information(self.H_PC_covariance)
+        parts = [shared]
         for start, one in zip(self.starts, state, strict=True):
-            prior[start : start + 6, start : start + 6] = _information(one.view.placement.noise_covariance)
-            rows, columns, values = one.bending.information(x[start + 6 : start + 6 + one.bending.size])
-            np.add.at(prior, (start + 6 + rows, start + 6 + columns), values)
-        return prior
+            size = one.bending.size
+            part = np.zeros((6 + size, 6 + size))
+            part[:6, :6] = _information(one.view.placement.noise_covariance)
+            rows, columns, values = one.bending.information(x[start + 6 : start + 6 + size])
+            np.add.at(part, (6 + rows, 6 + columns), values)
+            parts.append(part)
+        for block, part in enumerate(parts):
+            N.add(N.rows(block), part)
+        return np.concatenate([part @ x[N.rows(block)] for block, part in enumerate(parts)])
 
     def moved(self, state: Sequence[Placed], x: Array) -> list[Placed]:
         """The views by the parameters."""
@@ -254,22 +287,24 @@ class _Problem:
             found.append(replace(one, H_AC=H_AC, field=field))
         return found
 
-    def normal_equations(self, state: Sequence[Placed], meetings: dict[tuple[int, int], Meeting], sigma_m: float) -> tuple[Array, Array]:
+    def normal_equations(
+        self, state: Sequence[Placed], meetings: dict[tuple[int, int], Meeting], sigma_m: float
+    ) -> tuple[BlockMatrix, Array]:
         """Information (n, n) and gradient (n,) of the points that meet."""
-        from scipy.sparse import csr_array
-
         share, seen = _share(state), _seen_by(state, meetings)
-        N, g = np.zeros((self.size, self.size)), np.zeros(self.size)
+        N, g, place = BlockMatrix(self.blocks), np.zeros(self.size), np.zeros(self.size, np.intp)
         for (i, j), met in meetings.items():
             if not len(met.residual_m):
                 continue
             columns, values = self._rows(state[i], state[j], i, j, met)
             w = (1 + (met.residual_m / (ROBUST * sigma_m)) ** 2) ** -2.0 / (share[i] * sigma_m**2) * 2 / seen[i][met.index]
-            used, local = np.unique(columns, return_inverse=True)
-            rows = np.repeat(np.arange(len(w)), columns.shape[1])
-            J = csr_array((values.ravel(), (rows, local.ravel())), shape=(len(w), len(used)))
-            product = (J.T @ (J * w[:, None])).toarray()
-            N[np.ix_(used, used)] += product
+            place[columns] = 1
+            used = np.flatnonzero(place)
+            place[used] = np.arange(len(used))
+            flat = len(used) * np.arange(len(w))[:, None] + place[columns]
+            J = np.bincount(flat.ravel(), values.ravel(), len(w) * len(used)).reshape(len(w), len(used))
+            place[used] = 0
+            N.add(used, J.T @ (J * w[:, None]))
             g[used] += J.T @ (w * met.residual_m)
         return N, g
 
@@ -277,7 +312,7 @@ class _Problem:
         """Columns and derivatives (N, k) of each residual."""
         n = met.n_A
         by_p, by_q = np.hstack([np.cross(met.p_A, n), n]), -np.hstack([np.cross(met.q_A, n), n])
-        grow_p, grow_q = np.einsum("ij,ij->i", n, met.from_p), -np.einsum("ij,ij->i", n, met.from_q)
+        grow_p, grow_q = lambert.dot(n, met.p_A - first.H_AC[:3, 3]), -lambert.dot(n, met.q_A - second.H_AC[:3, 3])
         shared = by_p @ first.view.placement.by_handeye + by_q @ second.view.placement.by_handeye
         row, column = first.row[met.index], first.column[met.index]
         pixel = np.column_stack([column, row]).astype(float)

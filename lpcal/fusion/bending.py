@@ -76,7 +76,7 @@ class Bending:
         places, weights = self.basis(pixel, component)
         return np.asarray((parameters[places] * weights).sum(axis=1))
 
-    def information(self, parameters: Array) -> tuple[Array, Array, Array]:
+    def information(self, parameters: Array) -> tuple[Index, Index, Array]:
         """Rows, columns and values of the priors' information matrix; a step that the views insist on is held less."""
         a, b = self.links[:, 0], self.links[:, 1]
         step = (parameters[a] - parameters[b]) / self.links_sd

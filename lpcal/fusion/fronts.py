@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from lpcal.fusion.pairs import Placed, faces
+from lpcal.fusion.partners import Partners
 from lpcal.fusion.views import may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index
@@ -66,6 +67,8 @@ class Fronts:
     """Placed views, and what each shows that may stand before others."""
 
     state: Sequence[Placed]
+    partners: Partners
+    """Which are compared with which."""
 
     @cached_property
     def points(self) -> list[tuple[Array, Array, int]]:
@@ -73,10 +76,10 @@ class Fronts:
         return [points_of(one) for one in self.state]
 
     def deny(self, place: int, row: Index, column: Index, depth: Array, gate_m: float) -> Index:
-        """How many other views show something before points at pixels (N,) and depths (..., N) of a view."""
+        """How many of its partners show something before points at pixels (N,) and depths (..., N) of a view."""
         count = np.zeros(np.shape(depth), np.intp)
-        for k, points in enumerate(self.points):
-            found = before(self.state[place], points) if k != place else None
+        for k in self.partners[place]:
+            found = before(self.state[place], self.points[k])
             if found is not None:
                 count += found[row, column] < depth - gate_m
         return count

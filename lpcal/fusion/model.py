@@ -16,7 +16,7 @@ import numpy as np
 
 from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
-from lpcal.fusion.consensus import usual_growth
+from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, usual_growth
 from lpcal.fusion.missing import missing
 from lpcal.fusion.pieces import Piece
 from lpcal.fusion.registration import Registered, registered
@@ -30,8 +30,6 @@ from lpcal.records.calibration import Light
 from lpcal.records.model import ModelFigures, ObjectModel, PieceInModel, ViewInModel
 from lpcal.records.outcome import Progress, silent
 
-REMARKABLE = 2.5
-"""By how many of its sigmas a view's distance must have changed otherwise than the others' to be remarked: one right view in eighty."""
 CONTRADICTION = 3.0
 """By how many sigmas of a vertex views must differ to be said to disagree there."""
 
@@ -123,10 +121,10 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
 def _stretched(view: PlacedView, piece: Piece, usual: float) -> list[str]:
     """A remark where the distance of a view's largest piece was changed otherwise than the others', by many of its sigmas.
 
-    It is used, and shown to have been wrong. `usual` is what the others' logarithms were changed by.
+    It is used all the same where too few views would be left without it. `usual` is what the others' logarithms were changed by.
     """
     sigmas = abs(piece.delta - usual) / dict(view.pieces)[piece.label]
-    if sigmas < REMARKABLE:
+    if sigmas < MOST_SCALE_SIGMAS:
         return []
     by_mm, usual_mm = (1e3 * view.distance_m * np.expm1(delta) for delta in (piece.delta, usual))
     apart = f"the others' by {usual_mm:+.1f} mm, {sigmas:.1f} of its sigmas apart"
@@ -183,6 +181,6 @@ def _figures(aligned: Aligned, found: Vertices) -> ModelFigures:
         disagreeing=float(area[apart].sum() / max(area[two].sum(), 1e-30)),
         open_edges_m=float(np.linalg.norm(v[open_edges[:, 0]] - v[open_edges[:, 1]], axis=1).sum()),
         distance_scale=float(aligned.parameters[6]),
-        distance_scale_std=float(np.sqrt(aligned.covariance[6, 6])),
+        distance_scale_std=float(np.sqrt(aligned.shared_covariance[6, 6])),
         shared_sigma_m=found.shared_sigma_m,
     )

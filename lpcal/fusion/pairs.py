@@ -57,10 +57,6 @@ class Meeting:
     q_A: Array
     n_A: Array
     """Mean of both normals."""
-    from_p: Array
-    """Vector from the first camera to p."""
-    from_q: Array
-    """Vector from the second camera to q."""
     pixel: Array
     component: Labels
     """Pixel and piece of q."""
@@ -69,7 +65,7 @@ class Meeting:
     contradict: int
 
     def __getitem__(self, some: Mask) -> Meeting:
-        picked = {name: getattr(self, name)[some] for name in ("index", "p_A", "q_A", "n_A", "from_p", "from_q", "pixel", "component")}
+        picked = {name: getattr(self, name)[some] for name in ("index", "p_A", "q_A", "n_A", "pixel", "component")}
         return Meeting(**picked, residual_m=self.residual_m[some], agree=self.agree, contradict=self.contradict)
 
 
@@ -78,7 +74,7 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
 
     `gate_m` is how far apart the two surfaces may be, along the normal, to be taken for one.
     """
-    p_A, n_p, from_p = first
+    p_A, n_p, _ = first
     facing = np.flatnonzero(faces(p_A, n_p, second))
     if len(facing) < 10:
         return None
@@ -89,8 +85,6 @@ def meet(first: tuple[Array, Array, Array], second: Placed, gate_m: float) -> Me
         p_A[facing[keep]],
         seen.q_A[keep],
         seen.n_A[keep],
-        from_p[facing[keep]],
-        se3.rotate(second.H_AC, seen.q_C[keep]),
         seen.pixel[keep],
         seen.component[keep],
         seen.residual_m[keep],
@@ -121,7 +115,6 @@ def faces(p_A: Array, n_p: Array, second: Placed) -> Mask:
 class _Facing:
     """What a view shows in the directions of points (N)."""
 
-    q_C: Array
     q_A: Array
     n_A: Array
     pixel: Array
@@ -158,7 +151,7 @@ class _Facing:
         before = seen.ok & ~close & (x_C[:, 2] < z - gate_m)
         beside = seen.in_image & background(second.view, seen.pixel)
         cosine = np.einsum("ij,ij->i", n_p, n_q)
-        return cls(q_C, q_A, n_A, seen.pixel, seen.component, r, cosine, close, before | beside)
+        return cls(q_A, n_A, seen.pixel, seen.component, r, cosine, close, before | beside)
 
 
 def background(view: PlacedView, pixel: Array) -> Mask:

@@ -20,8 +20,9 @@ BRIDGE_PX = 2
 """Pixels beside a break that hold no two parts together: bridges of twice as many pixels between the ends of breaks do not."""
 SEAM_DEG = 5.0
 """Standard deviation of a normal from which on its pixel holds no two parts together: sure ones have 1 to 2, seams 5 to 40."""
-SHARP = np.cos(np.radians(35.0))
-"""Cosine between neighbouring normals below which they lie on two sides of a seam or an edge."""
+SHARP = np.cos(np.radians(20.0))
+"""Cosine between neighbouring normals below which they lie on two sides of a seam or an edge. Of six simulated sessions 14 % of the knot's
+pixels were in parts of which they lay off by more than 1.2 % at 35 degrees, 6 % at 20 and at 16; the others hardly had more parts."""
 LEAST_SHARE = 0.01
 """Least share of a view's pixels that a part must have: of smaller ones too few points tell where they lie."""
 LEAST_PIXELS = 60

@@ -21,6 +21,7 @@ import numpy as np
 from lpcal.fusion.align import Aligned, showing
 from lpcal.fusion.fronts import Fronts
 from lpcal.fusion.pairs import Placed, votes
+from lpcal.fusion.partners import Partners
 from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Mask
@@ -80,14 +81,16 @@ class Among:
     state: Sequence[Placed]
     views: Sequence[PlacedView]
     """The same with all their pieces."""
-    speaking: Sequence[int]
-    """Places of the views that have a piece which is placed."""
+    speaking: frozenset[int]
+    """Places of the views that have a piece which is placed, in any order."""
     gate_m: float
+    partners: Partners
+    """Which views are compared with which."""
 
     @cached_property
     def fronts(self) -> Fronts:
         """What stands before what."""
-        return Fronts(self.state)
+        return Fronts(self.state, self.partners)
 
     def look_for(self, view: int, label: int) -> Piece:
         """The step of log distance at which the others confirm a piece."""
@@ -95,7 +98,7 @@ class Among:
         row, column = self._points(view, label)
         pixels = int((self.views[view].component == label).sum())
         found = Piece(view, label, pixels, 0.0, 0)
-        others = [k for k in self.speaking if k != view]
+        others = [k for k in self.partners[view] if k in self.speaking]
         if len(row) < FEWEST_POINTS or not others:
             return replace(found, why=f"{len(row)} of its pixels can be compared")
         x_C = self.views[view].points_C(row, column)
@@ -175,8 +178,8 @@ def confirmed_share(fronts: Fronts, place: int, gate_m: float) -> tuple[dict[int
     numbers = [number for number, _ in one.view.pieces]
     size = np.bincount(label, minlength=256)
     agree, contradict, supporters = np.zeros(len(p_A), np.intp), np.zeros(len(p_A), np.intp), np.zeros(256, np.intp)
-    for k, other in enumerate(fronts.state):
-        if k != place and len(p_A) and may_see(other.view, other.H_AC, p_A):
+    for other in (fronts.state[k] for k in fronts.partners[place]):
+        if len(p_A) and may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no
@@ -194,8 +197,8 @@ def seen_through(fronts: Fronts, place: int, gate_m: float, outvoted: int) -> Ma
     row, column = np.nonzero(one.view.witness)
     p_A, n_A, from_A = replace(one, row=row, column=column).points()
     agree, contradict = np.zeros((2, len(row)), np.int16)
-    for k, other in enumerate(fronts.state):
-        if k != place and len(row) and may_see(other.view, other.H_AC, p_A):
+    for other in (fronts.state[k] for k in fronts.partners[place]):
+        if len(row) and may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no
@@ -208,7 +211,7 @@ def seen_through(fronts: Fronts, place: int, gate_m: float, outvoted: int) -> Ma
 
 def cleared(aligned: Aligned) -> Aligned:
     """Aligned views without the pixels that SEEN_THROUGH others at least contradict, and more than confirm them."""
-    fronts = Fronts(aligned.placed)
+    fronts = Fronts(aligned.placed, aligned.partners)
     gate_m = GATE_PX * float(np.median([one.view.footprint_m for one in aligned.placed]))
     gone = [seen_through(fronts, place, gate_m, SEEN_THROUGH) for place in range(len(aligned.placed))]
     return replace(aligned, placed=tuple(showing(one, one.view.without(mask)) for one, mask in zip(aligned.placed, gone, strict=True)))

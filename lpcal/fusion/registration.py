@@ -1,7 +1,7 @@
 r"""Where every view and every piece of it stands, and which are left out.
 
-1. The largest piece of every view is looked up in that of every other at the tracked poses; a view that the others contradict is left out.
-2. These pieces are aligned, poses and distances and slow bending at once (`align`).
+1. The large pieces of every view are looked up in those of others at the tracked poses; a view that the others contradict is left out.
+2. These pieces are aligned, poses and distances and slow bending at once (`align`); those that no other confirms there are taken back.
 3. Every other piece, and the views that were left out, are looked for along their rays (`pieces`), until no more are found.
 4. All that were found are aligned together. A view that had to move or grow too far is left out; so is a piece that the others contradict,
    and what two views at least see through.
@@ -17,9 +17,10 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view
 from lpcal.fusion.bending import bending_of
-from lpcal.fusion.consensus import MOST_HEARD_SIGMAS, Doubted, agreement, moved_too_far, outvoted, usual_growth
+from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, Doubted, agreement, moved_too_far, outvoted, usual_growth
 from lpcal.fusion.fronts import Fronts
 from lpcal.fusion.pairs import Placed
+from lpcal.fusion.partners import Partners, among, partners_of
 from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, cleared, confirmed_share, labels_by_size, only
 from lpcal.fusion.views import PlacedView
 from lpcal.geometry.arrays import Array
@@ -29,6 +30,9 @@ FEWEST = 2
 """Views that a model takes: of one alone `lpcal reconstruct` makes a mesh."""
 LOOKS = 3
 """How often all are aligned anew because pieces were found: where the views stand better, more are."""
+LARGE = 0.4
+"""Least size of a piece, over that of its view's largest, with which the alignment begins: of a knot every view shows three strands about
+as large, and the largest ones alone were of one side of it, which no piece of the other side meets."""
 PASSES = 4
 """How often pieces are looked for: those that were found may confirm others."""
 
@@ -56,16 +60,16 @@ def registered(name: str, views: Sequence[PlacedView], H_PC_covariance: Array, p
     DegenerateError
         Fewer than two views are left that overlap.
     """
-    step_px = knots_px(views)
-    mains = [labels_by_size(view)[0] for view in views]
-    alone = [only(view, [main]) for view, main in zip(views, mains, strict=True)]
-    pairs = compared(alone, H_PC_covariance, step_px)
+    step_px, partners = knots_px(views), partners_of(views)
+    begun = [large_pieces(view) for view in views]
+    alone = [only(view, labels) for view, labels in zip(views, begun, strict=True)]
+    pairs = compared(alone, H_PC_covariance, step_px, partners)
     shares = agreement(range(len(views)), pairs)
-    search = _Search(views, mains, step_px, {one.index: one.why for one in outvoted(len(views), pairs)})
+    search = _Search(views, begun, step_px, partners, {one.index: one.why for one in outvoted(len(views), pairs)})
     kept = [k for k in range(len(views)) if k not in search.why]
     progress("views compared", len(kept), len(views))
     _refuse_apart(name, kept, len(views), pairs)
-    aligned = align([alone[k] for k in kept], H_PC_covariance, progress, step_px=step_px)
+    aligned = align([alone[k] for k in kept], H_PC_covariance, progress, step_px=step_px, partners=among(partners, kept))
     before_m, fresh = aligned.before_m, True
     search.take(aligned, kept)
     for _ in range(LOOKS + len(views)):
@@ -73,7 +77,8 @@ def registered(name: str, views: Sequence[PlacedView], H_PC_covariance: Array, p
         if found or not fresh or len(search.kept) < len(kept):
             kept = search.kept
             _refuse_apart(name, kept, len(views), pairs)
-            aligned = align([search.shown(k) for k in kept], H_PC_covariance, progress, search.start(kept), step_px)
+            placed, start = [search.shown(k) for k in kept], search.start(kept)
+            aligned = align(placed, H_PC_covariance, progress, start, step_px, among(partners, kept))
             search.take(aligned, kept)
         pieces = search.judged(aligned, kept)
         doubt = _doubtful(aligned, kept, pieces)
@@ -84,6 +89,13 @@ def registered(name: str, views: Sequence[PlacedView], H_PC_covariance: Array, p
             break
     shown = replace(_as_shown(search, aligned, kept, pieces), before_m=before_m)
     return Registered(shown, tuple(kept), {k: why for k, why in search.why.items() if k not in kept}, shares, pieces)
+
+
+def large_pieces(view: PlacedView) -> list[int]:
+    """Labels of a view's pieces with which its alignment begins, the largest first."""
+    labels = labels_by_size(view)
+    count = np.bincount(view.component[view.witness], minlength=256)
+    return [label for label in labels if count[label] >= LARGE * count[labels[0]]]
 
 
 def _refuse_apart(name: str, kept: Sequence[int], count: int, pairs: dict[tuple[int, int], PairFit]) -> None:
@@ -108,8 +120,11 @@ def _doubtful(aligned: Aligned, kept: Sequence[int], pieces: dict[int, tuple[Pie
 class _Search:
     """Pieces as they are found one after another."""
 
-    def __init__(self, views: Sequence[PlacedView], mains: Sequence[int], step_px: int, why: dict[int, str]) -> None:
-        self.views, self.mains = views, mains
+    def __init__(
+        self, views: Sequence[PlacedView], begun: Sequence[Sequence[int]], step_px: int, partners: Partners, why: dict[int, str]
+    ) -> None:
+        self.views, self.begun, self.partners = views, begun, partners
+        self.mains = [labels[0] for labels in begun]
         self.why = why
         self.bendings = [bending_of(view, step_px) for view in views]
         self.gate_m = GATE_PX * float(np.median([view.footprint_m for view in views]))
@@ -120,7 +135,11 @@ class _Search:
         self.looks = 0
 
     def take(self, aligned: Aligned, kept: Sequence[int]) -> None:
-        """Where the aligned views stand. At first their largest pieces count as found, those that the others do not contradict there."""
+        """Where the aligned views stand.
+
+        At first their large pieces count as found: the largest where the others do not contradict it there, further ones where one other
+        at least confirms them, too.
+        """
         first = not self.found
         self.shared, self.own = aligned.parameters[:SHARED], {}
         for place, k in enumerate(kept):
@@ -130,12 +149,15 @@ class _Search:
                 grown = float(self.own[k][6 + self.bendings[k].place[label]] + self.shared[6])
                 if (k, label) in self.found:
                     self.found[k, label] = replace(self.found[k, label], delta=grown)
-                elif first and label == self.mains[k]:
+                elif first and label in self.begun[k]:
                     self.found[k, label] = replace(self.piece(k, label), delta=grown)
         if first:
             for k, judged in self.judged(aligned, kept).items():
-                if all(piece.why is not None for piece in judged):
-                    del self.found[k, self.mains[k]], self.own[k]
+                for piece in judged:
+                    if piece.why is not None or (piece.label != self.mains[k] and piece.supporters < 1):
+                        del self.found[k, piece.label]
+                if not self.labels(k):
+                    del self.own[k]
 
     def piece(self, view: int, label: int) -> Piece:
         """A piece of which nothing is known."""
@@ -174,7 +196,7 @@ class _Search:
         some = False
         self.looks += 1
         for _ in range(PASSES):
-            among = Among(self.state(), self.views, self.kept, self.gate_m)
+            others = Among(self.state(), self.views, frozenset(self.kept), self.gate_m, self.partners)
             new = {}
             usual = usual_growth([self.found[k, self.mains[k]].delta for k in self.kept if self.mains[k] in self.labels(k)])
             for k, view in enumerate(self.views):
@@ -182,12 +204,12 @@ class _Search:
                 for label, std in view.pieces:
                     if k in self.refused or label in placed or (not placed and label != self.mains[k]):
                         continue
-                    piece = among.look_for(k, label)
+                    piece = others.look_for(k, label)
                     sigmas = abs(piece.delta - usual) / std
-                    if piece.why is None and not placed and sigmas > MOST_HEARD_SIGMAS:
+                    if piece.why is None and not placed and sigmas > MOST_SCALE_SIGMAS:
                         by_m = piece.delta * view.distance_m
                         piece = replace(
-                            piece, why=f"its distance differs by {1e3 * by_m:+.1f} mm from what fits the others, {sigmas:.0f} sigmas"
+                            piece, why=f"its distance differs by {1e3 * by_m:+.1f} mm from what fits the others, {sigmas:.1f} sigmas"
                         )
                         self.why[k] = str(piece.why)
                     new[k, label] = piece
@@ -206,7 +228,7 @@ class _Search:
     def judged(self, aligned: Aligned, kept: Sequence[int]) -> dict[int, tuple[Piece, ...]]:
         """Every piece of the aligned views with what the others say of it now."""
         said = {}
-        fronts = Fronts(aligned.placed)
+        fronts = Fronts(aligned.placed, aligned.partners)
         for place, k in enumerate(kept):
             shares, supporters = confirmed_share(fronts, place, self.gate_m)
             pieces = [self.found[k, label] for label, _ in self.views[k].pieces if (k, label) in self.found]

@@ -53,12 +53,12 @@ GAINED = 0.02
 
 def rig_evidence(aligned: Aligned, found: Vertices, lights: Sequence[Light]) -> RigEvidence:
     """What the views show of H_PC, of a scale of all distances, and of near lights."""
-    H_PC_change, covariance = aligned.parameters[:6], aligned.covariance[:6, :6]
+    H_PC_change, covariance = aligned.parameters[:6], aligned.shared_covariance[:6, :6]
     prior = aligned.H_PC_covariance
     handeye_sigmas = surprise(H_PC_change, prior, covariance)
     near = [light for light in lights if light.source_C is not None]
     said, before, after = _lights(aligned, found, near) if len(near) >= 3 else ((), float("nan"), float("nan"))
-    scale, scale_std = float(aligned.parameters[6]), float(np.sqrt(aligned.covariance[6, 6]))
+    scale, scale_std = float(aligned.parameters[6]), float(np.sqrt(aligned.shared_covariance[6, 6]))
     moved = [f"{one.name} differs by {one.sigmas:.0f} sigmas from its calibration" for one in said if one.sigmas > MOVED_SIGMAS]
     if handeye_sigmas > MOVED_SIGMAS:
         shift, turn = 1e3 * np.linalg.norm(H_PC_change[3:]), np.degrees(np.linalg.norm(H_PC_change[:3]))

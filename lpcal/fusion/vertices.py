@@ -20,6 +20,7 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned
 from lpcal.fusion.detail import with_detail
+from lpcal.fusion.factor import columns_of
 from lpcal.fusion.pairs import Placed, background
 from lpcal.fusion.views import look, may_see
 from lpcal.fusion.volume import Triangles, normals_of, weight_of
@@ -151,7 +152,8 @@ def blocks(views: int, vertices: int) -> Iterator[slice]:
 def _resting(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) -> Resting:
     parts = []
     for some in blocks(len(state), len(v)):
-        found = evidence(state, v[some], n[some], GATE_PX * footprint_m)
+        near = [one for one in state if may_see(one.view, one.H_AC, v[some])]
+        found = evidence(near, v[some], n[some], GATE_PX * footprint_m)
         share = _robust(found, SCALE_PX * footprint_m)
         mean = np.einsum("nv,nv->v", share, found.residual_m)
         off = np.where(found.weight > 0, found.residual_m - mean, 0.0)
@@ -278,18 +280,15 @@ def _places(aligned: Aligned, v: Array, n: Array, some: Index, footprint_m: floa
     for part in blocks(len(aligned.placed), len(some)):
         found, rows = _rows(aligned, v[some[part]], n[some[part]], footprint_m)
         seen[part] = found.weight.any(axis=0)
-        for k, (used, row) in enumerate(rows):
-            variance[part.start + k] = row @ aligned.covariance[np.ix_(used, used)] @ row
+        variance[part] = aligned.information.variances(rows)
     return (some[seen], variance[seen]) if seen.any() else (some, variance)
 
 
 def carried(aligned: Aligned, v: Array, n: Array) -> Array:
     """Covariance (V, V), along their normals, of vertices (V, 3) by the places of the views that see them."""
     _, rows = _rows(aligned, v, n, float(np.median([one.view.footprint_m for one in aligned.placed])))
-    J = np.zeros((len(v), len(aligned.parameters)))
-    for k, (used, row) in enumerate(rows):
-        J[k, used] = row
-    return np.asarray(J @ aligned.covariance @ J.T)
+    half = aligned.information.half(columns_of(rows, len(aligned.parameters)))
+    return np.asarray(half.T @ half)
 
 
 def shared(v: Array, n: Array) -> Array:

@@ -10,6 +10,7 @@ from fusion_views import scene
 from lpcal.fusion.align import knots_px, placed_view
 from lpcal.fusion.bending import bending_of
 from lpcal.fusion.fronts import Fronts, before
+from lpcal.fusion.partners import everyone
 from lpcal.fusion.views import view_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Index, Mask
@@ -27,7 +28,7 @@ def dented(deeper: float) -> tuple[Fronts, Mask, float]:
     surfaces[DENTED] = replace(first, depth=(first.depth * (1 + deeper * patch)).astype(np.float32))
     views = [view_of(one, one.placement) for one in surfaces]
     state = [placed_view(view, bending_of(view, knots_px(views))) for view in views]
-    return Fronts(state), patch[state[DENTED].view.at], 2.5 * views[0].footprint_m
+    return Fronts(state, everyone(len(state))), patch[state[DENTED].view.at], 2.5 * views[0].footprint_m
 
 
 def denials(fronts: Fronts, place: int, gate_m: float) -> tuple[Index, Index, Index]:

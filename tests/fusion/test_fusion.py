@@ -17,6 +17,7 @@ from lpcal.formats.model_files import read_model, write_model
 from lpcal.fusion import align, tiles, vertices, volume
 from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.model import shared_covariance
+from lpcal.fusion.partners import everyone
 from lpcal.fusion.vertices import held_together, rested
 from lpcal.fusion.views import fitted, view_of
 from lpcal.geometry import se3
@@ -77,8 +78,8 @@ def test_pairs_of_views_do_not_count_as_if_each_were_new() -> None:
         views = [view_of(one, one.placement) for one in scene().surfaces[:2] for _ in range(copies)]
         state = align._start(views)
         problem = align._Problem.of(state, shared_covariance(views))
-        N, _ = problem.normal_equations(state, align.all_meetings(state, 0.006), 1e-3)
-        told.append(float(N[6, 6]))
+        N, _ = problem.normal_equations(state, align.all_meetings(state, 0.006, everyone(2 * copies)), 1e-3)
+        told.append(float(N.dense()[6, 6]))
     assert told[1] / told[0] == pytest.approx(3, rel=0.15)
 
 
@@ -210,6 +211,14 @@ def test_a_wrong_view_is_named_and_left_out(kind: str) -> None:
     assert "the others confirm" in out[0].why
 
 
+def test_of_two_views_that_differ_nobody_knows_which_is_wrong() -> None:
+    """A view that one other alone judges stays until it is aligned; one that two contradict goes."""
+    fine, bad = align.PairFit(900, 30, 1e-3), align.PairFit(0, 400, 1e-3)
+    ring = {(a, b): fine for a in range(4) for b in range(4) if a != b}
+    assert [one.index for one in outvoted(5, ring | {(0, 4): bad})] == []
+    assert [one.index for one in outvoted(5, ring | {(0, 4): bad, (4, 1): bad})] == [4]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["shifted", "too far", "flipped", "other object"])
 def test_the_model_is_unharmed_by_a_wrong_view(kind: str) -> None:
@@ -284,7 +293,7 @@ def test_derivatives_are_those_of_the_residual() -> None:
     problem = align._Problem.of(state, shared_covariance(views))
     x = np.zeros(problem.size)
     rng = np.random.default_rng(2)
-    met = align.all_meetings(problem.moved(state, x), 0.006)[0, 1]
+    met = align.all_meetings(problem.moved(state, x), 0.006, everyone(3))[0, 1]
     columns, values = problem._rows(state[0], state[1], 0, 1, met)
     step = 1e-5 * rng.standard_normal(problem.size) * np.r_[np.ones(3), 0.3 * np.ones(3), 1, np.ones(problem.size - 7)]
     moved = problem.moved(state, x + step)
