@@ -1,21 +1,22 @@
-"""Fit what the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
+"""Fit the network that the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
-estimated, as the mask does it. Writes the trees that lpcal.segmentation.background reads and prints its BESIDE; cross-validated by scene in
-FOLDS parts, how good the coarse masks are. The judges that were fitted without a part of the scenes go to FILE, for tools/fit_outline.py,
-which must not see odds of scenes that they were fitted to. The regions themselves depend a little on the judge. Needs scikit-learn
-(``uv run --with scikit-learn``); with OMP_NUM_THREADS=1 where other work shares the machine.
+estimated, as the mask does it. Writes the weights that lpcal.segmentation.network reads; cross-validated by scene in FOLDS parts, how good
+the coarse masks are. The networks that were fitted without a part of the scenes go to FILE, for tools/fit_outline.py, which must not see
+odds of scenes that they were fitted to. The labels themselves depend a little on the network. Needs PyTorch (``uv run --with torch``); with
+OMP_NUM_THREADS=1 where other work shares the machine.
 """
 
 from __future__ import annotations
 
 import argparse
 import pickle
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,77 +28,52 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.segmentation import background, context, flats, layers, mask, outline, regions, room_light
-from lpcal.segmentation.regions import Pictures, Regions, View
+from lpcal.segmentation import background, clues, flats, layers, mask, network, room_light
+from lpcal.segmentation.clues import View
 from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view import sight
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 
-FOLDS, INNER = 6, 5
-RIDGE = 0.3
-"""Penalty on the square of a weight of a clue of standard deviation 1, by the loss of scenes left out, which is flat from .1 to .3."""
-REGIONS = {"max_iter": 200, "max_leaf_nodes": 12, "min_samples_leaf": 30, "l2_regularization": 3.0}
-CONTEXT = {"max_iter": 150, "max_leaf_nodes": 12, "min_samples_leaf": 200, "l2_regularization": 5.0}
-"""Trees of regions and of coarse pixels, and how far they go, by the IoU of scenes left out, which gains no more from more of them."""
-COMMON = {"learning_rate": 0.06, "max_features": 0.5, "early_stopping": False, "random_state": 0}
-FALLING = ("frame", "frame, a plane")
-"""Clues that speak against the object the more the larger they are, whatever the scenes say: what holds the frame is background."""
-CROPS = 2
-"""Crops of a scene that are fitted to besides the whole, so that the object lies anywhere in the picture."""
+if TYPE_CHECKING:
+    import torch
+    from torch import nn
+
+FOLDS = 4
+EPOCHS, BATCH = 80, 8
+"""Times that all scenes are seen, and scenes a step: the IoU of scenes left out gains no more."""
+RATE, DECAY = 4e-3, 1e-2
+"""Highest step of the one-cycle schedule (Smith and Topin 2018), and the decay of weights (AdamW)."""
+WIDTHS = (12, 32, 48, 64, 16)
+"""Channels of the four scales, and of the last one."""
+SIDES = (60, 80)
+"""Rows and columns that crops are brought to."""
+PIERCED, HOLES = 0.35, (0.004, 0.15)
+"""Share of the samples in whose object a hole is made, and its area in the object's: drawn objects have few."""
+NOISE, OFFSET = 0.03, 0.1
+"""Standard deviations, in those of a channel, of noise added to pixels and to whole channels: of what scenes do not vary."""
+CROPPED, NO_ROOM = 0.5, 0.15
+"""Shares of the samples that are crops, and whose image without lights is left out."""
+OVERLAP = 0.5
+"""Weight of 1 - IoU (soft) in the loss, beside the mean logistic loss a pixel of the object's area."""
+NOISIER = 2.0
+"""Noise of the images, in their own, that is added for a scene's second set of labels."""
 WRONG = 0.9
 """IoU under which a mask is wrong."""
-SMALLEST = 3
-"""Coarse pixels under which a region is not fitted to."""
-SOME, CLEAR, FEWEST = 1500, 0.2, 50
-"""Coarse pixels of a scene that are fitted to at most; how far from half their share of the object must be; the least object."""
+FEWEST = 60
+"""Coarse pixels that an object counts as at least."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Example:
-    """A scene's regions with their truth."""
+    """A scene's channels with their truth."""
 
     name: str
-    pictures: Pictures
-    found: Regions
+    channels: dict[str, np.ndarray]
+    """(rows, columns) each."""
     of_object: np.ndarray
     """(rows, columns) share of a coarse pixel that is the object."""
-    bright: np.ndarray
-    room: np.ndarray | None
-    """(rows, columns) logarithms of the lights' brightness and of the image without lights."""
-    whole: bool = True
-    """Whether it is no crop."""
-    share: np.ndarray = field(init=False)
-    """(N,) share of a region that is the object."""
-    weight: np.ndarray = field(init=False)
-    """(N,) area over the object's, 1 at most; 0 under SMALLEST."""
-    clues: np.ndarray = field(init=False)
-    """(N, clues) by themselves."""
-    first: np.ndarray = field(init=False)
-    """(N,) odds of the first fit, of scenes left out."""
-
-    def __post_init__(self) -> None:
-        self.share = self.found.mean(self.true)
-        area = self.found.area
-        self.weight = np.minimum(area / max(self.true.sum(), 1), 1.0) * (area >= SMALLEST)
-        self.clues = np.stack(list(self.own().values()), axis=1)
-
-    @property
-    def true(self) -> np.ndarray:
-        """(rows, columns) bool."""
-        return self.of_object > 0.5
-
-    def own(self) -> dict[str, np.ndarray]:
-        """The clues (N,) of regions by themselves."""
-        return regions.own(self.pictures, self.found)
-
-    def beside(self) -> dict[str, np.ndarray]:
-        """The clues (N,) with those about it, by the first odds."""
-        return regions.beside(self.pictures, self.found, background.logit(self.first))
-
-    def in_context(self, odds: np.ndarray) -> dict[str, np.ndarray] | None:
-        """The clues (P,) of coarse pixels by the odds (N,) of regions."""
-        of_pixel = odds[self.found.number]
-        return context.clues_of(of_pixel, background.logit(of_pixel), self.pictures, self.found, self.bright, self.room)
+    whole: bool
+    """Whether its labels are those of the images as they are."""
 
 
 @dataclass(frozen=True)
@@ -130,160 +106,178 @@ class Seen:
         image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, mask.COARSE_PIXELS))
         table = LightTable.of(image, self.lights, self.distance_m)
         lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
-        return View(image, table, flats.sweep(image, table, self.distance_m)), lit
+        return mask.view_of(image, table, self.distance_m, mask.NO_HINTS, self.true.shape, self.room), lit
 
 
 def example(scene: Path, folds: Path | None) -> list[Example]:
-    """A scene taken apart as the mask does it."""
+    """A scene labelled as the mask does it, and once more with noise added."""
     del folds  # what is fitted here
     seen = Seen.of(scene)
     view, lit = seen.view()
-    of_object = block_means(seen.true.astype(float), view.image.factor)
-    planes = flats.find(view.image, view.table, view.swept, lit, seen.distance_m)
-    labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
-    return of_labels(
-        scene.name, view, (labels, found.planes, cost), of_object, outline.levels_of(view.image.maps, seen.room, view.image.factor)
-    )
-
-
-def of_labels(
-    name: str,
-    view: View,
-    labelled: tuple[np.ndarray, list[np.ndarray], np.ndarray],
-    of_object: np.ndarray,
-    levels: tuple[np.ndarray, np.ndarray | None],
-) -> list[Example]:
-    """The regions of a labelled view and of crops of it, by the object's share (rows, columns) of coarse pixels."""
-    rng, examples = np.random.default_rng(int("".join(filter(str.isdigit, name)) or 0)), []
-    for k in range(1 + CROPS):
-        here = replace(view, allowed=crop(of_object > 0.5, rng) if k else None)
-        w = here.window
-        pictures = Pictures.of(here, *labelled)
-        found = Regions.of(pictures.labels, pictures.bright)
-        room = None if levels[1] is None else levels[1][w]
-        examples.append(Example(name, pictures, found, of_object[w], levels[0][w], room, not k))
-    return examples
-
-
-def crop(true: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """A window (rows, columns) that holds the object."""
-    allowed = np.ones(true.shape, bool)
-    for axis in (0, 1):
-        held = np.flatnonzero(true.any(axis=1 - axis))
-        side = true.shape[axis]
-        first, last = (held[0], held[-1] + 1) if len(held) else (side // 3, 2 * side // 3)
-        outside = np.ones(side, bool)
-        outside[int(rng.integers(0, first + 1)) : int(rng.integers(last, side + 1))] = False
-        allowed[(outside, slice(None)) if axis == 0 else (slice(None), outside)] = False
-    return allowed
-
-
-def fitted(clues: np.ndarray, share: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Weights (1 + clues) of least logistic loss with a ridge, by Newton's method."""
-    middle, spread = clues.mean(axis=0), clues.std(axis=0) + 1e-9
-    A = np.c_[np.ones(len(clues)), (clues - middle) / spread]
-    ridge = np.diag([1e-6, *[RIDGE] * clues.shape[1]])
-    b = np.zeros(A.shape[1])
-    for _ in range(15):
-        p = 1 / (1 + np.exp(-np.clip(A @ b, -30, 30)))
-        h = weight * np.maximum(p * (1 - p), 1e-6)
-        b = b + np.linalg.solve(A.T @ (h[:, None] * A) + ridge, A.T @ (weight * (share - p)) - ridge @ b)
-    return np.r_[b[0] - np.sum(b[1:] * middle / spread), b[1:] / spread]
-
-
-def odds(clues: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Odds (N,) by clues (N, clues) and weights."""
-    return 1 / (1 + np.exp(-np.clip(b[0] + clues @ b[1:], -30, 30)))
-
-
-def parts(examples: list[Example], count: int, rng: np.random.Generator) -> np.ndarray:
-    """The part of each example, all of a scene in one."""
-    names = sorted({one.name for one in examples})
-    part = dict(zip(names, rng.permutation(np.arange(len(names)) % count), strict=True))
-    return np.array([part[one.name] for one in examples])
-
-
-def trees(names: list[str], clues: np.ndarray, share: np.ndarray, weight: np.ndarray, kind: dict[str, float]) -> background.Trees:
-    """Boosted trees of least logistic loss."""
-    from sklearn.ensemble import HistGradientBoostingClassifier
-
-    twice, true = np.r_[clues, clues], np.repeat([1, 0], len(clues))
-    counts = np.r_[weight * share, weight * (1 - share)]
-    some = counts > 1e-6
-    falling = [-1 if name in FALLING else 0 for name in names]
-    model = HistGradientBoostingClassifier(monotonic_cst=falling, **COMMON, **kind)
-    model.fit(twice[some], true[some], sample_weight=counts[some] * (some.sum() / counts[some].sum()))
-    nodes = [one[0].nodes for one in model._predictors]  # noqa: SLF001 (it keeps them nowhere else)
-    root = np.cumsum([0, *map(len, nodes[:-1])])
-    every, offset = np.concatenate(nodes), np.repeat(root, [len(one) for one in nodes])
-    ends = every["is_leaf"].astype(bool)
-    clue = np.where(ends, -1, every["feature_idx"])
-    threshold = np.where(ends, 0.0, every["num_threshold"])
-    left, right = (np.where(ends, 0, every[side] + offset) for side in ("left", "right"))
-    leaf = np.where(ends, every["value"], 0.0)
-    start = float(model._baseline_prediction.item())  # noqa: SLF001
-    return background.Trees(tuple(names), start, root, clue, threshold, left, right, leaf)
-
-
-def of_trees(found: background.Trees, clues: dict[str, np.ndarray]) -> np.ndarray:
-    """Odds (N,) by trees."""
-    return 1 / (1 + np.exp(-np.clip(found.log_odds(clues), -30, 30)))
-
-
-def judge_of(train: list[Example], rng: np.random.Generator) -> background.Judge:
-    """A judge; each stage is fitted to odds that the one before gives to scenes it was not fitted to."""
-    share, weight = (np.concatenate([getattr(one, name) for one in train]) for name in ("share", "weight"))
-    names, part = list(train[0].own()), parts(train, INNER, rng)
-
-    def own(some: list[Example]) -> background.Trees:
-        return trees(names, *(np.concatenate([getattr(one, name) for one in some]) for name in ("clues", "share", "weight")), REGIONS)
-
-    for k in range(INNER):
-        of_rest = own([one for one, g in zip(train, part, strict=True) if g != k])
-        for one, g in zip(train, part, strict=True):
-            if g == k:
-                one.first = of_trees(of_rest, one.own())
-    about = [np.stack(list(one.beside().values()), axis=1) for one in train]
-    b = fitted(np.concatenate(about), share, weight)
-    beside = dict(zip(["", *train[0].beside()], map(float, b), strict=True))
-    return background.Judge(own(train), beside, of_context(train, [odds(one, b) for one in about], rng))
-
-
-def of_context(train: list[Example], of_regions: list[np.ndarray], rng: np.random.Generator) -> background.Trees:
-    """The trees of coarse pixels by their regions' odds (N,)."""
-    clues, share, weight, names = [], [], [], []
-    for one, known in zip(train, of_regions, strict=True):
-        here = one.in_context(known)
-        if here is None:
-            continue
-        of_object = one.of_object.ravel()
-        some = rng.permutation(np.flatnonzero(np.abs(of_object - 0.5) > CLEAR))[: SOME if one.whole else SOME // CROPS]
-        names = list(here)
-        clues.append(np.stack([values[some] for values in here.values()], axis=1))
-        share.append((of_object[some] > 0.5).astype(float))
-        weight.append(np.full(len(some), of_object.size / max(len(some), 1) / max(one.true.sum(), FEWEST)))
-    return trees(names, np.concatenate(clues), np.concatenate(share), np.concatenate(weight), CONTEXT)
-
-
-def by_folds(examples: list[Example], rng: np.random.Generator) -> dict[str, background.Judge]:
-    """For each scene a judge that was not fitted to it."""
-    part = parts(examples, FOLDS, rng)
-    found: dict[str, background.Judge] = {}
-    for k in range(FOLDS):
-        judge = judge_of([one for one, g in zip(examples, part, strict=True) if g != k], rng)
-        found |= {one.name: judge for one, g in zip(examples, part, strict=True) if g == k}
+    image, rng = view.image, np.random.default_rng(int("".join(filter(str.isdigit, scene.name)) or 0))
+    of_object = block_means(seen.true.astype(float), image.factor)
+    noisy = replace(image, signal=image.signal + NOISIER * image.sigma * rng.standard_normal(image.signal.shape))
+    found = []
+    for here in (image, noisy):
+        planes = flats.find(here, view.table, view.swept, lit, seen.distance_m)
+        labels, them, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
+        found.append(Example(scene.name, clues.channels(view, labels, them.planes, cost), of_object, here is image))
     return found
 
 
-def masks_of(one: Example, judge: background.Judge) -> tuple[float, float, float]:
-    """IoU of the regions, of the coarse pixels in their context, and of a perfect judge of regions."""
-    by_regions = judge.of_regions(one.pictures, one.found)
-    clues = one.in_context(by_regions)
-    of_pixel = by_regions[one.found.number]
-    if clues is not None:
-        of_pixel = of_trees(judge.context, clues).reshape(one.true.shape)
-    each = (by_regions[one.found.number], of_pixel, one.share[one.found.number])
-    return tuple(iou(background.object_in(here > 0.5, ()), one.true) for here in each)
+def crop(true: np.ndarray, rng: np.random.Generator) -> tuple[slice, slice]:
+    """Rows and columns of a window that holds the object."""
+    sides = []
+    for axis in (0, 1):
+        held, side = np.flatnonzero(true.any(axis=1 - axis)), true.shape[axis]
+        first, last = (int(held[0]), int(held[-1]) + 1) if len(held) else (side // 3, 2 * side // 3)
+        sides.append(slice(round(first * rng.random() ** 2), round(side - (side - last) * rng.random() ** 2)))
+    return sides[0], sides[1]
+
+
+def unet(channels: int) -> nn.Module:
+    """The network of lpcal.segmentation.network, to be fitted."""
+    import torch
+    from torch import nn
+    from torch.nn import functional
+
+    def step(before: int, after: int) -> nn.Module:
+        return nn.Sequential(nn.Conv2d(before, after, 3, padding=1, bias=False), nn.BatchNorm2d(after), nn.ReLU())
+
+    class Unet(nn.Module):
+        def __init__(self) -> None:
+            super().__init__()
+            zero, one, two, three, last = WIDTHS
+            pairs = {"in": (channels + 2, zero), "up 2": (two + 2 * three, two), "up 1": (one + two, one), "up 0": (zero + one, last)}
+            for level, (before, after) in enumerate(((zero, one), (one, two), (two, three)), 1):
+                pairs |= {f"down {level}": (before, after), f"down {level}, again": (after, after)}
+            self.steps = nn.ModuleDict({name: step(*pair) for name, pair in pairs.items()})
+            self.out = nn.Conv2d(last, 1, 1)
+
+        def forward(self, x: torch.Tensor) -> torch.Tensor:
+            count, _, rows, columns = x.shape
+            y, z = ((torch.arange(side) + 0.5 - side / 2) / network.PLACE for side in (rows, columns))
+            place = torch.stack(torch.meshgrid(y, z.abs(), indexing="ij")).expand(count, 2, rows, columns)
+            x, seen = self.steps["in"](torch.cat([x, place], 1)), []
+            for level in (1, 2, 3):
+                seen.append(x)
+                half = functional.avg_pool2d(x, 2, ceil_mode=True, count_include_pad=False)
+                x = self.steps[f"down {level}, again"](self.steps[f"down {level}"](half))
+            x = torch.cat([x, x.mean((2, 3), keepdim=True).expand_as(x)], 1)
+            for level in (2, 1, 0):
+                before = seen.pop()
+                wide = functional.interpolate(x, scale_factor=2, mode="nearest")[..., : before.shape[2], : before.shape[3]]
+                x = self.steps[f"up {level}"](torch.cat([before, wide], 1))
+            return self.out(x)[:, 0]
+
+    return Unet()
+
+
+def pierced(x: np.ndarray, share: np.ndarray, names: Sequence[str], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """The same with a hole in the object that shows what its background shows elsewhere; as it is where there is no room for one."""
+    rows, columns = np.indices(share.shape)
+    places = np.argwhere(share > 0.9)
+    if not len(places):
+        return x, share
+    (row, column), area = places[rng.integers(len(places))], (share > 0.5).sum() * np.exp(rng.uniform(*np.log(HOLES)))
+    longer, turn = np.exp(rng.uniform(-0.7, 0.7)), rng.uniform(0, np.pi)
+    along, across = (
+        np.cos(turn) * (rows - row) + np.sin(turn) * (columns - column),
+        np.cos(turn) * (columns - column) - np.sin(turn) * (rows - row),
+    )
+    hole = (along**2 * longer + across**2 / longer < area / np.pi) & (share > 0.5)
+    at = np.argwhere(hole)
+    for _ in range(20):
+        there = at + rng.integers(-np.array(share.shape), share.shape)
+        if (there >= 0).all() and (there < share.shape).all() and (share[tuple(there.T)] < 0.05).all():
+            x, share = x.copy(), share.copy()
+            x[:, hole], share[hole] = x[:, there[:, 0], there[:, 1]], 0.0
+            x[names.index("size"), hole], x[names.index("frame"), hole] = np.sqrt(hole.mean()), 0.0
+            break
+    return x, share
+
+
+def sampled(one: Example, names: Sequence[str], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Channels (C, rows, columns) and the object's share (rows, columns) of a crop or the whole, as it is or in a mirror."""
+    x, share = np.stack([one.channels[name] for name in names]), one.of_object
+    if rng.random() < PIERCED:
+        x, share = pierced(x, share, names, rng)
+    if rng.random() < CROPPED:
+        rows, columns = crop(share > 0.5, rng)
+        if rows.stop - rows.start > SIDES[0] // 3 and columns.stop - columns.start > SIDES[1] // 3:
+            x, share = x[:, rows, columns], share[rows, columns]
+    if share.shape != SIDES:
+        i, j = (((np.arange(to) + 0.5) * side / to).astype(int) for to, side in zip(SIDES, share.shape, strict=True))
+        x, share = x[:, i][:, :, j], share[np.ix_(i, j)]
+    if rng.random() < NO_ROOM:
+        x = np.where(np.isin(names, ("room", "has room"))[:, None, None], 0, x)
+    if rng.random() < 0.5:
+        x, share = x[..., ::-1] * np.where(np.isin(names, clues.MIRRORED), -1, 1)[:, None, None], share[:, ::-1]
+    return x, share
+
+
+def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
+    """What a file keeps of the network of least loss over examples, by PyTorch."""
+    import torch
+    from torch.nn import functional
+
+    torch.manual_seed(seed)
+    names, rng = list(train[0].channels), np.random.default_rng(seed)
+    pixels = np.concatenate([np.stack([one.channels[name].ravel() for name in names])[:, ::7] for one in train], axis=1)
+    middle, spread = pixels.mean(axis=1), pixels.std(axis=1) + 1e-3
+    by_name: dict[str, list[Example]] = {}
+    for one in train:
+        by_name.setdefault(one.name, []).append(one)
+    net, each = unet(len(names)), len(by_name) // BATCH
+    optimizer = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=DECAY)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=EPOCHS * each, pct_start=0.15)
+    for _ in range(EPOCHS):
+        order = rng.permutation(sorted(by_name))
+        for batch in order[: each * BATCH].reshape(each, BATCH):
+            drawn = [sampled(by_name[name][rng.integers(len(by_name[name]))], names, rng) for name in batch]
+            x = (np.stack([one[0] for one in drawn]) - middle[:, None, None]) / spread[:, None, None]
+            x = np.clip(x, -network.FURTHEST, network.FURTHEST) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
+            x = torch.from_numpy((x + NOISE * rng.standard_normal(x.shape)).astype(np.float32))
+            share = torch.from_numpy(np.stack([one[1] for one in drawn]).astype(np.float32))
+            said, true = net(x), (share > 0.5).float()
+            weight = 2 * (share - 0.5).abs() / true.sum((1, 2), keepdim=True).clamp(min=FEWEST)
+            logistic = (functional.binary_cross_entropy_with_logits(said, true, reduction="none") * weight).sum((1, 2))
+            p = torch.sigmoid(said)
+            both, either = (p * true).sum((1, 2)), (p + true - p * true).sum((1, 2)).clamp(min=1)
+            optimizer.zero_grad()
+            (logistic + OVERLAP * (1 - both / either)).mean().backward()
+            torch.nn.utils.clip_grad_norm_(net.parameters(), 2.0)
+            optimizer.step()
+            schedule.step()
+    return arrays(net, names, middle, spread)
+
+
+def arrays(net: nn.Module, names: Sequence[str], middle: np.ndarray, spread: np.ndarray) -> dict[str, np.ndarray]:
+    """What lpcal.segmentation.network reads: the normalisation of each batch has become a part of the convolution before it."""
+    state = {name: value.detach().numpy() for name, value in net.state_dict().items()}
+    found = {"channels": np.array(names), "mirrored": np.where(np.isin(names, clues.MIRRORED), -1, 1), "middle": middle, "spread": spread}
+    for name in net.steps:
+        at = f"steps.{name}"
+        gain = state[f"{at}.1.weight"] / np.sqrt(state[f"{at}.1.running_var"] + net.steps[name][1].eps)
+        weight = state[f"{at}.0.weight"] * gain[:, None, None, None]
+        found[f"{name}.weight"] = np.moveaxis(weight.reshape(*weight.shape[:2], 9), 2, 0)
+        found[f"{name}.offset"] = state[f"{at}.1.bias"] - gain * state[f"{at}.1.running_mean"]
+    found |= {"out.weight": state["out.weight"][0, :, 0, 0], "out.offset": state["out.bias"]}
+    return {
+        name: value if name == "channels" else np.asarray(value, np.float16 if name.endswith(".weight") else np.float32)
+        for name, value in found.items()
+    }
+
+
+def by_folds(examples: Sequence[Example]) -> dict[str, network.Network]:
+    """For each scene a network that was not fitted to it."""
+    names = sorted({one.name for one in examples})
+    part = dict(zip(names, np.random.default_rng(0).permutation(np.arange(len(names)) % FOLDS), strict=True))
+    found: dict[str, network.Network] = {}
+    for k in range(FOLDS):
+        net = network.Network.of(fitted([one for one in examples if part[one.name] != k]))
+        found |= {name: net for name in names if part[name] == k}
+    return found
 
 
 def iou(mine: np.ndarray, true: np.ndarray) -> float:
@@ -298,21 +292,17 @@ def line_of(name: str, values: list[float]) -> str:
     return f"{name}: mean {x.mean():.3f}, median {np.median(x):.3f}, worst tenth {np.percentile(x, 10):.3f}, {shares}"
 
 
-def report(examples: list[Example], folds: Path | None = None) -> None:
-    """Write the trees and the judges by folds, print weights and figures."""
-    left_out = by_folds(examples, np.random.default_rng(0))
+def report(examples: Sequence[Example], folds: Path | None = None) -> None:
+    """Write the network and those by folds, print figures."""
     if folds is not None:
+        left_out = by_folds(examples)
         folds.write_bytes(pickle.dumps(left_out))
-    for kind, some in (("whole", [one for one in examples if one.whole]), ("crops", [one for one in examples if not one.whole])):
-        found = np.array([masks_of(one, left_out[one.name]) for one in some])
-        for name, values in zip(("regions", "coarse pixels in context", "a perfect judge of the regions"), found.T, strict=True):
-            print(line_of(f"{kind}, {len(some)}: IoU of {name}, scenes left out", list(values)))
-    judge = judge_of(examples, np.random.default_rng(0))
-    np.savez_compressed(background.FITTED, **judge.own.arrays("regions"), **judge.context.arrays("context"))
-    print("BESIDE = {")
-    for key, value in judge.beside.items():
-        print(f'    "{key}": {value:.3g},')
-    print("}")
+        for whole, name in ((True, "as they are"), (False, "with noise added")):
+            some = [one for one in examples if one.whole is whole]
+            masks = [background.object_in(left_out[one.name].log_odds(one.channels) > 0, ()) for one in some]
+            values = [iou(found, one.of_object > 0.5) for found, one in zip(masks, some, strict=True)]
+            print(line_of(f"{len(some)} scenes left out, images {name}: IoU of coarse masks", values))
+    np.savez_compressed(network.FITTED, **fitted(examples))
 
 
 def of_scenes[T](description: str | None, example: Callable[[Path, Path | None], T]) -> tuple[list[T], Path | None]:

@@ -1,7 +1,7 @@
 """Fit the weights by which the automatic mask's outline is judged: ``python tools/fit_outline.py SCENES... --folds FILE [--jobs N]``.
 
-SCENES are folders as tools/fit_mask.py reads them, and FILE is what it has written of judges that were not fitted to them; scenes that are
-not in it are judged as lpcal does. Prints WITH_ROOM and WITHOUT_ROOM of lpcal.segmentation.outline, and DOUBTED and DOUBT_POWER of
+SCENES are folders as tools/fit_mask.py reads them, and FILE is what it has written of networks that were not fitted to them; scenes that
+are not in it are judged as lpcal does. Prints WITH_ROOM and WITHOUT_ROOM of lpcal.segmentation.outline, and DOUBTED and DOUBT_POWER of
 lpcal.segmentation.mask; and how good the masks are, coarse and in full size. Each scale's clues depend on the weights before it: run it
 until these stand still. Scenes whose regions are judged so wrong that there is no outline to draw are not fitted to.
 """
@@ -19,6 +19,7 @@ from scipy import optimize
 from fit_mask import WRONG, Seen, iou, line_of, of_scenes
 from lpcal.geometry.raster import block_means
 from lpcal.segmentation import background, cut, flats, layers, mask, outline
+from lpcal.segmentation.network import Network
 
 RIDGE = 1e-3
 """Penalty on the square of a weight, by a mean weight of 1 for pixels: pixels are many, it keeps the equations solvable."""
@@ -57,12 +58,12 @@ class Example:
     name: str
     outline: list[Clues]
     room: bool
-    masks: tuple[float, float, float]
-    """IoU of the regions, of the coarse pixels in their context, and in full size."""
+    masks: tuple[float, float]
+    """IoU of the coarse pixels and in full size."""
     expected_wrong: float
 
 
-def example(scene: Path, judge: background.Judge | None = None) -> Example:
+def example(scene: Path, network: Network | None = None) -> Example:
     """A scene's clues, along the way that the mask takes with its weights as they stand."""
     seen, rng = Seen.of(scene), np.random.default_rng(0)
     view, lit = seen.view()
@@ -70,8 +71,7 @@ def example(scene: Path, judge: background.Judge | None = None) -> Example:
     planes = flats.find(image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
     share = block_means(seen.true.astype(float), image.factor)
-    first = background.judged(view, labels, found.planes, cost, judge)
-    judged = background.in_context(first, view, labels, *outline.levels_of(image.maps, seen.room, image.factor), judge)
+    judged = background.judged(view, labels, found.planes, cost, network)
     coarse = iou(judged.mask, share > 0.5)
     of_outline, fine = [], 0.0
     if judged.mask.any():
@@ -88,15 +88,15 @@ def example(scene: Path, judge: background.Judge | None = None) -> Example:
         scene.name,
         of_outline if coarse >= DRAWABLE else [],
         seen.room is not None,
-        (iou(first.mask, share > 0.5), coarse, fine),
+        (coarse, fine),
         background.doubt_of(judged, labels).share if judged.mask.any() else 1.0,
     )
 
 
 def left_out(scene: Path, folds: Path | None) -> Example:
-    """A scene's clues by the judge that was not fitted to it."""
-    judges = {} if folds is None else pickle.loads(folds.read_bytes())
-    return example(scene, judges.get(scene.name))
+    """A scene's clues by the network that was not fitted to it."""
+    networks = {} if folds is None else pickle.loads(folds.read_bytes())
+    return example(scene, networks.get(scene.name))
 
 
 def fitted(some: Sequence[Clues]) -> np.ndarray:
@@ -132,11 +132,11 @@ def printed(name: str, some: Sequence[Clues]) -> None:
 
 def report(examples: Sequence[Example]) -> None:
     """Print weights and figures."""
-    for k, name in enumerate(("regions", "coarse pixels", "full size")):
+    for k, name in enumerate(("coarse pixels", "full size")):
         print(line_of(f"IoU with the weights as they stand, {name}", [one.masks[k] for one in examples]))
     for name, room in (("WITH_ROOM", True), ("WITHOUT_ROOM", False)):
         printed(name, [clues for one in examples if one.room == room for clues in one.outline if len(clues.true)])
-    expected, bad = np.array([one.expected_wrong for one in examples]), np.array([one.masks[2] < WRONG for one in examples])
+    expected, bad = np.array([one.expected_wrong for one in examples]), np.array([one.masks[1] < WRONG for one in examples])
     at, power = doubted(expected, bad)
     print(f"DOUBTED, DOUBT_POWER = {at:.2f}, {power:.1f}")
     for share in (0.04, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2):

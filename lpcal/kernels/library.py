@@ -71,7 +71,6 @@ SIGNATURES = {
     "steps": "i i n n f f f d d d f f",
     "two_labels": "i i s s s i n i d s s",
     "thrown_fits": "i i f f f f f d d f",
-    "trees": "i i i f n n n n f f f",
     "turns": "i i i f f n n f",
     "undistort": "i f f i d f",
     "unexplained": "i i f f f f f d i f f f",

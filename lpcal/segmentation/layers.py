@@ -20,7 +20,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
-from lpcal.segmentation.regions import View
+from lpcal.segmentation.clues import View
 from lpcal.view import bands
 from lpcal.view.coarse import LightTable
 from lpcal.view.sight import Indices, strength
@@ -166,13 +166,6 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
         if k + 1 < ROUNDS:
             labels, layers = _learnt(view, layers, labels, cost, lit, bright)
     return labels, layers, cost
-
-
-def energy(view: View, labels: Labels, cost: Array) -> float:
-    """What labels (rows, columns) cost by the costs of their layers (layers, rows, columns) and their boundaries."""
-    across, down = boundary(strength(view.image.maps))
-    own = np.minimum(np.take_along_axis(cost, labels[None], axis=0)[0], cost.min(axis=0) + CEILING)
-    return float(own.sum() + across[labels[:, 1:] != labels[:, :-1]].sum() + down[labels[1:] != labels[:-1]].sum())
 
 
 def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, bright: Array) -> tuple[Labels, Layers]:

@@ -17,9 +17,8 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
-from lpcal.segmentation.regions import View
+from lpcal.segmentation.clues import View
 from lpcal.segmentation.samples import LIT_SIGMAS
-from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
@@ -35,11 +34,6 @@ SMALLEST_SHARE = 0.02
 """Pieces under this share of the largest are dropped."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
-MANY_PLANES, STARTS = 5, 3
-"""Number of planes from which on they are searched again, and the number of searches: a wall, a table and a plinth's two sides are four."""
-TIED = 1.25
-"""Energies of layers up to so many times the least are ties: in 18 simulated scenes the least of such energies gave the worse mask as
-often as the better one."""
 BESIDE_POINT = 0.02
 """Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
 DOUBTED, DOUBT_POWER = 0.19, 2.2
@@ -164,11 +158,11 @@ def _by_layers(
     if lit.mean() < LEAST_OF_IMAGE:
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
-    view = _view(image, table, flats.sweep(image, table, distance_m), hints, shape)
-    labels, found, cost = _labelled(view, lit, distance_m)
+    view = view_of(image, table, distance_m, hints, shape, room)
+    planes_found = flats.find(image, table, view.swept, lit, distance_m)
+    labels, found, cost = layers.label(view, planes_found, lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
-    judged = background.in_context(judged, view, labels, *outline.levels_of(image.maps, room, image.factor))
     alone = judged.mask.sum() < LEAST_OF_IMAGE * judged.mask.size
     if alone:
         judged = background.all_of(judged, image.image(lit))
@@ -189,37 +183,14 @@ def _by_layers(
     doubt = background.doubt_of(judged, labels)
     log_odds = background.logit(judged.odds.ravel()).reshape(image.shape)
     apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
-    fine = tidy(outline.drawn(apart, maps, rays_C, room))
-    fine = hints.of(fine & ~outline.openings(maps, rays_C, lights, fine, walls))
+    fine = hints.of(tidy(outline.drawn(apart, maps, rays_C, room)))
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     layer = _layer(fine, labels, behind, kinds, image.factor)
     whole = Found(fine, how, walls, layer=layer, of_plane=of_plane, factor=image.factor)
     return whole if alone else replace(whole, expected_wrong=doubt.share, why=why)
 
 
-def _labelled(view: View, lit: Mask, distance_m: float) -> tuple[Labels, layers.Layers, Array]:
-    """The layers of the coarse pixels; where planes are many, the first of several that none beats clearly.
-
-    Planes are found one after the other, each by what is left: a wall that light from elsewhere bends can come apart at the first, in ways
-    that hang on rounding. Then the search begins again from images with their own noise added.
-    """
-
-    def labelled(image: Coarse) -> tuple[Labels, layers.Layers, Array]:
-        planes_found = flats.find(image, view.table, view.swept, lit, distance_m)
-        return layers.label(view, planes_found, lit, float(np.log(distance_m)))
-
-    first, rng = labelled(view.image), np.random.default_rng(1)
-    if len(first[1].planes) < MANY_PLANES:
-        return first
-    image = view.image
-    noisy = [replace(image, signal=image.signal + image.sigma * rng.standard_normal(image.signal.shape)) for _ in range(STARTS - 1)]
-    starts = [first, *bands.shared(labelled, noisy)]
-    energies = [layers.energy(view, labels, cost) for labels, _, cost in starts]
-    least = min(energies)  # no energy is a tie with one below 0
-    return next(one for one, by in zip(starts, energies, strict=True) if by <= max(TIED * least, least))
-
-
-def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, shape: tuple[int, ...]) -> View:
+def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, shape: tuple[int, ...], room: Image | None) -> View:
     """What labels are judged by, the hints in coarse pixels."""
     rows, columns = image.shape
     allowed = hints.allowed(shape)
@@ -227,7 +198,8 @@ def _view(image: Coarse, table: LightTable, swept: flats.Sweep, hints: Hints, sh
         blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
         allowed = blocks.any(axis=(1, 3))
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
-    return View(image, table, swept, allowed, points)
+    swept, levels = flats.sweep(image, table, distance_m), outline.levels_of(image.maps, room, image.factor)
+    return View(image, table, swept, distance_m, *levels, allowed, points)
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:

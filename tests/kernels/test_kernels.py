@@ -21,7 +21,7 @@ from lpcal.integration.integrate import Grid, system
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.segmentation import background, cut, flats, layers, planes, room_samples, samples
+from lpcal.segmentation import cut, flats, layers, planes, room_samples, samples
 from lpcal.shading import field, gloss, normals, search
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
@@ -406,11 +406,6 @@ def distort(rng: np.random.Generator) -> Array:
     return np.concatenate([found.ravel(), J.ravel()])
 
 
-def trees(rng: np.random.Generator) -> Array:
-    judges = background.Judge.fitted()
-    return np.concatenate([one.log_odds({name: 2 * rng.normal(size=500) for name in one.clues}) for one in (judges.own, judges.context)])
-
-
 def blocks(rng: np.random.Generator) -> Array:
     shape = (3, 45, 61)
     signal, sigma = rng.random(shape, np.float32), 0.1 + rng.random(shape, np.float32)
@@ -502,7 +497,6 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     white: (1e-12, {"white"}),
     plane: (1e-9, {"plane"}),
     cluster: (1e-12, {"cluster"}),
-    trees: (0.0, {"trees"}),
     turns: (1e-10, {"turns"}),
     misses: (1e-13, {"misses"}),
     distort: (1e-13, {"distort"}),

@@ -9,45 +9,12 @@ import pytest
 
 from lit_scene import calibration
 from lpcal.geometry import raster
-from lpcal.segmentation import background, cut, flats, layers, mask, planes, regions, samples
+from lpcal.segmentation import background, cut, flats, layers, mask, planes, samples
+from lpcal.segmentation.clues import View
 from lpcal.segmentation.flats import Sweep
-from lpcal.segmentation.regions import View
 from lpcal.view.coarse import Coarse, LightTable, coarse_of
-from lpcal.view.sight import Grey, light_vectors, ray_map
-
-CARD = (slice(36, 74), slice(50, 105))
-WALL, FLOOR = np.array([0.04, -0.02, 1 / 0.45]), np.array([0.0, 1.0, 0.1]) / 0.06
-WORKING_M = 0.38
-
-
-def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 0) -> tuple[Grey, np.ndarray]:
-    """Maps and rays of planes, each with its albedo (H, W) and where it is seen, the last one on top."""
-    camera = calibration().camera
-    assert camera is not None
-    width, height = camera.image_size
-    rays, lights = ray_map((height, width), camera), calibration().lights
-    signal = np.zeros((len(lights), height, width))
-    for q, albedo, where in parts:
-        sent = np.nan_to_num(planes.predicted(q, rays.reshape(-1, 3), lights).reshape(len(lights), height, width))
-        signal[:, where] = (albedo * sent)[:, where]
-    sigma = np.full_like(signal, 0.004 * np.median(signal))
-    signal += sigma * np.random.default_rng(seed).standard_normal(signal.shape)
-    return Grey(signal.astype(np.float32), sigma.astype(np.float32), np.ones(signal.shape, bool)), rays
-
-
-def scene(pattern: bool = False, card: float | None = 0.7, floor: bool = False) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """A wall, plain or patterned; a card 5 cm before it; a floor under it."""
-    row, column = np.indices((112, 160))
-    everywhere = np.ones((112, 160), bool)
-    on_card = np.zeros_like(everywhere)
-    on_card[CARD] = True
-    albedo = np.where((row // 8 + column // 8) % 2, 0.25, 0.4) if pattern else np.full(everywhere.shape, 0.35)
-    parts = [(WALL, albedo, everywhere)]
-    if floor:
-        parts.append((FLOOR, np.full(everywhere.shape, 0.5), row > 78))
-    if card is not None:
-        parts.append((WALL * 0.45 / 0.4, np.full(everywhere.shape, card), on_card))
-    return parts
+from lpcal.view.sight import light_vectors, ray_map
+from plane_scene import CARD, FLOOR, WALL, WORKING_M, picture, scene
 
 
 def iou(found: np.ndarray, true: np.ndarray) -> float:
@@ -156,7 +123,9 @@ def view_of(
     image = Coarse(signal, np.ones((2, pixels)), np.ones((2, pixels), bool), np.tile([0.0, 0.0, 1.0], (pixels, 1)), shape, 1)
     no_light = LightTable(0.0, 1.0, np.zeros((pixels, 1, 0, 3)), np.zeros((pixels, 1, 0)))
     slanting = np.tile([0.8, 0.0, -0.6], (1, pixels, 1))
-    return View(image, no_light, Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels))), allowed, points)
+    level = np.zeros(shape, np.float32) if bright is None else np.log(bright).astype(np.float32)
+    swept = Sweep(np.full(1, np.log(0.4)), slanting, np.zeros((1, pixels)))
+    return View(image, no_light, swept, WORKING_M, level, None, allowed, points)
 
 
 def costs(labels: np.ndarray, planes_found: int, apart: float = 20.0) -> np.ndarray:
@@ -166,58 +135,6 @@ def costs(labels: np.ndarray, planes_found: int, apart: float = 20.0) -> np.ndar
 
 def object_of(labels: np.ndarray, planes_found: list[np.ndarray], view: View) -> np.ndarray:
     return background.judged(view, labels, planes_found, costs(labels, len(planes_found))).mask
-
-
-def test_regions_are_connected_and_know_their_share_of_the_frame_and_what_lies_beside_them() -> None:
-    labels = np.full((20, 30), 1)
-    labels[5:10, 5:10], labels[12:16, 0:4], labels[0:3, 20:30] = 0, 0, 2
-    found = regions.Regions.of(labels, np.zeros(labels.shape))
-    assert sorted(found.area) == [16, 25, 30, 529]
-    by = {int(area): k for k, area in enumerate(found.area)}
-    assert found.frame()[by[25]] == 0
-    assert found.frame()[by[16]] == pytest.approx(4 / 100)
-    assert found.frame().sum() == pytest.approx(1)
-    first, height, width = found.boxes()
-    assert [(first[by[k]], height[by[k]], width[by[k]]) for k in (25, 16, 30, 529)] == [(5, 5, 5), (12, 4, 4), (0, 3, 10), (0, 20, 30)]
-    beside_free = found.outline(np.ones(len(found.pairs)), found.label == 0)
-    assert beside_free[by[25]] == 0
-    assert beside_free[by[529]] == pytest.approx((20 + 12) / (20 + 12 + 13))
-    assert found.mean(labels)[by[30]] == 2
-
-
-def test_every_clue_has_its_weight_and_every_weight_its_clue() -> None:
-    labels = np.full((20, 30), 1)
-    labels[5:12, 8:20] = 0
-    view, level = view_of(labels.shape), np.zeros(labels.shape, np.float32)
-    judge, judged = background.Judge.fitted(), background.judged(view, labels, [WALL], costs(labels, 1))
-    own, beside = regions.own(judged.pictures, judged.regions), regions.beside(judged.pictures, judged.regions, np.zeros(2))
-    in_context = background.clues_in(judged, view, level, level)
-    assert in_context is not None
-    assert set(judge.own.clues) == set(own)
-    assert set(background.BESIDE) == {"", *beside}
-    assert set(judge.context.clues) == set(in_context)
-    for trees, clues in ((judge.own, own), (judge.context, in_context)):
-        asked = set(trees.clue[trees.clue >= 0])
-        assert asked <= set(range(len(trees.clues)))
-        assert len(asked) > 0.8 * len(trees.clues), "hardly a clue that says nothing"
-        assert trees.log_odds(clues).shape == next(iter(clues.values())).shape
-
-
-def test_trees_sum_the_leaves_that_the_clues_lead_to() -> None:
-    two = background.Trees(
-        ("a", "b"),
-        0.5,
-        np.array([0, 3]),
-        np.array([1, -1, -1, 0, -1, 1, -1, -1]),
-        np.array([2.0, 0, 0, -1.0, 0, 5.0, 0, 0]),
-        np.array([1, 0, 0, 4, 0, 6, 0, 0]),
-        np.array([2, 0, 0, 5, 0, 7, 0, 0]),
-        np.array([0, 10.0, 20.0, 0, 100.0, 0, 200.0, 400.0]),
-    )
-    clues = {"b": np.array([2.0, 2.1, 6.0]), "a": np.array([-1.0, 0.0, 0.0]), "of no tree": np.zeros(3)}
-    np.testing.assert_array_equal(two.log_odds(clues), [0.5 + 10 + 100, 0.5 + 20 + 200, 0.5 + 20 + 400])
-    again = background.Trees.of(two.arrays("one"), "one")
-    np.testing.assert_array_equal(again.log_odds(clues), two.log_odds(clues))
 
 
 def test_what_holds_the_frame_is_background_and_what_lies_in_the_middle_the_object() -> None:
@@ -244,12 +161,17 @@ def test_the_odds_turn_as_a_region_takes_more_of_the_frame() -> None:
     assert odds[0] > 10 * odds[-1]
 
 
-def test_the_background_is_seen_through_a_hole_in_the_object() -> None:
-    for behind, level in ((1, 0.4), (2, 0.005)):  # a wall, and a place that no light reaches
-        labels = np.full((40, 60), behind)
-        labels[8:32, 12:46] = 0
-        labels[14:26, 22:36] = behind
-        assert iou(object_of(labels, [WALL], view_of(labels.shape, bright=np.where(labels == 0, 1.0, level))), labels == 0) > 0.99
+@pytest.mark.parametrize("wall", [True, False], ids=["a wall", "a place that no light reaches"])
+def test_the_background_is_seen_through_a_hole_in_the_object(wall: bool) -> None:
+    """A ring before it, turned to the side."""
+    row, column = np.indices((112, 160))
+    far = np.hypot(row - 56, column - 78)
+    ring = (far < 40) & (far > 18)
+    turned = (WALL + np.array([1.2, 0.3, 0.0])) * 0.45 / 0.4
+    behind = [(WALL, np.full(row.shape, 0.35), np.ones(row.shape, bool))] if wall else []
+    maps, rays = picture([*behind, (turned, np.full(row.shape, 0.7), ring)])
+    maps = replace(maps, sigma=np.full_like(maps.sigma, 0.004 * np.median(maps.signal[:, ring])))
+    assert iou(mask.automatic(maps, rays, calibration().lights, WORKING_M).mask, ring) > 0.95
 
 
 @pytest.mark.parametrize("ambient", [True, False])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lpcal.segmentation.context import KNOWN, MOST, TEXTURE, level, likeness
+from lpcal.segmentation.likeness import KNOWN, MOST, TEXTURE, level, likeness
 
 
 def two_sides(rng: np.random.Generator, step: float) -> tuple[np.ndarray, np.ndarray]:

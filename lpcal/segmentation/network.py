@@ -1,0 +1,121 @@
+r"""A small convolutional network that says of coarse pixels how likely they are the object.
+
+A U-Net: a picture of several channels is convolved and halved three times; the last scale also knows its own means over the picture. On the
+way back each scale is joined with what was found there before. A convolution takes 3 x 3 pixels; outside the picture all is 0::
+
+    y = max(0, b + sum_k W_k x_k)          k: the 9 places
+
+The picture and its mirror image are both judged and the answers' mean taken, so that left and right are alike. tools/fit_mask.py fits the
+weights. Source: Ronneberger, Fischer and Brox 2015, Medical Image Computing and Computer-Assisted Intervention 9351.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from lpcal.geometry.arrays import Array, Image
+
+FITTED = Path(__file__).with_name("mask_network.npz")
+"""Where the fitted weights are."""
+FURTHEST = 6.0
+"""Standard deviations of its channel at which a value is cut off: none that the network has not seen."""
+PLACE = 40.0
+"""Pixels that are a unit of a place in the picture."""
+
+
+@dataclass(frozen=True)
+class Convolution:
+    """Weights and offsets of C channels that become D."""
+
+    weight: npt.NDArray[np.float32]
+    """(9, D, C), row by row."""
+    offset: npt.NDArray[np.float32]
+    """(D,)."""
+
+    def __call__(self, x: Image) -> Image:
+        """Channels (C, rows, columns) convolved and rectified, (D, rows, columns)."""
+        channels, rows, columns = x.shape
+        wide = columns + 2
+        padded = np.zeros((channels, (rows + 2) * wide + 2), np.float32)  # row by row, so that each of the 9 places is a stretch of it
+        padded[:, : (rows + 2) * wide].reshape(channels, rows + 2, wide)[:, 1:-1, 1:-1] = x
+        total = np.zeros((len(self.offset), rows * wide), np.float32)
+        for place, weight in enumerate(self.weight):
+            first = place // 3 * wide + place % 3
+            total += weight @ padded[:, first : first + rows * wide]
+        total += self.offset[:, None]
+        return np.maximum(total, 0, out=total).reshape(-1, rows, wide)[:, :, :columns]
+
+
+@dataclass(frozen=True)
+class Network:
+    """The fitted network."""
+
+    channels: tuple[str, ...]
+    mirrored: npt.NDArray[np.float32]
+    """(C,) -1 for a channel that changes its sign in a mirror, else 1."""
+    middle: npt.NDArray[np.float32]
+    spread: npt.NDArray[np.float32]
+    """(C,) mean and standard deviation of each channel over the pixels that it was fitted to."""
+    steps: Mapping[str, Convolution]
+    weight: npt.NDArray[np.float32]
+    """(D,) of the last channels in the log odds."""
+    offset: float
+
+    @staticmethod
+    @cache
+    def fitted() -> Network:
+        """The one that tools/fit_mask.py has fitted."""
+        with np.load(FITTED) as arrays:
+            return Network.of(arrays)
+
+    @staticmethod
+    def of(arrays: Mapping[str, np.ndarray]) -> Network:
+        """From what a file keeps."""
+        one = {name: np.asarray(value, np.float32) for name, value in arrays.items() if name != "channels"}
+        names = [name.removesuffix(".weight") for name in one if name.endswith(".weight") and name != "out.weight"]
+        steps = {name: Convolution(one[f"{name}.weight"], one[f"{name}.offset"]) for name in names}
+        last = one["out.weight"], one["out.offset"].item()
+        return Network(tuple(map(str, arrays["channels"])), one["mirrored"], one["middle"], one["spread"], steps, *last)
+
+    def log_odds(self, channels: Mapping[str, Array]) -> Array:
+        """Log odds (rows, columns) that pixels are the object, by channels (rows, columns) of these names, of which there may be more."""
+        x = np.stack([np.asarray(channels[name], np.float32) for name in self.channels])
+        mirror = self.mirrored[:, None, None] * x[:, :, ::-1]
+        return np.asarray((self._once(x) + self._once(mirror)[:, ::-1]) / 2, float)
+
+    def _once(self, x: Image) -> Image:
+        rows, columns = x.shape[1:]
+        x = np.clip((x - self.middle[:, None, None]) / self.spread[:, None, None], -FURTHEST, FURTHEST)
+        y, z = ((np.arange(side) + 0.5 - side / 2) / PLACE for side in (rows, columns))
+        place = np.stack(np.meshgrid(y, np.abs(z), indexing="ij")).astype(np.float32)
+        step, seen = self.steps, list[Image]()
+        x = step["in"](np.concatenate([x, place]))
+        for level in ("1", "2", "3"):
+            seen.append(x)
+            x = step[f"down {level}, again"](step[f"down {level}"](halved(x)))
+        x = np.concatenate([x, np.broadcast_to(x.mean(axis=(1, 2), keepdims=True), x.shape)])
+        for level in ("2", "1", "0"):
+            before = seen.pop()
+            x = step[f"up {level}"](np.concatenate([before, doubled(x, before.shape[1:])]))
+        return np.asarray(np.tensordot(self.weight, x, axes=1) + self.offset, np.float32)
+
+
+def halved(x: Image) -> Image:
+    """Means (C, rows / 2, columns / 2) of blocks of 2 x 2 pixels; an odd side's last block is half as large."""
+    for axis in (1, 2):
+        first, second = (x.take(range(k, x.shape[axis], 2), axis=axis) for k in (0, 1))
+        if second.shape[axis] < first.shape[axis]:
+            second = np.concatenate([second, first.take([-1], axis=axis)], axis=axis)
+        x = np.asarray((first + second) / 2, np.float32)
+    return x
+
+
+def doubled(x: Image, shape: tuple[int, ...]) -> Image:
+    """Pixels (C, rows, columns) each as 2 x 2, cut to a shape."""
+    return x.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
