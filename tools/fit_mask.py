@@ -51,8 +51,10 @@ PIERCED, HOLES = 0.35, (0.004, 0.15)
 """Share of the samples in whose object a hole is made, and its area in the object's: drawn objects have few."""
 NOISE, OFFSET = 0.03, 0.1
 """Standard deviations, in those of a channel, of noise added to pixels and to whole channels: of what scenes do not vary."""
-CROPPED, NO_ROOM = 0.5, 0.15
-"""Shares of the samples that are crops, and whose image without lights is left out."""
+CROPPED, NO_ROOM, DARK_ROOM = 0.5, 0.15, 0.2
+"""Shares of the samples that are crops, whose image without lights is left out, and in it the room is dark where lights do not reach it."""
+DARKER = (0.3, 3.0)
+"""Natural logarithm of the ratio of the object's brightness and that of such a room in the image without lights, from and to."""
 OVERLAP = 0.5
 """Weight of 1 - IoU (soft) in the loss, beside the mean logistic loss a pixel of the object's area."""
 NOISIER = 2.0
@@ -197,11 +199,23 @@ def pierced(x: np.ndarray, share: np.ndarray, names: Sequence[str], rng: np.rand
     return x, share
 
 
+def darkened(x: np.ndarray, share: np.ndarray, names: Sequence[str], rng: np.random.Generator) -> np.ndarray:
+    """The same with a room that is dark without the lights, too, where these do not reach it: drawn rooms are not."""
+    far, inside = (x[names.index("nothing")] > 0.5) & (share < 0.5), share > 0.5
+    if not (far.any() and inside.any() and x[names.index("has room")].all()):
+        return x
+    room = x[names.index("room")].copy()
+    room[far] = np.median(room[inside]) - rng.uniform(*DARKER) + rng.normal(0, 0.1, int(far.sum()))
+    return np.where(np.equal(names, "room")[:, None, None], room - np.median(room), x)
+
+
 def sampled(one: Example, names: Sequence[str], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Channels (C, rows, columns) and the object's share (rows, columns) of a crop or the whole, as it is or in a mirror."""
     x, share = np.stack([one.channels[name] for name in names]), one.of_object
     if rng.random() < PIERCED:
         x, share = pierced(x, share, names, rng)
+    if rng.random() < DARK_ROOM:
+        x = darkened(x, share, names, rng)
     if rng.random() < CROPPED:
         rows, columns = crop(share > 0.5, rng)
         if rows.stop - rows.start > SIDES[0] // 3 and columns.stop - columns.start > SIDES[1] // 3:

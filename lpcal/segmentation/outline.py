@@ -22,9 +22,9 @@ from lpcal.segmentation.likeness import MOST, level, likeness
 from lpcal.view.coarse import Coarse, LightTable, joined
 from lpcal.view.sight import Grey, Indices, Sight, look_at, strength
 
-WITH_ROOM = {"": -0.0715, "layers": 0.163, "odds": 0.158, "lights": 0.134, "room": 0.279, "odds, dim": 0.526}
+WITH_ROOM = {"": -0.214, "layers": 0.153, "odds": 0.288, "lights": 0.153, "room": 0.335, "odds, dim": 0.719}
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
-WITHOUT_ROOM = {"": -0.0209, "layers": 0.14, "odds": 0.109, "lights": 0.176}
+WITHOUT_ROOM = {"": -0.184, "layers": 0.144, "odds": 0.292, "lights": 0.177}
 """The same where there is none."""
 LEAN = 0.8
 """Log odds added for the object: rims are darker than what they bound, and without it more is missing than too much. From 0 to 0.8 the mean
@@ -37,8 +37,8 @@ SURE = 3.3
 """Log odds that are full evidence for or against a pixel in the outline."""
 STIFFNESS = 0.6
 """Evidence that a unit of outline must be worth where the picture shows no edge."""
-DIMMEST, DARKEST = 0.02, 0.01
-"""Brightness that is taken for dark: of the image without lights a share of its median, of the lights' one of its 99th percentile."""
+DARKEST = 0.01
+"""Brightness that is taken for dark, as a share of its 99th percentile in the picture."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def levels_of(maps: Grey, room: Image | None, factor: int) -> tuple[Image, Image
     bright = strength(maps)
     return (
         level(bright, DARKEST * float(np.percentile(bright, 99))),
-        None if room is None else level(np.asarray(raster.block_means(room, factor), np.float32), DIMMEST * float(np.median(room))),
+        None if room is None else level(np.asarray(raster.block_means(room, factor), np.float32), DARKEST * float(np.percentile(room, 99))),
     )
 
 
