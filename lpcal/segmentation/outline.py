@@ -22,9 +22,9 @@ from lpcal.segmentation.likeness import MOST, level, likeness
 from lpcal.view.coarse import Coarse, LightTable, joined
 from lpcal.view.sight import Grey, Indices, Sight, look_at, strength
 
-WITH_ROOM = {"": -0.214, "layers": 0.153, "odds": 0.288, "lights": 0.153, "room": 0.335, "odds, dim": 0.719}
+WITH_ROOM = {"": -0.113, "layers": 0.165, "odds": 0.271, "lights": 0.154, "room": 0.324, "odds, dim": 0.721}
 """Weights of a pixel's clues in its log odds where there is an image without lights; "" is the constant. By tools/fit_outline.py."""
-WITHOUT_ROOM = {"": -0.184, "layers": 0.144, "odds": 0.292, "lights": 0.177}
+WITHOUT_ROOM = {"": -0.152, "layers": 0.132, "odds": 0.25, "lights": 0.159}
 """The same where there is none."""
 LEAN = 0.8
 """Log odds added for the object: rims are darker than what they bound, and without it more is missing than too much. From 0 to 0.8 the mean
