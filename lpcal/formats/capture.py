@@ -18,7 +18,7 @@ from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import full_size
 from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
-from lpcal.formats.images import Numbers, read_image, read_numbers
+from lpcal.formats.images import Numbers, read_image, read_numbers, stacked
 from lpcal.formats.marks import named_by_capture
 from lpcal.formats.named_files import (
     RAWS,
@@ -38,7 +38,6 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
 from lpcal.records.sensor import StatedSensor, ToneClaim
-from lpcal.view import bands
 
 SHORT = "short_"
 
@@ -122,10 +121,11 @@ def _read_images(groups: list[list[Path]], reader: _SameSize) -> _Read:
         sieve = full_size.read_all(paths, reader.read, len(groups[0]), first)
         full = sieve.full()
         return _Read([sieve.coarse(range(*both), full) for both in pairwise(ends)], full, sieve)
-    pixels = [first.image.pixels, *bands.shared(lambda path: reader.read(path).image.pixels, paths[1:])]
-    images, *others = (np.stack(pixels[low:high]) if high > low else np.empty(0, np.float32) for low, high in pairwise(ends))
-    full = full_scale(images, reader.step)
-    return _Read([np.asarray(stack / np.float32(full.divisor), np.float32) for stack in (images, *others)], full, None)
+    stacks = [stacked(group, lambda path: first if path == paths[0] else reader.read(path), first.stored.shape) for group in groups]
+    full = full_scale(stacks[0], reader.step)
+    for stack in stacks:
+        np.divide(stack, np.float32(full.divisor), out=stack)
+    return _Read(stacks, full, None)
 
 
 def _flat_field(section: CaptureSection, folder: Path) -> Path | None:

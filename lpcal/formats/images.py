@@ -19,6 +19,7 @@ from __future__ import annotations
 import io
 import struct
 import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,7 @@ from lpcal.geometry.arrays import Image
 from lpcal.geometry.tone_curve import decode
 from lpcal.records.quantities import LEAST_GAMMA, MOST_GAMMA
 from lpcal.records.sensor import ToneClaim
+from lpcal.view import bands
 
 RAW_NUMBERS = ToneClaim("are a camera's raw numbers", 1.0)
 """What a raw file says of its tone curve."""
@@ -129,6 +131,17 @@ def read_numbers(path: Path) -> Numbers:
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
     return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data))
+
+
+def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple[int, ...]) -> Image:
+    """Images of a shape (H, W[, 3]), as fractions of full scale and in their order: (N, H, W[, 3]), (0,) of none; cores share them."""
+    found = np.empty((len(paths), *shape) if paths else 0, np.float32)
+
+    def fill(k: int) -> None:
+        found[k] = read(paths[k]).image.pixels
+
+    bands.shared(fill, range(len(paths)))
+    return found
 
 
 MOST_PIXELS = 250_000_000

@@ -130,12 +130,15 @@ def _kinds() -> dict[str, Any]:
 
 
 def _array_of(dtype: Any) -> Any:
-    """A type of argument that takes contiguous arrays of a dtype and nothing else, in a tenth of the time of numpy's `ndpointer`."""
+    """A type of argument that takes contiguous arrays of a dtype and nothing else, in a twentieth of the time of numpy's `ndpointer`."""
     import numpy as np
 
-    def from_param(_: object, given: object) -> ctypes.c_void_p:
+    def from_param(_: object, given: object) -> object:
         if type(given) is np.ndarray and given.dtype == dtype and given.flags.c_contiguous:
-            return ctypes.c_void_p(given.ctypes.data)
+            try:
+                return ctypes.byref(ctypes.c_char.from_buffer(given))
+            except (TypeError, ValueError):  # not to be written to, or empty
+                return ctypes.c_void_p(given.ctypes.data)
         found = f"{given.dtype} of strides {given.strides}" if isinstance(given, np.ndarray) else type(given).__name__
         raise TypeError(f"{found} where a contiguous array of {dtype} is needed")
 

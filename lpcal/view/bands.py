@@ -37,9 +37,9 @@ def workers() -> int:
 
 
 def bands(pixels: int, lights: int) -> list[slice]:
-    """Slices of all pixels, one a band: an even number of them, equal in size, and four where they hold a quarter of what they may."""
+    """Slices of all pixels, one a band: an even number of them, equal in size, and two where each holds a quarter of what it may."""
     samples = pixels * max(lights, 1)
-    count = max(-(-samples // SAMPLES), min(4, 4 * samples // SAMPLES), 1)
+    count = max(-(-samples // SAMPLES), min(2, 2 * samples // SAMPLES), 1)
     count = min(count + (count > 1 and count % 2), max(pixels, 1))
     ends = [pixels * k // count for k in range(count + 1)]
     return [slice(first, last) for first, last in pairwise(ends)]
