@@ -20,7 +20,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Index
 
 AT_ONCE = 512
-"""Linear forms whose variance is computed at a time: of 5000 parameters they take 20 MB."""
+"""Linear forms whose variance is computed at a time, and rows of a front that are worked on: of 5000 parameters they take 20 MB."""
 
 
 @dataclass(frozen=True)
@@ -106,20 +106,24 @@ class Factor:
         for number, (own, later) in enumerate(steps):
             index = np.concatenate([matrix.rows(block) for block in (*own, *later)])
             place[index] = np.arange(len(index))
-            front = np.zeros((len(index), len(index)))
+            front = np.zeros((len(index), len(index)), order="F")
             for j in own:
                 for i in columns[j]:
                     if step_of[i] >= number:
                         block = matrix.held[i, j] if i >= j else matrix.held[j, i].T
                         front[np.ix_(place[matrix.rows(i)], place[matrix.rows(j)])] = block
             for rows, left in waiting.pop(number, []):
-                front[np.ix_(place[rows], place[rows])] += left
+                for first in range(0, len(rows), AT_ONCE):
+                    some = slice(first, first + AT_ONCE)
+                    front[np.ix_(place[rows[some]], place[rows])] += left[some]
             split = sum(len(matrix.rows(block)) for block in own)
-            L = cholesky(front[:split, :split], lower=True, check_finite=False)
-            below = solve_triangular(L, front[split:, :split].T, lower=True, check_finite=False).T
+            right, left = front[split:, :split], front[split:, split:]
+            L = cholesky(front[:split, :split], lower=True, overwrite_a=not later, check_finite=False)
+            below = solve_triangular(L, right.T, lower=True, check_finite=False).T
             fronts.append(Front(index[:split], index[split:], L, below))
             if later:
-                left = front[split:, split:] - below @ below.T
+                for first in range(0, len(left), AT_ONCE):
+                    left[first : first + AT_ONCE] -= below[first : first + AT_ONCE] @ below.T
                 waiting.setdefault(min(step_of[block] for block in later), []).append((index[split:], left))
         return cls(matrix.size, tuple(fronts))
 
@@ -174,7 +178,7 @@ def columns_of(rows: Sequence[tuple[Index, Array]], size: int) -> Array:
 
 
 def elimination(matrix: BlockMatrix) -> Iterator[tuple[list[int], list[int]]]:
-    """Steps: the blocks that one eliminates, and those that it touches, which are eliminated later; the first block comes last.
+    """Steps: the blocks that one eliminates, and those that it touches, which are eliminated later; the last ends with the first block.
 
     Each step takes the block with the fewest rows beside it, and with it those that touch the same.
     """
@@ -191,6 +195,9 @@ def elimination(matrix: BlockMatrix) -> Iterator[tuple[list[int], list[int]]]:
         alike = [other for other in touched if other and beside[other] | {other} == touched | {one}]
         own, gone = sorted([one, *alike]), {one, *alike}
         later = touched - gone
+        if len(gone) == len(degree):
+            yield [*own, 0], []
+            return
         yield own, sorted(later)
         for block in gone:
             del degree[block]
@@ -198,4 +205,3 @@ def elimination(matrix: BlockMatrix) -> Iterator[tuple[list[int], list[int]]]:
             beside[block] = (beside[block] | later) - gone - {block}
             if block:
                 degree[block] = sum(int(size[other]) for other in beside[block])
-    yield [0], []
