@@ -36,7 +36,7 @@ LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02
 """Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
-DOUBTED, DOUBT_POWER = 0.08, 4.3
+DOUBTED, DOUBT_POWER = 0.094, 4.0
 """Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_outline.py."""
 
 
