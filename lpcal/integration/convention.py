@@ -18,22 +18,17 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
+from lpcal.view.agreed import GRAZING, OUTLIER, RARE
 from lpcal.view.sight import ray_map
 
-GRAZING = 0.2
-"""Cosine between normal and ray below which a pixel's slope, which grows without bound there, is not asked."""
-CUT = 90.0
-"""Percentile of the size of a and b at which larger ones are cut: depth breaks are a smaller share of any map worth integrating."""
 CLEAR = 0.3
 """Likeness, of 1, from which the direction is taken as decided."""
 WILD = 0.5
 """Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
 BLOCKS = (1, 4, 12)
 """Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
-SURE = 6.0
+SURE = 2 * OUTLIER
 """Standard errors by which the likeness must differ from nothing; neighbours are not independent, so three would not be enough."""
-FACING = 0.9
-"""Share of normals that face the camera from which the channels' order is believed."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +127,8 @@ def _asked(p: Array, q: Array, good: Mask) -> Curl:
     if whole.sum() < 2:
         return Curl(0.0, 0.0, 0.0, 0.0)
     median = float(np.median(np.abs(a - b)[whole]))
-    top = float(np.percentile(np.abs(np.concatenate([a[whole], b[whole]])), CUT))
+    size = np.abs(np.concatenate([a[whole], b[whole]]))
+    top = float(np.percentile(size, 100 * (1 - RARE)))  # depth breaks are rarer in any map worth integrating
     a, b = (np.where(whole, np.clip(one, -top, top), 0.0) for one in (a, b))
     beside, below = a[:, :-1] * a[:, 1:], b[:-1] * b[1:]
     twist = np.sqrt(max(float(beside.sum()), 0.0) * max(float(below.sum()), 0.0))
@@ -157,11 +153,11 @@ def _refuse_swapped(name: str, normals_C: Image, mask: Mask, rays_C: Array) -> N
     n = normals_C[mask]
     facing = -np.einsum("pi,pi->p", n, rays_C[mask])
     towards = float(np.mean(facing > 0))
-    if max(towards, 1 - towards) >= FACING and np.median(np.abs(facing)) > GRAZING:
+    if max(towards, 1 - towards) >= 1 - RARE and np.median(np.abs(facing)) > GRAZING:
         return
     shares = [max(float(np.mean(n[:, k] > 0)), float(np.mean(n[:, k] < 0))) for k in range(2)]
     k = int(np.argmax(shares))
-    if shares[k] > FACING and float(np.median(np.abs(n[:, k]))) > float(np.median(np.abs(n[:, 2]))):
+    if shares[k] > 1 - RARE and float(np.median(np.abs(n[:, k]))) > float(np.median(np.abs(n[:, 2]))):
         raise DisagreementError(
             f"the {('red', 'green')[k]} channel has one sign all over the map and the blue one is near 0: the channels are swapped",
             where=name,

@@ -25,21 +25,18 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import multigrid
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
+from lpcal.view.agreed import GRAZING, NEXT_TO_NOTHING, OUTLIER
 from lpcal.view.sight import Indices
 
-STEEPEST = 0.03
-"""Smallest n . v used when normals become depth steps."""
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
-AGAIN = (100.0, 10.0, 1.0, 1.0)
+AGAIN = GRADUATION[2::2]
 """Where the depth is known already."""
 ROUGHLY, FINELY = 1e-4, 1e-6
 """Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 UNEVEN = 0.2
 """Standard deviation of a step, as a share of the difference between the steps that the two normals of an edge predict."""
-ROBUST = 3.0
-LEAST_WEIGHT = 1e-6
-SPREAD = 6.0
+SPREAD = 2 * OUTLIER
 """C is no less than this many medians of the residuals."""
 
 
@@ -84,7 +81,7 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
         found = np.empty(len(grid.a)), np.empty(len(grid.a))
         tilt2 = np.zeros(len(normals)) if tilt_rad is None else np.ascontiguousarray(tilt_rad**2, float)
         given = (np.ascontiguousarray(one, float) for one in (normals, rays_C))
-        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, STEEPEST, *found)
+        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, GRAZING, *found)
         return found
     mean = normals[grid.a] + normals[grid.b]
     mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
@@ -92,18 +89,18 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
     if tilt_rad is not None:
         error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
     if not central:
-        slope = np.minimum(mean[:, 2], -STEEPEST)
+        slope = np.minimum(mean[:, 2], -GRAZING)
         return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
-    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -STEEPEST)
-    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -STEEPEST)
+    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -GRAZING)
+    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -GRAZING)
     return np.log(towards_a / towards_b), np.hypot(off, error * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b))
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
     """The step (edges,) from ray a to ray b on planes of normals n (edges, 3)."""
-    return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -STEEPEST) / np.minimum(lambert.dot(n, r_b), -STEEPEST)))
+    return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -GRAZING) / np.minimum(lambert.dot(n, r_b), -GRAZING)))
 
 
 def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
@@ -129,8 +126,8 @@ def _integrated(
     u, weight = np.array(start, float), np.empty_like(by_pixel[0])
     work, singles = grid.pyramid.work_space(7)
     given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
-    robustly = (ROUGHLY, FINELY, ROBUST, SPREAD, LEAST_WEIGHT)
-    way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, multigrid.ROUNDING)
+    robustly = (ROUGHLY, FINELY, OUTLIER, SPREAD, NEXT_TO_NOTHING)
+    way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, lambert.SINGULAR)
     levels = (len(sizes), sizes, parents, stretches)
     run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, work, singles, band, *way)
     first = finest.to_the_right
@@ -146,8 +143,8 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
 def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     """Weight of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
-    scale = max(ROBUST, SPREAD * float(np.median(np.abs(residual))))
-    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + LEAST_WEIGHT)
+    scale = max(OUTLIER, SPREAD * float(np.median(np.abs(residual))))
+    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + NEXT_TO_NOTHING)
 
 
 def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Matrix, Array]:

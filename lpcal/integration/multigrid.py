@@ -16,15 +16,14 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array
+from lpcal.geometry.lambert import SINGULAR
 from lpcal.kernels.library import kernel
 from lpcal.view.sight import Indices
 
 COARSEST = 200
 """Unknowns from which on a level is not made coarser, but solved directly."""
-LARGEST = 800
+LARGEST = 4 * COARSEST
 """Unknowns of a level that cannot be made coarser, as nothing in it touches, beyond which it is not solved directly."""
-ROUNDING = 1e-12
-"""Share by which the diagonal of the coarsest matrix is raised, so that rounding leaves it positive."""
 SMOOTHING = (1.39, 0.562)
 """Shares of the two Jacobi steps that smooth: reciprocal roots of the polynomial that is least over the matrix's upper eigenvalues, .5 to 2
 relative to its diagonal (Chebyshev). Two equal steps of .7 take a sixth more cycles."""
@@ -155,7 +154,7 @@ def solve(A: Matrix, right: Array, start: Array, *, precision: float = 1e-6, mos
         across, down = A.pyramid.levels[0].by_pixel(A.weight)
         x, work, singles = np.array(start, float), *A.pyramid.work_space()
         given = (np.ascontiguousarray(one, float) for one in (A.hold, across, down, right))
-        run(len(sizes), sizes, parents, stretches, *given, x, work, singles, band, enough, most, *SMOOTHING, OVER_CORRECTION, ROUNDING)
+        run(len(sizes), sizes, parents, stretches, *given, x, work, singles, band, enough, most, *SMOOTHING, OVER_CORRECTION, SINGULAR)
         return x
     levels = _levels(A)
     coarsest = _factor(levels[-1][0]) if levels[-1][0].shape[0] <= LARGEST else None
@@ -193,7 +192,7 @@ def _factor(A: Any) -> Any:
     from scipy import linalg
 
     dense = A.toarray()
-    dense[np.diag_indices_from(dense)] *= 1 + ROUNDING
+    dense[np.diag_indices_from(dense)] *= 1 + SINGULAR  # rounding leaves it positive
     try:
         return linalg.cho_factor(dense, check_finite=False, overwrite_a=True)
     except linalg.LinAlgError:

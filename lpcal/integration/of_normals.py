@@ -25,13 +25,13 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.integration import multigrid, pieces
-from lpcal.integration.integrate import STEEPEST, Grid, steps, system
+from lpcal.integration.integrate import Grid, steps, system
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.surface import Component, Surface
+from lpcal.view.agreed import FEWEST_PIXELS, GRAZING, NEXT_TO_NOTHING
 from lpcal.view.sight import ray_map
 
-FEWEST_PIXELS = 50
 UNKNOWN_DISTANCE = 0.5
 """Relative standard deviation of a distance that is not known."""
 
@@ -109,14 +109,12 @@ def check(name: str, mask: Mask, camera: Camera | None) -> None:
         )
 
 
-ONE_SIDED_ROUNDS, ONE_SIDED_K = 12, 8.0
-ROUNDS, K = 40, 16.0
-ENOUGH = 1e-3
-"""Relative change of the cost at which the rounds end."""
+ONE_SIDED_ROUNDS, ROUNDS = 12, 40
+"""Rounds of the two phases, the second at most."""
+K = 8.0
+"""Steepness of the weights: gaps of an eighth square pixel begin to count."""
 PRECISION = 1e-3
-FLOOR = 1e-9
-HELD = 1e-9
-STEEPEST_EXPONENT = 50.0
+"""Relative residual at which a solve ends, and relative change of the cost at which the rounds do."""
 
 
 def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
@@ -125,19 +123,19 @@ def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: boo
     middle, _ = steps(grid, normals, rays_C, central=central)
     step_a, step_b, pull_a, pull_b = _one_sided(grid, normals, rays_C, central=central)
     w_a, w_b = np.full(len(a), 0.5), np.full(len(a), 0.5)
-    hold, origin, u = np.full(count, HELD), np.zeros(count), np.zeros(count)
+    hold, origin, u = np.full(count, lambert.SINGULAR), np.zeros(count), np.zeros(count)
     before = np.inf
     for k in range(ONE_SIDED_ROUNDS + ROUNDS):
         first = k < ONE_SIDED_ROUNDS
         of_a, of_b = w_a * pull_a, w_b * pull_b
-        weight = np.maximum(of_a + of_b if first else np.sqrt(w_a * w_b) * (pull_a + pull_b), FLOOR * (pull_a + pull_b))
+        weight = np.maximum(of_a + of_b if first else np.sqrt(w_a * w_b) * (pull_a + pull_b), NEXT_TO_NOTHING * (pull_a + pull_b))
         step = (of_a * step_a + of_b * step_b) / np.maximum(of_a + of_b, 1e-12) if first else middle
         A, right = system(grid, weight, step, hold, origin)
         u = multigrid.solve(A, right, u, precision=PRECISION)
         rise = (u[b] - u[a]) ** 2
-        w_a, w_b = _weights(grid, pull_a * rise, pull_b * rise, ONE_SIDED_K if first else K, count)
+        w_a, w_b = _weights(grid, pull_a * rise, pull_b * rise, K, count)
         cost = float(np.sum(weight * (u[b] - u[a] - step) ** 2))
-        if not first and abs(cost - before) < ENOUGH * before:
+        if not first and abs(cost - before) < PRECISION * before:
             break
         before = cost
     return u, np.asarray(2 * np.sqrt(w_a * w_b))
@@ -147,12 +145,12 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
     """Steps (edges,) by the normal of a and of b, and ``(t / h)^2`` of both."""
     n_a, n_b = normals[grid.a], normals[grid.b]
     if not central:
-        t_a, t_b = np.maximum(-n_a[:, 2], STEEPEST), np.maximum(-n_b[:, 2], STEEPEST)
+        t_a, t_b = np.maximum(-n_a[:, 2], GRAZING), np.maximum(-n_b[:, 2], GRAZING)
         along_a, along_b = (np.where(grid.horizontal, n[:, 0], n[:, 1]) for n in (n_a, n_b))
         return along_a / t_a, along_b / t_b, t_a**2, t_b**2
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     own_a, own_b, across_a, across_b = (
-        np.maximum(-np.einsum("ei,ei->e", n, r), STEEPEST) for n, r in ((n_a, r_a), (n_b, r_b), (n_a, r_b), (n_b, r_a))
+        np.maximum(-np.einsum("ei,ei->e", n, r), GRAZING) for n, r in ((n_a, r_a), (n_b, r_b), (n_a, r_b), (n_b, r_a))
     )
     h = np.linalg.norm(r_b - r_a, axis=1)
     return np.log(own_a / across_a), np.log(across_b / own_b), (own_a / h) ** 2, (own_b / h) ** 2
@@ -160,11 +158,13 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
 
 def _weights(grid: Grid, gap_a: Array, gap_b: Array, k: float, count: int) -> tuple[Array, Array]:
     """w_a and w_b (edges,) from the gaps (edges,) that both pixels of an edge see."""
+    from scipy.special import expit
+
     w_a, w_b = np.empty(len(gap_a)), np.empty(len(gap_a))
     for edges in (grid.horizontal, ~grid.horizontal):
         a, b = grid.a[edges], grid.b[edges]
         ahead, behind = np.zeros(count), np.zeros(count)
         ahead[a], behind[b] = gap_a[edges], gap_b[edges]
-        leaning = 1 / (1 + np.exp(-np.clip(k * (behind - ahead), -STEEPEST_EXPONENT, STEEPEST_EXPONENT)))
+        leaning = expit(k * (behind - ahead))
         w_a[edges], w_b[edges] = leaning[a], 1 - leaning[b]
     return w_a, w_b

@@ -7,24 +7,23 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration import multigrid
-from lpcal.integration.integrate import LEAST_WEIGHT, Grid
+from lpcal.integration.integrate import Grid
+from lpcal.integration.mesh import BAND_PIXELS
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
+from lpcal.view.agreed import FEWEST_PIXELS, NEXT_TO_NOTHING, RIM_PX
 from lpcal.view.sight import Indices
 
 BREAK_WEIGHT = 0.02
+"""Weight of an edge under which it is a break: its step is off by two and a half times the C of its weights (integration.integrate)."""
 SMALLEST_SHARE = 0.02
-SLIVER_PX = 4
-SMALLEST_PIXELS = 60
-FAINT = 1e-6
+"""Share of the pixels under which what breaks off is no piece of its own."""
+SLIVER_PX = 2 * RIM_PX
+"""Width of a strip between two breaks that is no piece: each of its pixels lies at a rim."""
 NEARLY = 0.2
 """Share of its extent: a piece whose points deviate more from a plane is not meant to be flat."""
-RIM_PX = 3
-FEWEST = 100
-MOST = 2_000_000
-"""Pixels of a piece at most that take part, spread over it."""
 
 
 def fill(grid: Grid, values: Array, known: Mask) -> Array:
@@ -38,7 +37,7 @@ def fill(grid: Grid, values: Array, known: Mask) -> Array:
     here, there = np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a])
     rim = ~known[here] & known[there]
     here, there = number[here[rim]], there[rim]
-    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + FAINT, float)
+    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + NEXT_TO_NOTHING, float)
     A = Matrix(pyramid, hold, np.ones(len(pyramid.levels[0].a)))
     found = np.where(known[:, None], values, 0.0)
     for channel in range(values.shape[1]):
@@ -65,7 +64,7 @@ def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
     """
     label = connected(grid, (weight > BREAK_WEIGHT) & ~_beside_breaks(grid, weight, mask))
     size = np.bincount(label)
-    smallest = max(SMALLEST_PIXELS, SMALLEST_SHARE * len(label))
+    smallest = max(FEWEST_PIXELS, SMALLEST_SHARE * len(label))
     return _joined(label, np.flatnonzero(size >= smallest), mask)
 
 
@@ -89,7 +88,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
     sliver = ~np.isin(label, kept)
     touched = sliver[grid.a] | sliver[grid.b]
     same = joined[grid.a] == joined[grid.b]
-    return np.where(touched, np.where(same, 1.0, LEAST_WEIGHT), weight)
+    return np.where(touched, np.where(same, 1.0, NEXT_TO_NOTHING), weight)
 
 
 def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
@@ -135,10 +134,10 @@ def flatness(surface: Surface) -> Flatness | None:
     best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
     """
     inside = raster.shrunk(surface.component == 1, RIM_PX)
-    if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST:
+    if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST_PIXELS:
         return None
     places = np.flatnonzero(inside)
-    places = places[:: max(1, len(places) // MOST)]
+    places = places[:: max(1, len(places) // BAND_PIXELS)]
     points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
     centred = points - points.mean(axis=0)
     along = np.linalg.svd(centred.T @ centred)[0]

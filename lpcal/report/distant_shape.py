@@ -18,12 +18,13 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.integration.integrate import Grid
-from lpcal.integration.of_normals import FEWEST_PIXELS, integrate_normals
+from lpcal.integration.of_normals import integrate_normals
 from lpcal.records.calibration import Calibration
 from lpcal.records.surface import Surface
 from lpcal.report.packing import deflate
 from lpcal.report.page_data import BendData
 from lpcal.report.pictures import bounds
+from lpcal.view.agreed import FEWEST_PIXELS
 
 CELLS = 96
 """Cells along the longer side of the coarse grid: the bend of a wrong light model is smooth."""

@@ -32,6 +32,7 @@ from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
 from lpcal.shading.palette import Palette
 from lpcal.view import bands
+from lpcal.view.agreed import DOUBT, GRAZING, OUTLIER2
 from lpcal.view.sight import Lit, Sight
 
 TURN = 0.15
@@ -42,14 +43,14 @@ LINK2 = 4.0
 FRIENDS = 0.5
 """Share of a pixel's known neighbours that are like a start at least: where a shadow ends, samples half in it make up normals that differ
 from pixel to pixel, and a field that begins there stays there. Three of four would leave out all that is thin (rig_a's teapot)."""
-MODEL, SHARED, DARK = 0.02, 0.02, 0.01
-"""What the model lacks, a standard deviation: as a share of a sample, and as shares of a pixel's brightest one in light and in shadow."""
-THROWN_DOUBT = 0.27
-"""Standard deviation of the light reflected by surfaces, as a share of itself."""
-PRICE, HIDDEN = 5.0, 4.0
+SHARED = 0.02
+"""What the model lacks, a standard deviation as a share of a sample and of its pixel's brightest one."""
+DARK = SHARED / 2
+"""The same in shadow."""
+PRICE = 5.0
 """Cost of a sample in shadow that no shape explains, and of a lit one where the depth says that something stands in the way."""
-WARM = 4.0
-"""Temperature at which the states of the samples are soft in the first rounds."""
+WARM = PRICE
+"""Temperature at which the states of the samples are soft in the first rounds: at it that cost says next to nothing."""
 JUNK, ACROSS = 0.5, 6.0
 """A start darker than this share of what lies around, over the object's extent by the second number, is taken for shadow."""
 FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
@@ -60,8 +61,6 @@ ANY_RAD = 0.12
 lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
 SOLVED, MOST_STEPS = 1e-3, 60
 """Residual at which the conjugate gradients stop, and how many steps they take at most."""
-TOWARDS = 0.02
-"""Least cosine of a normal to the viewer."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ def solve(
     b = _begin(seen, grid, start.b) if before is None else before.b
     shine = None if before is None else before.gloss
     rounds = rounds or (ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * (glossy is not None))
-    some = gloss.sample(*seen.signal.shape[::-1])
+    some = gloss.sample(seen.pixels)
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
     albedo = np.linalg.norm(b, axis=1)
     own_samples = np.zeros((seen.pixels, 3, 3))
@@ -124,7 +123,7 @@ def solve(
         drawn, of_palette = (0.0, 0.0) if palette is None else palette.pull(b).on(lambert.unit(b)[0])
         b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
         towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
-        b = b + np.maximum(TOWARDS * albedo - towards, 0.0)[:, None] * v
+        b = b + np.maximum(GRAZING * albedo - towards, 0.0)[:, None] * v
         same = shine == so_far[1] and np.median(albedo) == middle and np.array_equal(b, so_far[0])
         if last and warmth == 1.0 and same:
             break  # every further round would be this one again
@@ -182,21 +181,21 @@ def states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | 
     thrown = 0.0 if lit.thrown is None else np.maximum(lambert.dot(lit.thrown, b), 0.0)
     top = seen.signal.max(axis=0)
     left = seen.signal - thrown if shown is None else seen.signal - thrown - shown
-    noise2 = seen.sigma**2 + (THROWN_DOUBT * thrown) ** 2
-    spread2 = noise2 + (MODEL * seen.signal) ** 2 + (SHARED * top) ** 2
+    noise2 = seen.sigma**2 + (DOUBT * thrown) ** 2
+    spread2 = noise2 + (SHARED * seen.signal) ** 2 + (SHARED * top) ** 2
     if shown is not None:
-        spread2 = spread2 + (gloss.DOUBT * shown) ** 2
+        spread2 = spread2 + (DOUBT * shown) ** 2
     dark, dark2 = seen.signal - thrown, noise2 + (DARK * top) ** 2
     against = dark**2 / dark2 + np.where(bright > 0, PRICE, 0.0) - (left - bright) ** 2 / spread2
     if hidden is not None:
-        against = np.where(hidden, dark**2 / dark2 - (left - bright) ** 2 / spread2 - HIDDEN, against)
+        against = np.where(hidden, dark**2 / dark2 - (left - bright) ** 2 / spread2 - PRICE, against)
     chance = 1 / (1 + np.exp(-np.clip(against / (2 * warmth), -30, 30)))
     return States(left - bright, spread2, dark, dark2, chance)
 
 
 def _weights(seen: Sight, chance: Array, residual: Array, spread2: Array) -> Array:
     """Weights (L, P) of samples in the normal equations, by their chance of being what the residual takes them for."""
-    return np.where(seen.usable, chance / (1 + residual**2 / spread2 / gloss.WIDTH2) ** 2 / spread2, 0.0)
+    return np.where(seen.usable, chance / (1 + residual**2 / spread2 / OUTLIER2) ** 2 / spread2, 0.0)
 
 
 def _given(
@@ -204,7 +203,7 @@ def _given(
 ) -> tuple[object, ...]:
     """What kernels are given of samples, light, b (P, 3), directions to the viewer, and constants."""
     ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
-    constants = np.array([MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, gloss.DOUBT, gloss.WIDTH2, ks, roughness, warmth])
+    constants = np.array([SHARED, SHARED, DARK, DOUBT, PRICE, PRICE, DOUBT, OUTLIER2, ks, roughness, warmth])
     alike = lit.d.strides[1] == lit.E.strides[1] == 0
     light = (lit.d[:, :1], lit.E[:, :1]) if alike else (lit.d, lit.E)
     d, E, signal, sigma, at, view = (np.ascontiguousarray(one, float) for one in (*light, seen.signal, seen.sigma, b, v))
@@ -377,7 +376,7 @@ def _of_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, s
     state = states(seen, lit, b, hidden, shown, 1.0)
     square = state.lit**2 / state.spread2
     reached = seen.usable & (lambert.dot(lit.direct, b) > 0)
-    inliers = reached & (state.chance > 0.5) & (square < gloss.WIDTH2)
+    inliers = reached & (state.chance > 0.5) & (square < OUTLIER2)
     signal = seen.signal if shown is None else seen.signal - shown
     B = lit.B
     own, covariance = lambert.weighted(B, signal, inliers / state.spread2)
@@ -389,6 +388,6 @@ def _of_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, s
         inliers,
         covariance,
         np.sum(np.where(inliers, square, 0.0), axis=0),
-        np.sum(np.where(reached, np.minimum(square, gloss.WIDTH2), 0.0), axis=0),
+        np.sum(np.where(reached, np.minimum(square, OUTLIER2), 0.0), axis=0),
         shown,
     )

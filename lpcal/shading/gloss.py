@@ -22,37 +22,20 @@ import numpy as np
 
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
+from lpcal.shading import normals
 from lpcal.view import bands
+from lpcal.view.agreed import DOUBT, GRAZING, MANY_PIXELS, NEIGHBOURS, NEXT_TO_NOTHING, OUTLIER2, RARE, UNLIKELY
 from lpcal.view.sight import Lit
 
-MOST_PIXELS, FEWEST_PIXELS = 4000, 1000
-"""Pixels of an object that its gloss is fitted to, to twice as many, spread over it, with few lights and with many."""
-SAMPLES = 100_000
-"""Samples, lights times pixels, that the gloss is fitted to where the lights are many: what is fitted are two numbers."""
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
 """Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
 MIRRORED = tuple(np.geomspace(0.01, 1.0, 21))
 """F0 that are tried: a quarter apart, from less than any matter's to a mirror's."""
 COMMON_F0, COMMON_SPREAD = 0.045, 0.5
-"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08."""
-METAL = 0.1
-"""Share of glossy objects taken to have any F0 with equal odds, metals among them."""
+"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08. Metals are RARE: they
+have any F0 with equal odds."""
 MATTE = 0.5
 """Share of objects taken to have no gloss."""
-FAINT = 0.01
-"""Odds of a gloss under which none is taken off."""
-UNLIKELY = 1e-6
-"""Odds, as a share of the greatest, under which a strength and roughness are left out of the means."""
-NEIGHBOURS = 25.0
-"""How many samples are worth one: what the model lacks they have in common with those around."""
-STEEPEST = 0.05
-"""Least cosine to the viewer by which a lobe is reckoned."""
-DOUBT = 0.2
-"""Standard deviation of a lobe, as a share of itself."""
-WIDTH2 = 9.0
-"""Square of a residual, in standard deviations, at which a sample's weight has fallen to a quarter."""
-ROUNDS = 3
-"""Rounds of the robust regression."""
 CLEAR = 0.95
 """Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
 
@@ -81,7 +64,7 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
     a2 = roughness**2
     nh, nd = np.einsum("kpi,pi->kp", h, n), np.einsum("kpi,pi->kp", d, n)
-    nv = np.maximum(np.einsum("pi,pi->p", v, n), STEEPEST)
+    nv = np.maximum(np.einsum("pi,pi->p", v, n), GRAZING)
     D = a2 / (np.pi * (np.maximum(nh, 0) ** 2 * (a2 - 1) + 1) ** 2)
 
     def smith(cosine: Array) -> Array:
@@ -96,26 +79,26 @@ def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
     h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
     a2 = roughness**2
     nh, nd = np.maximum(np.einsum("kpi,pi->kp", h, n), 0.0), np.maximum(np.einsum("kpi,pi->kp", d, n), 0.0)
-    nv = np.maximum(np.einsum("pi,pi->p", v, n), STEEPEST)
+    nv = np.maximum(np.einsum("pi,pi->p", v, n), GRAZING)
     q = nh**2 * (a2 - 1) + 1
     D, s_d, s_v = a2 / (np.pi * q**2), np.sqrt(a2 + (1 - a2) * nd**2), np.sqrt(a2 + (1 - a2) * nv**2)
     S, V = 2 * nd / (nd + s_d + 1e-12), 0.5 / (nv + s_v)
     by_h, by_d = 4 * D * nh * (1 - a2) / q * S * V, D * 2 * a2 / (s_d * (nd + s_d) ** 2 + 1e-12) * V
-    by_v = np.where(nv > STEEPEST, -D * S * V * (1 + (1 - a2) * nv / s_v) / (nv + s_v), 0.0)
+    by_v = np.where(nv > GRAZING, -D * S * V * (1 + (1 - a2) * nv / s_v) / (nv + s_v), 0.0)
     found = np.where(nd > 0, by_h, 0.0)[..., None] * h + np.where(nd > 0, by_d, 0.0)[..., None] * d + by_v[..., None] * v
     return np.asarray(found - np.einsum("kpi,pi->kp", found, n)[..., None] * n)
 
 
-def sample(pixels: int, lights: int) -> slice:
+def sample(pixels: int) -> slice:
     """The pixels that a gloss is fitted to, of so many."""
-    return slice(None, None, max(1, pixels // min(MOST_PIXELS, max(FEWEST_PIXELS, SAMPLES // lights))))
+    return slice(None, None, max(1, pixels // MANY_PIXELS))
 
 
 def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array, per_unit: float) -> Gloss | None:
     """The lobe that residuals (L, P) of variances `spread2` show, by normals n and directions v to the viewer (P, 3).
 
     `weight` (L, P) is 1 for samples that count; `per_unit` is the reflectance by albedo in the signals' unit. None where the
-    odds of a gloss are under FAINT.
+    odds of a gloss are UNLIKELY.
     """
     F0 = np.array(MIRRORED)
     ks, none = F0 * np.pi / per_unit, np.zeros(1)
@@ -129,14 +112,14 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     found = bands.shared(of, ROUGHNESSES)
     cost = np.stack([each for _, each in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
-    prior = (1 - MATTE) * ((1 - METAL) * common / common.sum() + METAL / len(F0)) / len(ROUGHNESSES)
+    prior = (1 - MATTE) * ((1 - RARE) * common / common.sum() + RARE / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
     most = max(float(evidence.max()), 0.0)
     odds = prior * np.exp(evidence - most)
     glossy = float(odds.sum() / (odds.sum() + MATTE * np.exp(-most)))
-    if glossy < FAINT:
+    if glossy < UNLIKELY:
         return None
-    odds = np.where(odds > UNLIKELY * odds.max(), odds, 0.0)
+    odds = np.where(odds > NEXT_TO_NOTHING * odds.max(), odds, 0.0)
     odds = odds / odds.sum()
     strength = glossy * float(np.exp(np.sum(odds * np.log(ks))))
     width = float(np.exp(np.sum(odds * np.log(ROUGHNESSES)[:, None])))
@@ -152,14 +135,14 @@ def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B
     if run := kernel("unexplained"):
         given = (np.ascontiguousarray(one, float) for one in (residual, shape, weight, spread2, B))
         pull, left, own = np.empty((3, *residual.shape))
-        run(*residual.shape, *given, WIDTH2, ROUNDS, pull, left, own)
+        run(*residual.shape, *given, OUTLIER2, normals.ROUNDS, pull, left, own)
         return left, own
     pull = weight / spread2
-    for k in range(ROUNDS + 1):
+    for k in range(normals.ROUNDS + 1):
         left, own = _free_of_b(np.stack([residual, shape]), pull, B)
-        if k < ROUNDS:
+        if k < normals.ROUNDS:
             best = max(float(np.sum(pull * left * own) / max(np.sum(pull * own**2), 1e-300)), 0.0)
-            pull = weight / (1 + (left - best * own) ** 2 / spread2 / WIDTH2) ** 2 / spread2
+            pull = weight / (1 + (left - best * own) ** 2 / spread2 / OUTLIER2) ** 2 / spread2
     return left, own
 
 
@@ -180,11 +163,11 @@ def _costs(left: Array, own: Array, ks: Array, weight: Array, spread2: Array, do
     if run := kernel("lobe_costs"):
         found = np.empty((len(ks), 2))
         given = (np.ascontiguousarray(one, float) for one in (ks, left, own, weight, spread2))
-        run(*left.shape, len(ks), *given, doubt, WIDTH2, float(np.mean(spread2)), found)
+        run(*left.shape, len(ks), *given, doubt, OUTLIER2, float(np.mean(spread2)), found)
         return found
     costs = []
     for one in ks:
         shown, variance = one * own, spread2 + (doubt * one * own) ** 2
-        misfit = np.sum(weight * WIDTH2 * np.log1p((left - shown) ** 2 / variance / WIDTH2))
+        misfit = np.sum(weight * OUTLIER2 * np.log1p((left - shown) ** 2 / variance / OUTLIER2))
         costs.append((misfit, np.sum(weight * np.log(variance))))
     return np.array(costs)

@@ -22,25 +22,21 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
-from lpcal.view.sight import Indices, Lit, Sight, vectors
+from lpcal.view.agreed import GRAZING, OUTLIER, OUTLIER2
+from lpcal.view.sight import LIGHTS_NEEDED, Indices, Lit, Sight, vectors
 
 MODEL = 0.015
+"""What the model lacks, a standard deviation as a share of a sample."""
 SHADOW = 0.15
-DARK_SIGMAS = 3.0
-DOUBT = 0.3
-"""Standard deviation of the gloss, as a share of itself."""
-OUTLIER = 3.0
 ROUNDS = 3
-LEAST = 3
 FEW_LIGHTS = 8
-DARKEST, BRIGHTEST = 0.3, 0.3
+TRIMMED = 0.3
+"""Shares of a pixel's samples, its darkest and its brightest, that may lie in shadow and hold a highlight."""
 WEIGHT_ROUNDS = 6
 SCALE = 1.5
 MAD = 1.4826
 MANY_LANES = 8
 """Pixels that the kernel of many lights works on at once."""
-FACING = -0.02
-"""n . v of a pixel that the camera can see (v the unit ray) is under this."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +55,11 @@ class Estimate:
     """(P,) sum of min(r^2, OUTLIER^2) over the candidates."""
     gloss: Array | None = None
     """(L, P) what was taken off the signals as gloss."""
+
+    @staticmethod
+    def nothing() -> Estimate:
+        """What says nothing of any pixel."""
+        return Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))
 
     @property
     def used(self) -> Array:
@@ -83,27 +84,26 @@ def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
         lit = sight.usable[:, at] & (light > 0)
         shading = np.where(lit, signal / np.maximum(light, 1e-300), 0.0)
         bright = np.partition(shading, -2, axis=0)[-2]
-        found = lit & (shading > SHADOW * bright) & (signal > DARK_SIGMAS * sight.sigma[:, at])
+        found = lit & (shading > SHADOW * bright) & (signal > OUTLIER * sight.sigma[:, at])
         return found if hidden is None else found & ~hidden[:, at]
 
     return np.concatenate(bands.each(sight.pixels, len(E), of), axis=1)
 
 
-def variances(sight: Sight, gloss: Array | None = None) -> Array:
-    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks; a share of the gloss counts as doubt."""
+def variances(sight: Sight) -> Array:
+    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks."""
     variance = MODEL * sight.signal
     variance *= variance
     variance += sight.sigma**2
-    return variance if gloss is None else variance + (DOUBT * gloss) ** 2
+    return variance
 
 
-def estimate(sight: Sight, light: Lit | Array, usable: Mask, variance: Array, gloss: Array | None = None) -> Estimate:
-    """b of each pixel from the samples `usable` (L, P), by light or its vectors (L, P, 3); `gloss` (L, P) is taken off the signal."""
+def estimate(sight: Sight, light: Lit | Array, usable: Mask, variance: Array) -> Estimate:
+    """b of each pixel from the samples `usable` (L, P), by light or its vectors (L, P, 3)."""
     way = _few if len(sight.signal) <= FEW_LIGHTS else _many
 
     def of(at: slice) -> Estimate:
-        signal = sight.signal[:, at] if gloss is None else sight.signal[:, at] - gloss[:, at]
-        return way(signal, vectors(light, at), usable[:, at], variance[:, at], sight.rays_C[at])
+        return way(sight.signal[:, at], vectors(light, at), usable[:, at], variance[:, at], sight.rays_C[at])
 
     return joined(bands.each(sight.pixels, len(sight.signal), of))
 
@@ -121,11 +121,10 @@ def joined(parts: list[Estimate]) -> Estimate:
     )
 
 
-def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate, gloss: Array | None = None) -> float:
-    """Mean of min(r^2, OUTLIER^2) over the samples `usable` (L, P) of an estimate, by their plain variances; `gloss` is taken off."""
-    signal = sight.signal if gloss is None else sight.signal - gloss
-    square = (signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(sight)
-    return float(np.sum(np.where(usable, np.minimum(square, OUTLIER**2), 0.0)) / max(usable.sum(), 1))
+def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate) -> float:
+    """Mean of min(r^2, OUTLIER^2) over the samples `usable` (L, P) of an estimate."""
+    square = (sight.signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(sight)
+    return float(np.sum(np.where(usable, np.minimum(square, OUTLIER2), 0.0)) / max(usable.sum(), 1))
 
 
 def gloss_share(lit: Lit, found: Estimate) -> Array:
@@ -159,19 +158,19 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The best three, then least squares on the inliers, in rounds."""
     if run := kernel("few"):
-        return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER**2, ROUNDS, LEAST, FACING, lambert.SINGULAR))
+        return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER2, ROUNDS, LIGHTS_NEEDED, -GRAZING, lambert.SINGULAR))
     b = _best_three(signal, B, usable, variance)
-    inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
+    inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER2)
     for _ in range(ROUNDS):
         b, covariance = lambert.weighted(B, signal, inliers / variance)
-        inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER**2)
+        inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER2)
     return _judged(signal, B, usable, variance, rays_C, b, covariance)
 
 
 def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
     if run := kernel("many"):
-        ranks, ends = (DARKEST, BRIGHTEST, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER**2, LEAST, FACING, lambert.SINGULAR)
+        ranks, ends = (TRIMMED, TRIMMED, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER2, LIGHTS_NEEDED, -GRAZING, lambert.SINGULAR)
         return _run(run, (signal, B, usable, variance, rays_C), (*ranks, *ends, np.empty(8 * MANY_LANES * len(signal))))
     b = _middle_of_the_ranks(signal, B, usable)
     for _ in range(WEIGHT_ROUNDS):
@@ -196,15 +195,15 @@ def _run(run: Callable[..., None], samples: tuple[Array, Array, Mask, Array, Arr
 def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array, b: Array, covariance: Array) -> Estimate:
     """The estimate with its inliers and misfit; b is NaN where too few agree or the normal looks away."""
     square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
-    inliers = usable & (square < OUTLIER**2)
-    towards = lambert.dot(b, rays_C) < FACING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
-    good = (inliers.sum(axis=0) >= LEAST) & towards
+    inliers = usable & (square < OUTLIER2)
+    towards = lambert.dot(b, rays_C) < -GRAZING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
+    good = (inliers.sum(axis=0) >= LIGHTS_NEEDED) & towards
     return Estimate(
         np.where(good[:, None], b, np.nan),
         inliers,
         covariance,
         np.sum(np.where(inliers, square, 0.0), axis=0),
-        np.sum(np.minimum(square, OUTLIER**2), axis=0),
+        np.sum(np.minimum(square, OUTLIER2), axis=0),
     )
 
 
@@ -220,7 +219,7 @@ def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array
     for three in combinations(range(len(B)), 3):
         b = lambert.three_lights(B, signal, crossed, three)
         square = weight * (signal - lambert.predicted(B, b)) ** 2
-        cost = np.where(usable[list(three)].all(axis=0), np.minimum(square, OUTLIER**2).sum(axis=0), np.inf)
+        cost = np.where(usable[list(three)].all(axis=0), np.minimum(square, OUTLIER2).sum(axis=0), np.inf)
         better = cost < least  # False where b is NaN
         best[better], least[better] = b[better], cost[better]
     return best
@@ -231,7 +230,7 @@ def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask) -> Array:
     shading = np.where(usable, signal / np.maximum(np.linalg.norm(B, axis=2), 1e-300), np.inf)
     rank = np.argsort(np.argsort(shading, axis=0, kind="stable"), axis=0)
     count = usable.sum(axis=0)
-    kept = usable & (rank >= np.floor(DARKEST * count)) & (rank < np.ceil((1 - BRIGHTEST) * count))
+    kept = usable & (rank >= np.floor(TRIMMED * count)) & (rank < np.ceil((1 - TRIMMED) * count))
     return lambert.weighted(B, signal, kept.astype(float))[0]
 
 
@@ -252,6 +251,6 @@ def albedo_of(signal: Array | Image, intensity: Array, lit: Lit, n: Array, found
     `signal` (L, P, C) and `intensity` (L, C) are the channels' own, `n` (P, 3) the normals.
     """
     shading = lambert.predicted(lit.B, n)
-    used = np.where(found.used >= LEAST, found.inliers, seen.usable)
+    used = np.where(found.used >= LIGHTS_NEEDED, found.inliers, seen.usable)
     matte = signal / intensity[:, None] - (0.0 if found.gloss is None else found.gloss[..., None])
     return np.asarray(np.einsum("kp,kpc->pc", used * shading, matte) / np.maximum(np.sum(used * shading**2, axis=0), 1e-12)[:, None])

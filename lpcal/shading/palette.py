@@ -20,22 +20,20 @@ import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array
+from lpcal.view.agreed import RARE
 
-SPAN, BINS = 4.0, 800
-"""Natural logarithms of the albedo to either side of the median that the histogram holds, and its bins: a hundredth each."""
-SIGMA = 0.025
-"""Standard deviation of log albedo within one colour: a texture of some per cent is common."""
-RARE = 0.1
-"""Share of pixels whose albedo is none of the palette's."""
+SPAN = 4.0
+"""Natural logarithms of the albedo to either side of the median that the histogram holds."""
 NARROWEST = 0.05
 """Width of the window in the last rounds, log albedo: that of one colour; the first is eight times as wide, as far as a fold is off."""
 ROUNDS = 3
 """Rounds in which the window narrows."""
 OTHER = 0.08
 """Light from other surfaces and gloss, as a share of what the lamps make of matte matter, at which a pixel says nothing of the palette."""
-
-COLOURS = 4
-"""Albedos of a palette that a search tries at most."""
+SIGMA = NARROWEST / 2
+"""Standard deviation of log albedo within one colour: a texture of some per cent is common."""
+BINS = round(10 * SPAN / NARROWEST)
+"""Bins of the histogram, five to the window's least width."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +95,11 @@ class Palette:
         chance = self.density + RARE / (2 * SPAN)
         return np.asarray(-2 * np.log(chance / chance.max()))
 
-    def colours(self) -> Array:
-        """Logarithms (C,) of the albedos at which it is densest, the likeliest first, at most COLOURS."""
+    def colours(self, most: int) -> Array:
+        """Logarithms (C,) of the albedos at which it is densest, the likeliest first, so many at most."""
         inner = self.density[1:-1]
         top = np.flatnonzero((inner >= self.density[:-2]) & (inner > self.density[2:]) & (inner > RARE / (2 * SPAN))) + 1
-        top = top[np.argsort(-self.density[top], kind="stable")][:COLOURS]
+        top = top[np.argsort(-self.density[top], kind="stable")][:most]
         return np.asarray(self.middle + (top + 0.5) / BINS * 2 * SPAN - SPAN)
 
 

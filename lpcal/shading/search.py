@@ -30,6 +30,7 @@ from lpcal.kernels.library import kernel
 from lpcal.shading import field, gloss, palette
 from lpcal.shading.palette import Palette
 from lpcal.view import bands
+from lpcal.view.agreed import DOUBT, GRAZING, OUTLIER2
 from lpcal.view.sight import Indices, Lit, Sight
 
 DIRECTIONS = 160
@@ -95,9 +96,9 @@ class Costs:
         )
         J = np.zeros(0) if lit.thrown is None else np.ascontiguousarray(lit.thrown, float)
         unlit = np.zeros(0, bool) if self.hidden is None else np.ascontiguousarray(self.hidden)
-        model = (field.MODEL, field.SHARED, field.DARK, field.THROWN_DOUBT, field.PRICE, field.HIDDEN, gloss.DOUBT, gloss.WIDTH2)
+        model = (field.SHARED, field.SHARED, field.DARK, DOUBT, field.PRICE, field.PRICE, DOUBT, OUTLIER2)
         lobe = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
-        c = np.array([*model, *lobe, self.palette.middle, palette.SPAN, field.TOWARDS])
+        c = np.array([*model, *lobe, self.palette.middle, palette.SPAN, GRAZING])
         return d, E, J.size > 0, J, signal, sigma, np.ascontiguousarray(seen.usable), unlit.size > 0, unlit, v, c, len(table), table
 
 
@@ -117,8 +118,8 @@ def _of_one(costs: Costs, b: Array) -> Array:
     hidden = np.zeros(state.lit.shape, bool) if costs.hidden is None else costs.hidden
     in_shadow, as_lit = _robust(state.shadow**2 / state.shadow_spread2), _robust(state.lit**2 / state.spread2)
     in_shadow = in_shadow + np.where((lambert.dot(costs.lit.direct, b) > 0) & ~hidden, field.PRICE, 0.0)
-    least = np.minimum(in_shadow, as_lit + np.where(hidden, field.HIDDEN, 0.0))
-    towards = np.maximum(lambert.dot(v, n), field.TOWARDS)
+    least = np.minimum(in_shadow, as_lit + np.where(hidden, field.PRICE, 0.0))
+    towards = np.maximum(lambert.dot(v, n), GRAZING)
     level = (np.log(np.maximum(albedo, 1e-12)) - colours.middle + palette.SPAN) / (2 * palette.SPAN) * palette.BINS - 0.5
     by_palette = np.interp(level, np.arange(palette.BINS), colours.costs())
     return np.asarray(np.where(costs.seen.usable, least, 0.0).sum(axis=0) - 2 * np.log(towards) + by_palette)
@@ -128,7 +129,7 @@ def _of_directions(costs: Costs, n: Array, most: float) -> tuple[Array, Array]:
     """Least cost (P, D) of normals n (D, 3) over albedos up to one, and those albedos (P, D)."""
     signal = np.where(costs.seen.usable, costs.seen.signal, 0.0)
     by = np.ascontiguousarray(np.argsort(-signal, axis=0, kind="stable")[:SAMPLES], np.int64)
-    levels = np.exp(costs.palette.colours())
+    levels = np.exp(costs.palette.colours(PARTICLES))
     if run := kernel("directions"):
         cost, albedo = np.empty((2, signal.shape[1], len(n)))
         work = np.empty((len(signal), 32))  # BLOCK of kernels/search.c
@@ -155,7 +156,7 @@ def _over_albedos(costs: Costs, n: Array, levels: Array, by: Indices, most: floa
 
 def _robust(square: Array) -> Array:
     """Geman and McClure's cost of squares of residuals in standard deviations."""
-    return square / (1 + square / gloss.WIDTH2)
+    return square / (1 + square / OUTLIER2)
 
 
 def energy(costs: Costs, grid: Grid, b: Array) -> Array:
@@ -199,7 +200,7 @@ def _starts(of: Costs, b: Array, most: float, rng: np.random.Generator) -> Array
     """First candidates (P, PARTICLES, 3): the field's, the least local minima over directions, and one by its odds."""
     n = _hemisphere(DIRECTIONS)
     cost, albedo = of.over_directions(n, most)
-    cost = np.where(of.v @ n.T < gloss.STEEPEST, np.inf, cost)
+    cost = np.where(of.v @ n.T < GRAZING, np.inf, cost)
     beside = np.argsort(-(n @ n.T), axis=1, kind="stable")[:, 1:7]
     lowest = np.ones(cost.shape, bool)
     for one in beside.T:

@@ -26,35 +26,27 @@ from lpcal.integration import pieces
 from lpcal.integration.integrate import Grid, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
-from lpcal.shading import normals
+from lpcal.shading import normals, palette
+from lpcal.shading.normals import Estimate
 from lpcal.surface import distance
 from lpcal.view import bands, coarse
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.coarse import LightTable
 from lpcal.view.crop import Crop
 from lpcal.view.sight import Grey, Lit, Sight, light_vectors, look_at
 
-PIXELS = 1500
-"""Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
 STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
-ROUNDS = 5
-DELTA = 1e-3
-"""Step of log depth over which the light's change with depth is taken."""
 GRADUATED = 2
-"""Rounds whose depths look for their jumps again."""
-OUTLIER2 = normals.OUTLIER**2
-MOST = 50.0
-"""Cost of a pixel at most: one that nothing explains does not decide."""
+"""Rounds until a depth is good enough for what rests on it, and whose depths look for their jumps again."""
+ROUNDS = GRADUATED + palette.ROUNDS
+"""Rounds from a start, as many as a full solve takes before it may end."""
 APART = 0.03
 """Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
 INDEPENDENT = 3.1
 """Independent pixels that an object counts as: regions share the model's errors. By tools/fit_basin_odds.py on simulated scenes."""
 WORKING = 0.3
 """Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
-STATED = 0.02
-"""Odds under which another basin is not reported."""
-PIECE_PIXELS = 600
-"""Pixels of a piece, spread over it, whose samples are fitted at every distance of its sweep."""
 PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
 """Natural logarithms of a piece's distance over its own at which its samples are fitted, a twentieth apart: basins are wider."""
 
@@ -97,7 +89,8 @@ class Basins:
         """Basins other than the likeliest that the images allow: their distance over its, and their odds."""
         odds = odds_of(self.ends, self.lights, self.about_m)
         best = self.ends[0]
-        return [(float(np.exp(np.median(one.u - best.u))), float(p)) for one, p in zip(self.ends[1:], odds[1:], strict=True) if p > STATED]
+        both = zip(self.ends[1:], odds[1:], strict=True)
+        return [(float(np.exp(np.median(one.u - best.u))), float(p)) for one, p in both if p > UNLIKELY]
 
 
 def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
@@ -114,12 +107,12 @@ def search(
     maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
 ) -> Basins | None:
     """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
-    factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
+    factor = max(1, int(np.sqrt(mask.sum() / MANY_PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
     rows, columns = image.shape
     share = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3))
     inside = share > 0.5
-    if inside.sum() < normals.LEAST * 20:
+    if inside.sum() < FEWEST_PIXELS:
         return None
     seen = look_at(image.maps, image.image(image.rays_C), inside, central=True)
     box = Crop.about(inside)
@@ -164,7 +157,7 @@ def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     the light of surfaces. The energy is that of `odds_of`, with the main piece in the working distance's place.
     """
     some = np.flatnonzero(inside)
-    some = some[:: max(1, len(some) // PIECE_PIXELS)]
+    some = some[:: max(1, len(some) // MANY_PIXELS)]
     few, begin = seen.at(some), u[some]
     cost = np.array([_cost_of(few, lights, begin + shift, None if thrown is None else thrown[:, some]) for shift in PIECE_SWEEP])
     away = float(np.median(begin)) + PIECE_SWEEP - main
@@ -190,7 +183,12 @@ def _cost_of(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     """Mean cost of the samples of pixels at log depths u (P,)."""
     lit = Lit(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), thrown)
     found = normals.estimate(seen, lit, normals.candidates(seen, lit.E), normals.variances(seen))
-    return float(np.mean(np.where(np.isfinite(found.b[:, 0]), np.minimum(found.cost, MOST), MOST)))
+    return float(_costs(found).mean())
+
+
+def _costs(found: Estimate) -> Array:
+    """Cost (P,) of the samples of each pixel: all are outliers where nothing explains them."""
+    return np.where(np.isfinite(found.b[:, 0]), found.cost, OUTLIER2 * len(found.inliers))
 
 
 def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
@@ -198,8 +196,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
     pixels = np.arange(seen.pixels)
 
     def slope_of(some: slice) -> Array:
-        far, near = (table.at(u[some] + step, pixels[some])[0] for step in (DELTA, -DELTA))
-        return (far - near) / (2 * DELTA)
+        return table.slope(u[some], pixels[some])
 
     cost = np.inf
     for k in range(ROUNDS + 1):
@@ -212,8 +209,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
         n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
         step, sigma = steps(grid, n, seen.rays_C, central=True)
         strained = np.minimum(((u[grid.b] - u[grid.a] - step) / sigma) ** 2, OUTLIER2)
-        samples = np.where(known, np.minimum(found.cost, MOST), MOST)
-        cost = float(samples.mean() + strained.mean())
+        cost = float(_costs(found).mean() + strained.mean())
         if k == ROUNDS:
             break
         own = distance.own_distance(B, slope_of, np.exp(u), seen, found)

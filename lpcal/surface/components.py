@@ -12,13 +12,11 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.of_normals import UNKNOWN_DISTANCE
 from lpcal.records.surface import Alternative, Component
-from lpcal.shading import normals
 from lpcal.surface import basins, uncertainty
 from lpcal.surface.basins import Basins
 from lpcal.surface.rounds import Scene, State
-
-STATED_DISTANCE = 0.003
-"""Relative standard deviation of a distance that the user states."""
+from lpcal.view.agreed import STATED_STD, UNLIKELY
+from lpcal.view.sight import LIGHTS_NEEDED
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
@@ -29,7 +27,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
         middle = float(depth[inside].mean())
         curvature = float(state.own.curvature[inside].sum())
         if scene.distance_m is not None and one == 1:
-            std = STATED_DISTANCE
+            std = STATED_STD
         elif scene.near:
             fewer = uncertainty.fewer_regions(int(inside.sum()), found[0].pixels) if found else 1.0
             model = state.anchors[int(one)].std if int(one) in state.anchors else fewer * model_std(state, inside)
@@ -49,7 +47,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
 
 def model_std(state: State, inside: Mask) -> float:
     """What the model lacks in the distance of a piece (P,): see uncertainty.model_std."""
-    shaded = float(np.mean(state.found.used[inside] <= normals.LEAST))
+    shaded = float(np.mean(state.found.used[inside] <= LIGHTS_NEEDED))
     shine = state.field.gloss
     return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
@@ -58,8 +56,6 @@ def _by_its_light(scene: Scene, state: State, u: Array, label: Labels, piece: Co
     """A smaller piece no surer than its light is of its distance, and with the others that it allows, by log depths u (P,)."""
     ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, label == piece.label, float(np.median(u[label == 1])))
     std = max(piece.scale_std, ends.std)
-    stated = [
-        (shift, odds) for shift, odds in zip(ends.shift, ends.odds, strict=True) if odds > basins.STATED and abs(shift) > basins.APART
-    ]
+    stated = [(shift, odds) for shift, odds in zip(ends.shift, ends.odds, strict=True) if odds > UNLIKELY and abs(shift) > basins.APART]
     others = tuple(Alternative(float(piece.mean_depth_m * np.exp(shift)), std, float(odds)) for shift, odds in stated)
     return replace(piece, scale_std=std, alternatives=others)

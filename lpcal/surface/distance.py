@@ -22,27 +22,20 @@ from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate, thrown_share, variances
 from lpcal.view import bands
+from lpcal.view.agreed import DOUBT, NEXT_TO_NOTHING, OUTLIER, STATED_STD
 from lpcal.view.sight import Lit, Sight, vectors
 
 FURTHEST = 0.5
 """Most that a pixel's own distance moves log z in a round."""
-SCORE = 3.0
-"""Upper bound on that step, in the pixel's own standard deviations."""
 GLOSS_DOUBT = 2.0
 """Standard deviation of the gloss that was taken off, as a share of it: distances depend on small parts of the signal."""
 ALIKE = 0.005
 """Error that neighbouring samples share, as a share of the signal."""
-UNSEEN_DOUBT, THROWN_DOUBT, SHINE_DOUBT = 0.3, 0.2, 0.5
-"""Further correlated errors, as shares of: the unseen sides about a pixel, the light known to be reflected onto it, and gloss."""
 PATCHES_ACROSS = 40
 """Patches across an object whose pixels are asked for their distance together."""
 ESTRANGED = 1.5
 """Medians of the patches' differences beyond which a patch counts little."""
-LEAST_DIFFERENCE = 0.003
-"""Relative difference of distances under which patches agree."""
 MIND_ROUNDS = 8
-WEAK = 1e-6
-"""Curvature of pixels that do not determine a distance, so that every piece has one."""
 
 
 def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
@@ -61,7 +54,7 @@ def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: 
 def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> Own:
     """The same by light vectors B (L, P, 3) and their slope by u."""
     if run := kernel("own_distance"):
-        constants = np.array([normals.MODEL, GLOSS_DOUBT, WEAK, FURTHEST, SCORE, lambert.SINGULAR])
+        constants = np.array([normals.MODEL, GLOSS_DOUBT, NEXT_TO_NOTHING, FURTHEST, OUTLIER, lambert.SINGULAR])
         gloss = np.zeros(0) if found.gloss is None else found.gloss
         curvature, optimum = np.empty(seen.pixels), np.empty(seen.pixels)
         light, at, sigma, off, b, z = (np.ascontiguousarray(one, float) for one in (B, slope, seen.sigma, gloss, found.b, depth))
@@ -80,8 +73,8 @@ def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> 
     inverse = lambert.inverse_3x3(np.einsum("kpi,kpj->pij", A, A))
     inverse = np.nan_to_num(inverse)
     J_free = J - np.einsum("kpi,pij,pj->kp", A, inverse, np.einsum("kpi,kp->pi", A, J))
-    H = np.sum(J_free**2, axis=0) + WEAK
-    most = np.minimum(FURTHEST, SCORE / np.sqrt(H))
+    H = np.sum(J_free**2, axis=0) + NEXT_TO_NOTHING
+    most = np.minimum(FURTHEST, OUTLIER / np.sqrt(H))
     move = np.clip(-np.sum(J_free * r, axis=0) / H, -most, most)
     return Own(H, np.log(depth) + move)
 
@@ -90,11 +83,10 @@ def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
     """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
     if lit.unseen is None:
         return own
-    square = (UNSEEN_DOUBT * lit.unseen) ** 2 + (THROWN_DOUBT * thrown_share(lit, found)) ** 2
+    square = lit.unseen**2 + thrown_share(lit, found) ** 2
     if found.gloss is not None:
-        shine = np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0)
-        square = square + (SHINE_DOUBT * shine) ** 2
-    return Own(own.curvature / (1 + square / ALIKE**2), own.optimum)
+        square = square + np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0) ** 2
+    return Own(own.curvature / (1 + square * (DOUBT / ALIKE) ** 2), own.optimum)
 
 
 def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
@@ -110,16 +102,16 @@ def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
         return np.asarray(raster.blurred(image, size, "constant")[mask])
 
     H = own.curvature
-    move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), WEAK)
+    move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), NEXT_TO_NOTHING)
     weight = np.ones_like(H)
     for one in np.unique(label):
         inside = label == one
         middle = _median(move[inside], H[inside])
-        scale = max(LEAST_DIFFERENCE, ESTRANGED * _median(np.abs(move[inside] - middle), H[inside]))
+        scale = max(STATED_STD, ESTRANGED * _median(np.abs(move[inside] - middle), H[inside]))
         for _ in range(MIND_ROUNDS):
             weight[inside] = 1 / (1 + ((move[inside] - middle) / scale) ** 2) ** 2
             middle = float(np.average(move[inside], weights=(weight * H)[inside]))
-    return Own(H * weight + WEAK, own.optimum)
+    return Own(H * weight + NEXT_TO_NOTHING, own.optimum)
 
 
 def _median(values: Array, weight: Array) -> float:

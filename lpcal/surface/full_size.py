@@ -25,38 +25,24 @@ from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress
-from lpcal.shading import field, gloss
+from lpcal.shading import field
 from lpcal.shading.field import Field
 from lpcal.shading.gloss import Gloss
 from lpcal.shading.normals import Estimate, albedo_of
 from lpcal.surface import reconstruct, uncertainty
 from lpcal.surface.ground import Ground
-from lpcal.surface.rounds import Scene
+from lpcal.surface.rounds import FULL_ROUNDS, Scene
 from lpcal.view import bands, sight
+from lpcal.view.agreed import GRAZING, NEXT_TO_NOTHING, OUTLIER2
+from lpcal.view.crop import MARGIN_PX
 from lpcal.view.sight import Lit
 
 SAMPLES = 1_500_000
 """Samples, lights times pixels, of a tile: its lists of vectors then take some 200 MB a core."""
-LEAST_SIDE, MOST_SIDE = 128, 512
-"""Pixels of a tile's side, its margin apart."""
-MARGIN_PX = 10
-"""Pixels about a tile that are solved with it: neighbours affect each other over a few."""
-ROUNDS = 3
-"""Rounds of a tile's field: normals begin at the coarse ones, albedos at each pixel's own."""
 SCREEN = 3.0
 """Coarse pixels over which a fine depth is held to the coarse one."""
 INTEGRATED_SIDE = 768
 """Pixels of a tile's side where depths are integrated."""
-BAND_ROWS = 256
-"""Rows of the tiles in which maps are finished."""
-LOOSELY = 1e-3
-"""Share of its hold that the coarse depth has next to its breaks, which it places only to a coarse pixel."""
-FACING = 0.1
-"""Least cosine of a light that is used for a pixel's first albedo."""
-
-
-NO_ESTIMATE = Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))
-"""The estimate of a start that says nothing of single pixels."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +110,11 @@ class Full:
     weight: Array | None
     """Weights of the colours in the grey signal, as in coarse pixels."""
 
+    @property
+    def side(self) -> int:
+        """Pixels of a tile's side, its margin apart."""
+        return int(np.sqrt(SAMPLES / len(self.scene.lights)))
+
     def rays_C(self, rows: slice, columns: slice) -> Array:
         """Rays (h, w, 3) of length 1 in z."""
         rays = np.zeros((rows.stop - rows.start, columns.stop - columns.start, 3))
@@ -137,8 +128,7 @@ class Full:
     def solve(self, progress: Progress) -> Maps:
         """All maps."""
         found = self._blank()
-        side = int(np.clip(np.sqrt(SAMPLES / len(self.scene.lights)), LEAST_SIDE, MOST_SIDE))
-        rows_of_tiles = tiles(self.mask.shape, side, MARGIN_PX)
+        rows_of_tiles = tiles(self.mask.shape, self.side, MARGIN_PX)
         what = f"{self.scene.name}: normals in full size"
         for k, row in enumerate(rows_of_tiles):
             progress(what, k, len(rows_of_tiles))
@@ -176,8 +166,8 @@ class Full:
             hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
         lit = Lit(*sight.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
         n = lambert.unit(ground.between(ground.n, *tile.outer)[inside].astype(float))[0]
-        start = Field(_albedo_by(n, seen, lit, hidden)[:, None] * n, NO_ESTIMATE, self.gloss)
-        whole = field.solve(seen, Grid.of(inside), lit, hidden, start, rounds=ROUNDS)
+        start = Field(_albedo_by(n, seen, lit, hidden)[:, None] * n, Estimate.nothing(), self.gloss)
+        whole = field.solve(seen, Grid.of(inside), lit, hidden, start, rounds=FULL_ROUNDS)
         n = lambert.unit(whole.b)[0]
         signal = radiance.signal[:, inside].reshape(len(seen.signal), seen.pixels, -1)
         intensity = np.stack([light.intensity if signal.shape[2] > 1 else light.intensity[:1] for light in self.scene.lights])
@@ -208,7 +198,7 @@ class Full:
                 found.depth[tile.outer] += ramp * u
                 total[tile.outer] += ramp
         progress(what, len(rows_of_tiles), len(rows_of_tiles))
-        for row in tiles((size[0], 1), BAND_ROWS, 0):
+        for row in tiles((size[0], 1), self.side, 0):
             rows = row[0].rows
             depth = found.depth[rows] / np.maximum(total[rows], 1e-6)
             found.depth[rows] = np.where(self.mask[rows], np.exp(depth) if self.scene.seen.central else depth, np.nan)
@@ -222,7 +212,7 @@ class Full:
         step, sigma = steps(grid, n, rays_C[inside], central=central)
         loose = self.ground.at(self.ground.loose, *tile.outer)[inside]
         hold = 1 / (SCREEN * self.ground.factor * float(np.median(sigma))) ** 2
-        own = Own(np.where(loose, LOOSELY * hold, hold), begin)
+        own = Own(np.where(loose, NEXT_TO_NOTHING * hold, hold), begin)
         u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
         u = settle(grid, step, sigma, own, u, weight)
         holds = np.zeros((2, *inside.shape), bool)
@@ -239,7 +229,7 @@ def finished(full: Full, found: Maps, agree_deg: float, calibration_deg: float) 
     """Normals drawn to those of the depth where both agree, and their standard deviations in place of what noise makes of them."""
     size, margin = full.mask.shape, 4
     before = np.zeros((0, size[1], 3), np.float32)
-    rows_of_tiles = tiles(size, BAND_ROWS, margin)
+    rows_of_tiles = tiles(size, full.side, margin)
     for row in rows_of_tiles:
         rows = row[0].rows
         measured = found.normals[rows].copy()
@@ -284,15 +274,16 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
 def _albedo_by(n: Array, seen: sight.Sight, lit: Lit, hidden: Mask | None) -> Array:
     """Albedo (P,) in the signals' units by normals (P, 3): the samples' factor on the shading, then of those that agree."""
     shading = np.maximum(lambert.dot(lit.d, n), 0.0) * lit.E
-    counted = seen.usable & (shading > FACING * shading.max(axis=0))
+    counted = seen.usable & (shading > GRAZING * shading.max(axis=0))
     if hidden is not None:
         counted &= ~hidden
     weight = counted * shading**2
     total = np.maximum(weight.sum(axis=0), 1e-300)
     albedo = np.einsum("kp,kp->p", counted * shading, seen.signal) / total
     for _ in range(2):
-        square = (seen.signal - albedo * shading) ** 2 / (seen.sigma**2 + (field.MODEL * seen.signal) ** 2 + (0.1 * albedo * shading) ** 2)
-        robust = counted / (1 + square / gloss.WIDTH2) ** 2
+        spread2 = seen.sigma**2 + (field.SHARED * seen.signal) ** 2 + (0.1 * albedo * shading) ** 2
+        square = (seen.signal - albedo * shading) ** 2 / spread2
+        robust = counted / (1 + square / OUTLIER2) ** 2
         albedo = np.sum(robust * shading * seen.signal, axis=0) / np.maximum(np.sum(robust * shading**2, axis=0), 1e-300)
     return np.maximum(albedo, 1e-9)
 

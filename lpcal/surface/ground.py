@@ -9,15 +9,12 @@ import numpy.typing as npt
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.integration.integrate import STEEPEST
 from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading.normals import thrown_share
 from lpcal.surface import rounds
 from lpcal.surface.rounds import Scene, State
+from lpcal.view.agreed import GRAZING
 from lpcal.view.sight import Indices, Lit
-
-LOOSE_PX = 1
-"""Coarse pixels about a break of the surface in which the coarse depth does not hold the fine one."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +35,7 @@ class Ground:
     hidden: Mask | None
     """(h, w, L) which lights the surface hides."""
     loose: Mask
-    """Where the surface breaks."""
+    """Where the surface breaks, or next to it: there the coarse depth does not hold the fine one."""
     nearest: Indices
     """(2, h, w) row and column of the nearest pixel of the object."""
 
@@ -61,7 +58,7 @@ class Ground:
         broken = state.weight <= BREAK_WEIGHT
         at = np.zeros(scene.seen.pixels, bool)
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
-        loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool), LOOSE_PX)
+        loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool))
         share = np.asarray(filled(thrown_share(lit, state.found).astype(np.float32)), np.float32)
         u, n = np.asarray(filled(state.u)), np.asarray(filled(normals_C[mask].astype(float)))
         return Ground(factor, rays_C[tuple(nearest)], u, n, thrown, unseen, share, hidden, np.asarray(loose), nearest)
@@ -88,12 +85,12 @@ class Ground:
         n, u = self.at(self.n, rows, columns), self.at(self.u, rows, columns)
         if self.rays_C[..., :2].any():
             there = self.at(self.rays_C, rows, columns)
-            towards = (np.minimum(np.einsum("hwi,hwi->hw", n, ray), -STEEPEST) for ray in (there, rays_C))
+            towards = (np.minimum(np.einsum("hwi,hwi->hw", n, ray), -GRAZING) for ray in (there, rays_C))
             first, last = towards
             return np.asarray(u + np.log(first / last))
         row, column = np.meshgrid(np.arange(rows.start, rows.stop), np.arange(columns.start, columns.stop), indexing="ij")
         middle = self.factor * self.nearest[:, *np.ix_(*self.place(rows, columns))] + (self.factor - 1) / 2
-        slope = np.minimum(n[..., 2], -STEEPEST)
+        slope = np.minimum(n[..., 2], -GRAZING)
         return np.asarray(self.factor * u - (n[..., 0] * (column - middle[1]) + n[..., 1] * (row - middle[0])) / slope)
 
 

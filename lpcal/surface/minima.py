@@ -14,9 +14,10 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.integration import pieces
-from lpcal.integration.integrate import ROBUST, Grid, Own, integrate, steps
+from lpcal.integration.integrate import Grid, Own, integrate, steps
 from lpcal.shading import field, search
 from lpcal.shading.field import Field
+from lpcal.view.agreed import OUTLIER2
 from lpcal.view.sight import Sight
 
 
@@ -46,5 +47,5 @@ def _depth_energy(seen: Sight, grid: Grid, own: Own, u: Array, b: Array) -> Arra
     step, sigma = steps(grid, lambert.unit(b)[0], seen.rays_C, central=seen.central)
     depth, _ = integrate(grid, step, sigma, own, u, graduated=False)
     square = ((depth[grid.b] - depth[grid.a] - step) / sigma) ** 2
-    cost = square / (1 + square / ROBUST**2) / 2
+    cost = square / (1 + square / OUTLIER2) / 2
     return np.asarray(np.bincount(grid.a, cost, len(u)) + np.bincount(grid.b, cost, len(u)))

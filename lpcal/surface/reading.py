@@ -10,8 +10,8 @@ s::
 
     p(s) ~ N(log s; 0, w^2) [ h N(r; t_hit(s), v) + (1 - h) / REACH ]
 
-with h = HITS where the beam meets the piece at all, else 0: it may have met the wall, a thread, nothing. So a reading that no distance of
-the object explains moves nothing, and says so; where light allows several distances, each is weighed by the sum of its p(s).
+with h = 1 - RARE where the beam meets the piece at all, else 0: it may have met the wall, a thread, nothing. So a reading that no distance
+of the object explains moves nothing, and says so; where light allows several distances, each is weighed by the sum of its p(s).
 Source: the mixture of a rangefinder's hit and its random readings, Thrun, Burgard & Fox, Probabilistic Robotics (2005), chapter 6.
 """
 
@@ -27,29 +27,18 @@ from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
 from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface.basins import INDEPENDENT, Basins, odds_of
+from lpcal.view.agreed import OUTLIER, RARE, STATED_STD, UNLIKELY
 
-HITS = 0.9
-"""Odds that a beam that would meet the object is read there: specks of gloss and edges take the rest."""
 REACH_M = 2.0
 """Metres over which a reading of something else may lie: as far as such sensors reach."""
-NEAREST_M, STEP_M = 0.05, 5e-4
-"""Where along the beam the search begins, and its steps: less than a pixel's width on the object."""
-WIDEST = 0.9
-"""Largest log of the scale that is asked."""
-SIGMAS, NODES = 6.0, 1201
-"""How far the grid of scales reaches in standard deviations, and its nodes."""
-LIKELY = 0.02
-"""Odds under which another distance is not stated any more."""
-SETTLED = 0.5
-"""Odds of a hit from which the reading is an anchor; below, it is of something else."""
+STEP_M = 5e-4
+"""Steps of the search along the beam: less than a pixel's width on the object."""
+NODES = 1201
+"""Nodes of the grid of scales."""
 COARSE_STD = 0.02
 """Relative standard deviation of a distance that rounds in coarse pixels come to, within its basin."""
-LEAST_LIGHT_STD = 5e-4
-"""Relative, of near light's estimate of a distance: no smaller stated value is used."""
 SLOPE = 0.5
 """Tangent of the usual angle between the object's surface and the beam's cross-section: by it an error across the beam acts along it."""
-WORTH_A_ROUND = 2e-4
-"""Relative move of a piece from which its normals are found again."""
 
 
 @dataclass(frozen=True)
@@ -103,20 +92,20 @@ def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
     """Combine a reading with near light's estimate, of relative standard deviation `light_std`, of a piece's distance."""
     sensor, reading_m = read.sensor, read.reading_m
     r, std_m = sensor.along_m(reading_m), float(np.hypot(sensor.std_m(reading_m), SLOPE * sensor.across_std_m(reading_m)))
-    half = min(max(SIGMAS * light_std, 1e-3), WIDEST)
+    half = max(2 * OUTLIER * light_std, 1e-3)
     grid = np.linspace(-half, half, NODES)
     t_hit = _hits(sensor, piece, np.exp(grid))
     light = np.exp(-0.5 * (grid / light_std) ** 2)
     light = light / light.sum()
     meets = np.isfinite(t_hit)
     near = np.where(meets, np.nan_to_num(np.exp(-0.5 * ((r - np.where(meets, t_hit, 0.0)) / std_m) ** 2)), 0.0)
-    met = HITS * near / (std_m * np.sqrt(2 * np.pi))
-    elsewhere = np.where(meets, 1 - HITS, 1.0) / REACH_M
+    met = (1 - RARE) * near / (std_m * np.sqrt(2 * np.pi))
+    elsewhere = np.where(meets, RARE, 1.0) / REACH_M
     evidence, hit = float(np.sum(light * (met + elsewhere))), float(np.sum(light * met))
     odds = hit / evidence
     weight = light * met / max(hit, 1e-300)
-    mean = float(np.sum(weight * grid)) if odds > SETTLED else 0.0
-    std = float(np.sqrt(np.sum(weight * (grid - mean) ** 2))) if odds > SETTLED else light_std
+    mean = float(np.sum(weight * grid)) if odds > 0.5 else 0.0
+    std = float(np.sqrt(np.sum(weight * (grid - mean) ** 2))) if odds > 0.5 else light_std
     middle = float(t_hit[NODES // 2])
     return Word(mean, std if std > 0 else light_std, odds, float(np.log(evidence)), middle)
 
@@ -158,7 +147,7 @@ def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
     own = next(one for one in surface.components if one.label == label)
     light_std = own.scale_std
     depth = np.where(surface.component == label, surface.depth, np.nan)
-    found = word(read, DepthMap(depth, camera), max(light_std, LEAST_LIGHT_STD))
+    found = word(read, DepthMap(depth, camera), max(light_std, STATED_STD))
     expected_m = read.sensor.bias_m + read.sensor.scale * found.expected_m
     moved = float(np.expm1(found.log_scale))
     figures = DistanceRead(reading_m=read.reading_m, expected_m=expected_m, hit=found.hit, moved=moved)
@@ -166,24 +155,22 @@ def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
 
 
 def _left(own: Component, read: Reading, piece: DepthMap, found: Word) -> tuple[Alternative, ...]:
-    """A piece's other distances with their odds by light and reading, those without LIKELY odds left out."""
+    """A piece's other distances with their odds by light and reading, those of UNLIKELY odds left out."""
     ratios = [1.0, *(other.mean_depth_m / own.mean_depth_m for other in own.alternatives)]
     odds = np.array([max(1 - sum(other.odds for other in own.alternatives), 1e-3), *(other.odds for other in own.alternatives)])
     here = np.exp(found.log_scale)
-    said = [
-        word(read, replace(piece, depth=piece.depth * ratio * (here if k == 0 else 1.0)), LEAST_LIGHT_STD) for k, ratio in enumerate(ratios)
-    ]
+    said = [word(read, replace(piece, depth=piece.depth * ratio * (here if k == 0 else 1.0)), STATED_STD) for k, ratio in enumerate(ratios)]
     evidence = np.array([one.log_evidence for one in said])
     odds = odds * np.exp(evidence - evidence.max())
     odds = odds / odds.sum()
     both = zip(own.alternatives, odds[1:], strict=True)
-    return tuple(replace(other, odds=float(one)) for other, one in both if one > LIKELY)
+    return tuple(replace(other, odds=float(one)) for other, one in both if one > UNLIKELY)
 
 
 def said_of(surface: Surface, said: Said) -> Surface:
     """The surface with the distance of its piece as sure as the reading makes it, and what was read among its figures."""
     figures = replace(surface.figures, distance_reading=said.figures)
-    if said.word is None or said.word.hit <= SETTLED:
+    if said.word is None or said.word.hit <= 0.5:
         return replace(surface, figures=figures)
     std = said.word.std
     pieces = tuple(
@@ -198,7 +185,7 @@ def said_of(surface: Surface, said: Said) -> Surface:
 def _label_met(read: Reading, piece: DepthMap, label: Labels) -> int:
     """The piece (of labels (H, W)) that the beam meets first, or that it passes nearest to where it is read; 0 where it meets none."""
     sensor = read.sensor
-    t = np.arange(NEAREST_M, REACH_M, STEP_M)
+    t = np.arange(STEP_M, REACH_M, STEP_M)
     x_C = sensor.position_C + t[:, None] * sensor.direction_C
     depth = piece.depth_at(x_C)
     behind: Mask = np.isfinite(depth) & (x_C[:, 2] >= depth)
@@ -215,7 +202,7 @@ def _label_met(read: Reading, piece: DepthMap, label: Labels) -> int:
 
 def _hits(sensor: DistanceSensor, piece: DepthMap, scales: Array) -> Array:
     """Distance along the beam (S,) at which it first meets the piece scaled by each of some increasing scales; NaN where it does not."""
-    t = np.arange(NEAREST_M, REACH_M, STEP_M)
+    t = np.arange(STEP_M, REACH_M, STEP_M)
     x_C = sensor.position_C + t[:, None] * sensor.direction_C
     ahead = x_C[:, 2] > 0.01
     t, x_C = t[ahead], x_C[ahead]

@@ -22,7 +22,7 @@ from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.integration import pieces
-from lpcal.integration.integrate import Grid
+from lpcal.integration.integrate import NORMAL_ERROR_RAD, Grid
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
@@ -36,14 +36,15 @@ from lpcal.shading.normals import albedo_of
 from lpcal.surface import basins, components, reading, rounds, self_calibration, shadow_anchor, surroundings, uncertainty, without_ambient
 from lpcal.surface.basins import Basins
 from lpcal.surface.reading import Reading
-from lpcal.surface.rounds import FEWEST_PIXELS, Scene, State
+from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
 from lpcal.view import bands, sight
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS
 from lpcal.view.sight import Sight
 
-AGREE_DEG = 2.0
-"""A measured normal and that of the depth are averaged where they agree this well."""
-DISTANCE_M = 0.35
+AGREE_DEG = float(np.degrees(NORMAL_ERROR_RAD))
+"""A measured normal and that of the depth are averaged where they agree as well as the steps of the depth take them to."""
+DISTANCE_M = uncertainty.WORKING_M
 """Where nothing else says how far away the object is."""
 
 
@@ -204,7 +205,7 @@ def _read(
     if options.reading is None or options.distance_m is not None or camera is None:
         return state, surface
     said = reading.of_surface(surface, camera, options.reading)
-    if said.word is not None and abs(said.word.log_scale) > reading.WORTH_A_ROUND:
+    if said.word is not None and abs(said.word.log_scale) > rounds.SETTLED:
         inside = surface.component[scene.seen.mask] == said.label
         u = state.u + said.word.log_scale * inside
         again = rounds.once(scene, u, state)
@@ -331,8 +332,6 @@ SPAN = (0.5, 40.0)
 """Nearest and furthest object that is tried, as shares of the lights' spread: nearer, lights graze it; farther, they are all alike."""
 STEPS = 27
 """Distances of the sweep, each 18 per cent beyond the last: the rounds find the rest from there."""
-PIXELS = 600
-"""Pixels that are asked, evenly over the object."""
 BRIGHT = 0.2
 """Share of the image's 99th percentile above which a pixel under some light takes part where no mask is given."""
 
@@ -345,7 +344,7 @@ def distance_m(maps: sight.Grey, rays_C: Array, lights: Sequence[Light], mask: M
     brightest = maps.signal.max(axis=0)
     asked = brightest > BRIGHT * np.percentile(brightest, 99) if mask is None or not mask.any() else mask
     seen = sight.look_at(maps, rays_C, asked, central=True)
-    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(PIXELS, seen.pixels)).astype(int)))
+    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int)))
     cost = []
     for z in sweep:
         d, E = sight.light_vectors(lights, some.points_C(np.full(some.pixels, z)))

@@ -26,23 +26,21 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.view import bands
+from lpcal.view.agreed import GRAZING, MANY_PIXELS, SHADOW_STEPS
 from lpcal.view.sight import Indices, Sight, light_vectors, powers
 
 TOLERANCE = 0.003
 """Share of the depth by which a point must lie behind the surface to be hidden."""
 THICKNESS = 0.2
 """Share of the depth that a body is taken to reach behind its front."""
-FIT_PIXELS = 2000
 DIRECTIONS = 64
+"""Directions about a patch that are followed."""
 REACHES = np.geomspace(0.01, 0.35, 12)
 """Distances along a ray at which occlusion by the body is tested, as shares of the depth."""
 HALVINGS = 4
+"""Halvings of the last of these distances that find where the ray entered."""
 UNSEEN = 0.008
 """Share of the depth: a ray that enters the body this far behind the visible front came through a side that is not seen."""
-GRAZING = 0.1
-OFF = 0.004
-"""Share of the depth by which shadow rays start in front of the side."""
-SHADOW_STEPS = 24
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,7 @@ class Relief:
         outside = -np.inf if to_rim else np.inf
         front = np.full(seen.mask.shape, outside)
         front[seen.mask] = depth
-        some = slice(None, None, max(1, seen.pixels // FIT_PIXELS))
+        some = slice(None, None, max(1, seen.pixels // MANY_PIXELS))
         places = np.stack(np.nonzero(seen.mask)[::-1], axis=1)
         first = places.min(axis=0)
         pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), (places[some] - first).astype(float), rcond=None)[0]
@@ -175,7 +173,7 @@ def _shading(y_C: Array, way: Array, relief: Relief, lights: Sequence[Light]) ->
     ray = y_C / np.linalg.norm(y_C, axis=1, keepdims=True)
     m = -way
     m = lambert.unit(m - lambert.dot(m, ray)[:, None] * ray)[0]
-    before_C = y_C - OFF * y_C[:, 2:] * way
+    before_C = y_C - TOLERANCE * y_C[:, 2:] * way
     shading = np.empty((len(lights), len(y_C)))
     for k, light in enumerate(lights):
         d, E = light_vectors([light], y_C)

@@ -28,6 +28,8 @@ from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
 from lpcal.view import bands, sight
+from lpcal.view.agreed import FEWEST_PIXELS, GRAZING, NEXT_TO_NOTHING, SHADOW_STEPS, STATED_STD
+from lpcal.view.coarse import SPAN
 from lpcal.view.crop import Crop
 from lpcal.view.sight import Lit, Sight
 
@@ -35,25 +37,14 @@ ROUNDS = 9
 """Rounds at most: two settle the depth, the others what depends on it."""
 SETTLED = 2e-4
 """Median change of log depth under which a round is the last: a thirtieth of the least relative standard deviation of a distance."""
-SETTLED_PIECE = 2e-3
-"""The same of pieces that have broken off: a third of the least standard deviation."""
-GLOSS_ROUND = 1
-"""From which on gloss is looked for: at a wrong depth a lobe can fit by chance."""
-SHAPE_ROUND = 2
-"""From which on the depth is good enough to find which lights it hides and what its parts reflect onto each other."""
-SHADOW_STEPS = 64
+SETTLED_PIECE = 10 * SETTLED
+"""The same of pieces that have broken off, whose distances are less sure."""
+SHAPE_ROUND = basins.GRADUATED
+"""From which on the depth is good enough to find gloss, which lights it hides and what its parts reflect onto each other."""
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""
-SLANTED = 0.1
-"""Least cosine in the prediction of an unoccluded light's signal: a shadow may have turned the normals away from the light."""
-SPAN = float(np.log(4))
-"""Natural logarithm of a depth over the median one at most: only wrong slopes lead beyond a quarter or four times it."""
-SHAPED_ROUND = SHAPE_ROUND + palette.ROUNDS
+SHAPED_ROUND = basins.ROUNDS
 """The first that may be the last: the window of the palette has narrowed by then."""
-FEWEST_PIXELS = 50
-HELD_STD = 0.003
-"""Standard deviation of a pixel's log depth where other views hold it, a millimetre: the steps between pixels, which the normals measure to
-a tenth of that, make the shape, the other views its distance."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from estimates of single pixels."""
 FULL_ROUNDS = 3
@@ -107,8 +98,8 @@ class Held:
         return float(np.exp(np.median(self.u)))
 
     def own(self) -> Own:
-        """Each pixel's distance."""
-        return Own(np.full(len(self.u), HELD_STD**-2.0), self.u)
+        """Each pixel's distance: the steps between pixels make the shape, which normals measure to a tenth of its standard deviation."""
+        return Own(np.full(len(self.u), STATED_STD**-2.0), self.u)
 
 
 @dataclass(frozen=True)
@@ -289,7 +280,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         usable,
         hidden,
         before,
-        glossy if (k >= GLOSS_ROUND or not scene.near) and not (thrown_known or gloss_known) else None,
+        glossy if (k >= SHAPE_ROUND or not scene.near) and not (thrown_known or gloss_known) else None,
         CARRIED_ROUNDS if thrown_known else None,
         albedos,
     )
@@ -302,15 +293,14 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         own = distance.doubted(own, lit, seen, found)
         own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
-        own = Own(np.full(seen.pixels, distance.WEAK), u)
+        own = Own(np.full(seen.pixels, NEXT_TO_NOTHING), u)
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
     weight = pieces.without_slivers(grid, weight, seen.mask)
     if scene.near and shaped is None and scene.held is None:
         own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
     if scene.near:
-        middle = float(np.median(u))
-        u = np.clip(u, middle - SPAN, middle + SPAN)
+        u = np.clip(u, *(np.median(u) + np.log(SPAN)))  # only wrong slopes lead further
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
@@ -325,7 +315,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
     albedo = np.linalg.norm(before.field.b, axis=1)
-    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), SLANTED)
+    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), GRAZING)
     dark = ~(seen.signal > SHADED * expected)
     by_object, by_any = np.zeros_like(dark), np.zeros_like(dark)
 

@@ -38,18 +38,13 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, RARE
 from lpcal.view.sight import Lit, Sight, vectors
 
 CONDITION = 1e5
 """Condition of a pixel's normal matrix over which its lights determine no normal."""
-LIGHTS_NEEDED, PIXELS_NEEDED = 5, 300
-"""Lights and pixels from which powers are looked for."""
-MOST_PIXELS = 3000
-"""Pixels that are looked at, spread over the object: they give powers to a fraction of a per cent."""
-SHADED, SHINING = 0.25, 0.1
-"""Shares of a pixel's samples, its darkest and its brightest, that may lie in shadow and hold a highlight."""
-SPARE = 2
-"""Samples more than three that a pixel needs."""
+LIGHTS_NEEDED = 5
+"""Lights, and samples of a pixel, from which powers are looked for."""
 NEEDED_GAIN = 1.2
 """A half's misfit must fall by this factor under the intensities of the other half, in the geometric mean over the halves.
 
@@ -57,13 +52,6 @@ Simulated equal lights give 1.003 at most, whatever the gloss and the shadows; u
 than equal ones."""
 TRIMS = 4
 """Rounds in which the worse half of the pixels is left out: gloss then biases two to four times less, and no less in further rounds."""
-ACCEPTED = (0.2, 5.0)
-LIGHTS_TO_EXCHANGE = 6
-"""Lights from which two that are exchanged leave four that agree on a surface."""
-FEW_PIXELS, MOST_PAIRS = 800, 3_000_000
-"""Pixels that are looked at where the lights are many, and how many pairs of lights at pixels: each image is held against every light."""
-PIXELS_A_HALF = 50
-"""Pixels of a half of the object from which its median is one."""
 NEEDED_FALL = 2.0
 """By what factor the misses of images that change places must fall at least, in the geometric mean and in every half of the object: what
 the model lacks of a light's own image (gloss, shadows, interreflection) makes another light fit it as well, never twice as well."""
@@ -153,24 +141,24 @@ def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
         left_out = space.misfits(h[:, None] * signal)
         matte = left_out <= np.median(left_out)
         h = space.at(matte).factors(signal[:, matte])
-    found = (1 / h) / np.mean(1 / h) if np.all(h > 0) else np.zeros(len(h))
-    if not (ACCEPTED[0] < found.min() and found.max() < ACCEPTED[1]):
+    if not np.all(h > 0):
         return None
+    found = (1 / h) / np.mean(1 / h)
     equal, theirs = space.misfit(signal), space.misfit_by_halves(signal, halves(h[:, None] * signal, weight, B))
     return found if equal > NEEDED_GAIN * theirs else None
 
 
 def _shown(seen: Sight, S: Array) -> tuple[Array, Array, Array] | None:
     """Signals, weights and light vectors (L, P, ...) of pixels that enough lights reach."""
-    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MOST_PIXELS, seen.pixels)).astype(int)))
+    some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int)))
     count = len(S)
     usable = normals.candidates(some, np.ones(some.signal.shape))
     rank = np.argsort(np.argsort(np.where(usable, some.signal, -np.inf), axis=0), axis=0)
-    weight = usable & (rank >= min(int(SHADED * count), count - 3 - SPARE)) & (rank < count - int(SHINING * count))
-    good = weight.sum(axis=0) >= 3 + SPARE
+    weight = usable & (rank >= min(int(normals.TRIMMED * count), count - LIGHTS_NEEDED)) & (rank < count - int(RARE * count))
+    good = weight.sum(axis=0) >= LIGHTS_NEEDED
     B = np.repeat(S[:, None], some.pixels, axis=1)
     good[good] = spans(weight[:, good].astype(float), B[:, good])
-    if good.sum() < PIXELS_NEEDED or np.any(weight[:, good].sum(axis=1) < PIXELS_NEEDED // 5):
+    if np.any(weight[:, good].sum(axis=1) < FEWEST_PIXELS):
         return None
     return some.signal[:, good], weight[:, good].astype(float), B[:, good]
 
@@ -185,16 +173,15 @@ def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict
     b : (P, 3), NaN where it is not known
     usable : (L, P) where the signal is not saturated
     """
-    if len(signal) < LIGHTS_TO_EXCHANGE:
+    if len(signal) <= LIGHTS_NEEDED:  # two that are exchanged leave four that agree on a surface
         return {}
     known = np.flatnonzero(np.isfinite(b[:, 0]))
-    if len(known) < 2 * PIXELS_A_HALF:
+    if len(known) < 2 * FEWEST_PIXELS:
         return {}
-    most = min(MOST_PIXELS, max(FEW_PIXELS, MOST_PAIRS // len(signal) ** 2), len(known))
-    some = known[np.unique(np.linspace(0, len(known) - 1, most).astype(int))]
+    some = known[np.unique(np.linspace(0, len(known) - 1, min(MANY_PIXELS, len(known))).astype(int))]
     side = b[some] / np.maximum(np.linalg.norm(b[some], axis=1, keepdims=True), 1e-300)
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
-    if any(half.sum() < PIXELS_A_HALF for half in halves):
+    if any(half.sum() < FEWEST_PIXELS for half in halves):
         return {}
     B = vectors(light, some)
     miss = np.stack([_misses(signal[:, some], B, b[some], usable[:, some], half) for half in halves])
@@ -216,7 +203,7 @@ def _misses(signal: Array, B: Array, b: Array, usable: Mask, half: Mask) -> Arra
     predicted = np.maximum(np.einsum("lpi,pi->lp", B[:, half], b[half]), 0.0)
     found = np.ones((len(signal), len(signal)))
     for k, (own, ok) in enumerate(zip(signal[:, half], usable[:, half] & (signal[:, half] > 0), strict=True)):
-        if ok.sum() >= PIXELS_A_HALF:
+        if ok.sum() >= FEWEST_PIXELS:
             ratio = predicted[:, ok] / own[ok]
             h = np.maximum(np.median(ratio, axis=1), 1e-9)[:, None]
             found[k] = np.median(np.abs(own[ok] - predicted[:, ok] / h), axis=1) / np.median(own[ok])

@@ -24,13 +24,13 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.records.calibration import Camera, Light
 from lpcal.records.figures import Anchor
 from lpcal.segmentation import planes
+from lpcal.view.agreed import MANY_PIXELS
 from lpcal.view.sight import Sight, second
 
 SCALES = np.linspace(0.955, 1.045, 31)
 RIM = 4
 NEEDED_RISE = 0.3
 """Pixels that disagree more, RIM scales to either side of the best one, by the root of the dark area: a shallower valley says nothing."""
-NINTH = 9
 EDGE_STD, PLANE_STD = 0.0107, 0.0213
 """Relative standard deviation of a distance by a shadow: by its edge, and by a plane of misfit 1; in proportion to uncertainty.OPEN."""
 
@@ -115,7 +115,8 @@ def _predicted(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Arra
     dark, near_side = np.zeros(shown.shade.shape, bool), np.zeros(shown.shade.shape, bool)
     if not len(x_C):
         return Predicted(dark, near_side)
-    own_px = camera.project(x_C[::NINTH])
+    some = slice(None, None, max(1, len(x_C) // MANY_PIXELS))
+    own_px = camera.project(x_C[some])
     for k, light in enumerate(lights):
         d, _ = light.field(x_C)
         y_C = x_C - ((x_C @ shown.plane.q - 1) / np.minimum(d @ shown.plane.q, -1e-6))[:, None] * d
@@ -125,7 +126,7 @@ def _predicted(shown: Screen, lights: Sequence[Light], camera: Camera, x_C: Arra
         column, row = pixel[inside].astype(int).T
         dark[k, row, column] = True
         dark[k] = raster.closed(dark[k])
-        away = np.median(shadow_px[::NINTH] - own_px, axis=0)
+        away = np.median(shadow_px[some] - own_px, axis=0)
         near_side[k] = _behind(dark[k], away / max(np.linalg.norm(away), 1e-9), int(np.linalg.norm(away) / shown.factor) + 1)
     return Predicted(dark, near_side)
 

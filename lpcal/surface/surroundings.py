@@ -18,19 +18,15 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import mask, planes
 from lpcal.surface.relief import Relief
+from lpcal.view.agreed import MANY_PIXELS, RIM_PX, SHADOW_STEPS
 from lpcal.view.sight import Grey, Indices, Sight, light_vectors, look_at
 
-PATCHES = 600
-MARGIN = 2
-"""Coarse pixels about the object that count as neither."""
 BEYOND = 0.6
 """How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
-NEAREST, FURTHEST = 0.5, 2.0
-"""Least and largest depth of what is not seen of a plane, by the median depth of what is seen of it."""
+FURTHEST = 2.0
+"""Times the median depth of what is seen of a plane that it goes on, and towards the camera as a divisor of it."""
 SLAB = 0.05
 """Depth of a patch along the line of sight at most, as a share: a table at a grazing angle goes far back within a few pixels."""
-SHADOW_STEPS = 32
-"""Places at which it is asked whether the object stands between a light and an unseen patch."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +119,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     samples fit. Where light from elsewhere or shadows keep the samples from the plane's prediction, or they are saturated, a plane's light
     is there all the same.
     """
-    seen, free = image.seen, ~raster.grown(image.hidden, MARGIN).ravel()
+    seen, free = image.seen, ~raster.grown(image.hidden, RIM_PX).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
     albedo: list[float] = []
     signal = seen.signal.copy()
@@ -138,7 +134,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     _leave_out_of_reach(of_plane, found, seen.rays_C)
     signal = _beside(image, signal, of_plane, free)
     _leave_out_of_reach(of_plane, found, seen.rays_C)  # beside an object that stands before a table's horizon, rays miss the table
-    size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
+    size = max(1, int(np.ceil(np.sqrt(seen.pixels / MANY_PIXELS))))
     block = _blocks(seen.mask.shape, size)
     shown = [_of_plane(seen.rays_C, signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
     if not shown:
@@ -205,7 +201,7 @@ def _within_reach(slope: Array, seen: Array) -> Mask:
     if not seen.size:
         return np.zeros(len(slope), bool)
     depth, middle = 1 / np.maximum(slope, planes.BEHIND), np.median(1 / np.maximum(seen, planes.BEHIND))
-    return np.asarray((slope >= planes.BEHIND) & (depth >= NEAREST * middle) & (depth <= FURTHEST * middle))
+    return np.asarray((slope >= planes.BEHIND) & (depth >= middle / FURTHEST) & (depth <= FURTHEST * middle))
 
 
 def _albedo(signal: Array, m: Array) -> float:

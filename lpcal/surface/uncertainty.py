@@ -23,6 +23,7 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
 from lpcal.shading.normals import Estimate, thrown_share
+from lpcal.view.agreed import RIM_PX
 from lpcal.view.sight import Lit
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
@@ -31,7 +32,6 @@ tools/fit_normal_sigma.py on 200 simulated scenes, the first held: drawn matter 
 INDEPENDENT = 4.0
 """Lights whose samples count in full: what real matter is not of the model's is common to neighbouring lights, and more of them do not
 average it away. By DiLiGenT's ball and bear, whose normals err alike by 10 lights and by 96."""
-EDGE_PX = 1.5
 MM_A_PERCENT = 4.0
 """Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
 WORKING_M = 0.35
@@ -110,7 +110,7 @@ def clues_of(
     bend_round = np.sqrt(np.maximum(raster.boxed(square, 5)[mask], 0) / np.maximum(raster.boxed(inside, 5)[mask], 1e-3))
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
-    edge = raster.away(rim)[mask] <= EDGE_PX
+    edge = raster.away(rim)[mask] < RIM_PX
     return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen)
 
 

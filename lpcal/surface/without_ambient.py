@@ -34,6 +34,7 @@ from lpcal.segmentation import background, mask, planes, room_light, room_sample
 from lpcal.segmentation.room_light import SHARED, RoomLight
 from lpcal.shading import normals
 from lpcal.view import sight
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -73,7 +74,7 @@ def reconstruct(
     rounds = ROUNDS if near else 1
     for k in range(rounds):
         seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
-        found = on_object(seen, lights, depth, wall, focus_C, light) if seen.pixels >= FEWEST else None
+        found = on_object(seen, lights, depth, wall, focus_C, light) if seen.pixels >= FEWEST_PIXELS else None
         if found is None:
             break
         room, room_map[object_mask] = found
@@ -135,9 +136,6 @@ def _share(radiance: Radiance, room_map: Image, inside: Mask) -> float:
     return float(np.median(room_map[inside] / np.maximum(signal.mean(axis=0)[inside], 1e-12)))
 
 
-FEWEST = 50
-PIXELS, SAMPLES = 1000, 12000
-"""Pixels that take part, and samples at most."""
 LEVELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.14, 0.18, 0.23, 0.3, 0.4, 0.55, 0.75, 1.0])
 """c_0 tried first, in units of what a pixel facing the lights sends back of one of them."""
 TILT = 0.35
@@ -145,7 +143,6 @@ TILT = 0.35
 NEEDED_GAIN = 0.05
 """The misfit must fall by this share, or there is no room light to be seen."""
 STEPS = 100
-OUTLIER2 = normals.OUTLIER**2
 WALL_STD = 0.04
 """Relative standard deviation of the room's light on a wall's plane: its fit gives it within 2 %, and it is not uniform."""
 LAW_ROUNDS = 10
@@ -191,7 +188,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
     coarse, coarse_rays, f = mask.binned(maps, rays_C)
     rows, columns = coarse.signal.shape[1:]
     own = (outside & (found.layer == background.WALL))[: rows * f, : columns * f].reshape(rows, f, columns, f).all(axis=(1, 3))
-    if own.sum() < FEWEST:
+    if own.sum() < FEWEST_PIXELS:
         return None
     some = planes.thinned(look_at(coarse, coarse_rays, own, central=True))
     h = intensities(lights)
@@ -223,7 +220,7 @@ def on_object(
     if light is not None:
         return _near(seen, lights, depth, wall, light)
     h = intensities(lights)
-    few = np.unique(np.linspace(0, seen.pixels - 1, min(PIXELS, SAMPLES // len(h), seen.pixels)).astype(int))
+    few = np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int))
     some = seen.at(few)
     d, E = light_vectors(lights, some.points_C(depth[few]), focus_C)
     c = _fit(_Trial(some, d * E[..., None], E, h))

@@ -26,7 +26,6 @@ from lpcal.shading import field, gloss, normals, search
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
 from lpcal.surface import bounce, distance
-from lpcal.surface.full_size import NO_ESTIMATE
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
 from lpcal.view.coarse import LightTable, RoomPrior, coarse_of
@@ -125,7 +124,7 @@ def agreeing(rng: np.random.Generator) -> Array:
 def evidence(rng: np.random.Generator) -> Array:
     seen, b, cases = field_cases(rng)
     parts = 0.1 * rng.normal(size=(3, *seen.signal.shape, 3))
-    found = [field._evidence(seen, lit, dark, field.Field(b, NO_ESTIMATE, shine), parts) for lit, dark, shine in cases]
+    found = [field._evidence(seen, lit, dark, field.Field(b, Estimate.nothing(), shine), parts) for lit, dark, shine in cases]
     return np.concatenate([part.ravel() for each in found for part in each])
 
 
