@@ -43,7 +43,7 @@ def before(one: Placed, points: tuple[Array, Array, int]) -> Array | None:
     from scipy.ndimage import maximum_filter, minimum_filter
 
     x_A, n_A, step = points
-    if not len(x_A) or not may_see(one.view, one.H_AC, x_A):
+    if not may_see(one.view, one.H_AC, x_A):
         return None
     facing = faces(x_A, n_A, one)
     x_C = se3.apply(se3.inv(one.H_AC), x_A[facing])

@@ -179,7 +179,7 @@ def confirmed_share(fronts: Fronts, place: int, gate_m: float) -> tuple[dict[int
     size = np.bincount(label, minlength=256)
     agree, contradict, supporters = np.zeros(len(p_A), np.intp), np.zeros(len(p_A), np.intp), np.zeros(256, np.intp)
     for other in (fronts.state[k] for k in fronts.partners[place]):
-        if len(p_A) and may_see(other.view, other.H_AC, p_A):
+        if may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no
@@ -198,7 +198,7 @@ def seen_through(fronts: Fronts, place: int, gate_m: float, outvoted: int) -> Ma
     p_A, n_A, from_A = replace(one, row=row, column=column).points()
     agree, contradict = np.zeros((2, len(row)), np.int16)
     for other in (fronts.state[k] for k in fronts.partners[place]):
-        if len(row) and may_see(other.view, other.H_AC, p_A):
+        if may_see(other.view, other.H_AC, p_A):
             yes, no = votes((p_A, n_A), other, gate_m)
             agree += yes
             contradict += no

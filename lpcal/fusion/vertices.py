@@ -206,7 +206,7 @@ def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> 
     weight, residual, normals = np.zeros(shape), np.zeros(shape), np.zeros((*shape, 3), np.float32)
     row, column = np.zeros(shape, np.intp), np.zeros(shape, np.intp)
     for k, one in enumerate(state):
-        if not len(v_A) or not may_see(one.view, one.H_AC, v_A):
+        if not may_see(one.view, one.H_AC, v_A):
             continue
         to_camera = one.H_AC[:3, 3] - v_A
         cosine = np.einsum("ij,ij->i", to_camera, n_A) / np.linalg.norm(to_camera, axis=1)

@@ -173,6 +173,8 @@ def _up_to(x: Array) -> list[Array]:
 
 def may_see(view: PlacedView, H_AC: Array, x_A: Array) -> bool:
     """Whether any of some points (N, 3) may lie in a view's image: whether a ball about them meets the cone about its rays."""
+    if not len(x_A):
+        return False
     low, high = x_A.min(axis=0), x_A.max(axis=0)
     middle_C = se3.apply(se3.inv(H_AC), ((low + high) / 2)[None])[0]
     radius, away = float(np.linalg.norm(high - low)) / 2, float(np.linalg.norm(middle_C))

@@ -13,7 +13,7 @@ from fusion_views import scene
 from lpcal.fusion import align, partners
 from lpcal.fusion.model import shared_covariance
 from lpcal.fusion.partners import Partners, among, everyone, partners_of
-from lpcal.fusion.views import PlacedView, view_of
+from lpcal.fusion.views import PlacedView, may_see, view_of
 from lpcal.geometry import se3
 
 pytest.importorskip("skimage")
@@ -89,3 +89,13 @@ def test_a_model_by_some_partners_is_as_near_as_by_all(monkeypatch: pytest.Monke
         assert float(np.sqrt(np.mean((off_m / model.sigma_m) ** 2))) < 1.3
         assert all(view.used for view in model.views)
     assert rms[0] < 1.15 * rms[1]
+
+
+def test_no_view_sees_what_has_no_points() -> None:
+    """A view whose pieces are all left out has none; the points of its neighbour are seen."""
+    one, other = round_a_stone(10)[:2]
+    H_AC = one.placement.H_AC
+    row, column = np.nonzero(other.witness)
+    seen = se3.apply(other.placement.H_AC, other.points_C(row, column))
+    assert not may_see(one, H_AC, np.empty((0, 3)))
+    assert may_see(one, H_AC, seen)
