@@ -111,8 +111,10 @@ def check(name: str, mask: Mask, camera: Camera | None) -> None:
 
 ONE_SIDED_ROUNDS, ROUNDS = 12, 40
 """Rounds of the two phases, the second at most."""
-K = 8.0
-"""Steepness of the weights: gaps of an eighth square pixel begin to count."""
+ONE_SIDED_K, K = 8.0, 16.0
+"""Steepness of the weights in the two phases: gaps of an eighth and a sixteenth of a square pixel begin to count."""
+STEEPEST_EXPONENT = 50.0
+"""Exponent at most, for rounding's sake."""
 PRECISION = 1e-3
 """Relative residual at which a solve ends, and relative change of the cost at which the rounds do."""
 
@@ -133,7 +135,7 @@ def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: boo
         A, right = system(grid, weight, step, hold, origin)
         u = multigrid.solve(A, right, u, precision=PRECISION)
         rise = (u[b] - u[a]) ** 2
-        w_a, w_b = _weights(grid, pull_a * rise, pull_b * rise, K, count)
+        w_a, w_b = _weights(grid, pull_a * rise, pull_b * rise, ONE_SIDED_K if first else K, count)
         cost = float(np.sum(weight * (u[b] - u[a] - step) ** 2))
         if not first and abs(cost - before) < PRECISION * before:
             break
@@ -158,13 +160,11 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
 
 def _weights(grid: Grid, gap_a: Array, gap_b: Array, k: float, count: int) -> tuple[Array, Array]:
     """w_a and w_b (edges,) from the gaps (edges,) that both pixels of an edge see."""
-    from scipy.special import expit
-
     w_a, w_b = np.empty(len(gap_a)), np.empty(len(gap_a))
     for edges in (grid.horizontal, ~grid.horizontal):
         a, b = grid.a[edges], grid.b[edges]
         ahead, behind = np.zeros(count), np.zeros(count)
         ahead[a], behind[b] = gap_a[edges], gap_b[edges]
-        leaning = expit(k * (behind - ahead))
+        leaning = 1 / (1 + np.exp(-np.clip(k * (behind - ahead), -STEEPEST_EXPONENT, STEEPEST_EXPONENT)))
         w_a[edges], w_b[edges] = leaning[a], 1 - leaning[b]
     return w_a, w_b
