@@ -39,6 +39,8 @@ STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
 GRADUATED = 2
 """Rounds until a depth is good enough for what rests on it, and whose depths look for their jumps again."""
+PIXELS = 1500
+"""Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
 ROUNDS = GRADUATED + palette.ROUNDS
 """Rounds from a start, as many as a full solve takes before it may end."""
 APART = 0.03
@@ -107,7 +109,7 @@ def search(
     maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
 ) -> Basins | None:
     """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
-    factor = max(1, int(np.sqrt(mask.sum() / MANY_PIXELS)))
+    factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
     rows, columns = image.shape
     share = mask[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor).mean(axis=(1, 3))

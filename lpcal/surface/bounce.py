@@ -37,6 +37,8 @@ from lpcal.view.sight import Indices, Lit, Sight
 
 STEPS = 6
 """Places between two patches at which it is asked whether a surface stands there."""
+BLOCK = 128
+"""Patches whose light is summed together: a call of the kernel then costs next to nothing of its own."""
 OFF = 0.025
 """Share of the depth that is skipped at both ends of an occlusion ray, so that a patch does not hide itself."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
@@ -258,9 +260,9 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
         def of_band(some: slice) -> None:
             run(*found.shape[:2], len(of.x_C), *patches, found, *between, GRAZING, OFF, some.start, some.stop)
 
-        bands.each(len(at.x_C), len(of.x_C), of_band)
+        bands.each(len(at.x_C), bands.SAMPLES // BLOCK, of_band)
         return found
-    for some in bands.bands(len(at.x_C), len(of.x_C)):
+    for some in bands.bands(len(at.x_C), bands.SAMPLES // BLOCK):
         e = of.x_C[None] - at.x_C[some, None]
         square = np.maximum(lambert.dot(e, e), 1e-18)
         e /= np.sqrt(square)[..., None]

@@ -18,11 +18,13 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import mask, planes
 from lpcal.surface.relief import Relief
-from lpcal.view.agreed import MANY_PIXELS, RIM_PX, SHADOW_STEPS
+from lpcal.view.agreed import RIM_PX, SHADOW_STEPS
 from lpcal.view.sight import Grey, Indices, Sight, light_vectors, look_at
 
 BEYOND = 0.6
 """How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
+PATCHES = 600
+"""Patches of the seen planes, at most: each of the object's patches asks all of them for light."""
 FURTHEST = 2.0
 """Times the median depth of what is seen of a plane that it goes on, and towards the camera as a divisor of it."""
 SLAB = 0.05
@@ -134,7 +136,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     _leave_out_of_reach(of_plane, found, seen.rays_C)
     signal = _beside(image, signal, of_plane, free)
     _leave_out_of_reach(of_plane, found, seen.rays_C)  # beside an object that stands before a table's horizon, rays miss the table
-    size = max(1, int(np.ceil(np.sqrt(seen.pixels / MANY_PIXELS))))
+    size = max(1, int(np.ceil(np.sqrt(seen.pixels / PATCHES))))
     block = _blocks(seen.mask.shape, size)
     shown = [_of_plane(seen.rays_C, signal, plane.q, of_plane == k, block) for k, plane in enumerate(found) if np.any(of_plane == k)]
     if not shown:
