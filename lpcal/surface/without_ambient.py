@@ -64,7 +64,7 @@ def reconstruct(
     if near:
         light = room_light.found(maps, rays_C, lights, begin_m)
         room_map = light.A
-        found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints, light.A)
+        found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints)
         object_mask = found_by.mask if given is None else given
         wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, light.room.level)
     elif object_mask is None:
