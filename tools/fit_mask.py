@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from torch import nn
 
 FOLDS = 4
-EPOCHS, BATCH = 80, 8
+EPOCHS, BATCH = 64, 8
 """Times that all scenes are seen, and scenes a step: the IoU of scenes left out gains no more."""
 RATE, DECAY = 4e-3, 1e-2
 """Highest step of the one-cycle schedule (Smith and Topin 2018), and the decay of weights (AdamW)."""

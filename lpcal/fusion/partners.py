@@ -21,7 +21,7 @@ from lpcal.geometry.arrays import Array
 MOST = 16
 """Views that each chooses to be compared with: of 64 views of a stone with 12 of them a model was as near the truth as with all 63."""
 CELLS = 5
-"""Cells along a view's object: larger than what its distance may be off, small enough that what two views share is told in ten steps."""
+"""Cells along a view's object: a cell is larger than the distance's error, and small enough to grade what two views share."""
 LOOKED_AT = 400
 """Points of a view whose cells are taken, about: each of its cells holds some."""
 LEAST_SHARED = 2

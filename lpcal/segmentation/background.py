@@ -18,6 +18,7 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.segmentation import clues
 from lpcal.segmentation.clues import View
 from lpcal.segmentation.network import Network
+from lpcal.view.agreed import UNLIKELY
 
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
@@ -29,8 +30,6 @@ LIKELY = (0.01, 0.99)
 """Odds beyond which a coarse pixel counts no more for the outline."""
 CARRIED = 5
 """Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
-UNLIKELY = 0.02
-"""Odds under which nothing is taken for the object."""
 OPEN = 0.1
 """Odds that a pixel is on the other side from which it is named as doubtful."""
 

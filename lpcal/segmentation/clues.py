@@ -25,7 +25,7 @@ ABOVE = 20.0
 DEPTHS = (-0.8, -0.5, -0.3, -0.15, 0.0, 0.15, 0.3, 0.5, 0.8, 1.2)
 """Log depths, over the working distance, whose costs are channels."""
 NEAREST, FURTHEST = -1.5, 2.0
-"""Log depths between which planes are told apart."""
+"""Log depths, over the working distance, beyond which a plane's depth is held: no object lies there."""
 SPARED_BY_LABEL = (-10.0, 30.0)
 """Bounds of the cost that its label spares a pixel."""
 MIRRORED = ("normal x", "free normal x")
@@ -117,11 +117,14 @@ def _of_regions(labels: Labels, planes: int) -> dict[str, Channel]:
         count += pieces
     size = np.bincount(region.ravel(), minlength=count) / labels.size
 
-    def frame(of: Array | Labels) -> Array:
-        edge = np.concatenate([of[0], of[-1], of[:, 0], of[:, -1]])
-        return np.asarray(np.bincount(edge, minlength=int(of.max()) + 1) / len(edge))[of]
+    of_region, of_label = (_frame(each, int(each.max()) + 1)[each] for each in (region, labels))
+    return {"size": np.sqrt(size)[region], "frame": np.sqrt(of_region), "frame of the label": np.sqrt(of_label)}
 
-    return {"size": np.sqrt(size)[region], "frame": np.sqrt(frame(region)), "frame of the label": np.sqrt(frame(labels))}
+
+def _frame(of: Labels | npt.NDArray[np.int_], count: int) -> Array:
+    """The share (count,) of the image's frame that each number of a map (rows, columns) holds."""
+    edge = np.concatenate([of[0], of[-1], of[:, 0], of[:, -1]])
+    return np.asarray(np.bincount(edge, minlength=count) / len(edge))
 
 
 def _of_depth(view: View, labels: Labels, planes: list[Array]) -> dict[str, Channel]:
@@ -133,7 +136,7 @@ def _of_depth(view: View, labels: Labels, planes: list[Array]) -> dict[str, Chan
     best = u[np.argmin(cost, axis=0)]
     met = [-working_u - np.log(np.maximum(rays @ q, 1e-9)) for q in planes]
     depths = np.stack([np.clip(one, NEAREST, FURTHEST) for one in met]) if planes else np.empty((0, *labels.shape))
-    held = np.bincount(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]), minlength=len(planes) + 1)[1 : len(planes) + 1]
+    held = _frame(labels, len(planes) + 1)[1 : len(planes) + 1]
     wall = depths[int(np.argmax(held))] if held.any() else np.full(labels.shape, FURTHEST)
     shown = (labels > 0) & (labels <= len(planes))
     own = np.take_along_axis(depths, np.where(shown, labels - 1, 0)[None], axis=0)[0] if planes else np.zeros(labels.shape)

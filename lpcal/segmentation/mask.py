@@ -1,8 +1,8 @@
 """Which pixels are the object: not the wall behind it, not the support under it, not the dark.
 
-Where lights are near, all that is lit is segmented at a coarse scale into planes and matter of any shape (segmentation.layers), whose
-regions are judged by clues (segmentation.background). The outline is then carried to full resolution, from scale to scale, in a band about
-it. Without near light the strength of the signal decides.
+Where lights are near, all that is lit is segmented at a coarse scale into planes and matter of any shape (segmentation.layers), of which a
+network says what is the object (segmentation.background). The outline is then carried to full resolution, from scale to scale, in a band
+about it. Without near light the strength of the signal decides.
 """
 
 from __future__ import annotations

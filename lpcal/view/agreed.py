@@ -6,9 +6,9 @@ OUTLIER = 3.0
 """Standard deviations from which a residual is taken for an outlier's."""
 OUTLIER2 = OUTLIER**2
 GRAZING = 0.03
-"""Cosine (of 88 degrees) of a surface to light or viewer under which it is too steep to be reckoned by: smaller ones are held there."""
+"""Cosine (of 88 degrees) of a surface to light or viewer under which it is too steep to be computed with: smaller ones are held there."""
 DOUBT = 0.25
-"""Standard deviation of light that is reckoned, not seen by itself (thrown by surfaces, a gloss), as a share of it: right to a quarter."""
+"""Standard deviation of light that is computed, not seen by itself (interreflected, a gloss), as a share of it: right to a quarter."""
 NEIGHBOURS = 25.0
 """How many samples are worth one: what a model lacks they have in common with those around."""
 RARE = 0.1
@@ -26,4 +26,4 @@ NEXT_TO_NOTHING = 1e-6
 RIM_PX = 2
 """Pixels about an outline, or about a shadow's edge, that are of neither side."""
 SHADOW_STEPS = 32
-"""Places between a point and a light at which it is asked whether a surface stands there."""
+"""Places between a point and a light that are tested for a surface which hides the light."""
