@@ -30,6 +30,8 @@ from lpcal.surface.reconstruct import AGREE_DEG, Solved
 from lpcal.view import sight
 from lpcal.view.bands import shared
 
+SOLVED = 10_000_000
+"""Samples, lights times pixels of an object, that are solved at once: the solver's lists take 200 bytes of each."""
 NOISE_PARTS = 5
 """Parts of the picture, along each side, that the noise is read off: they hold some 400,000 pixels of every image."""
 BAND_ROWS = 256
@@ -96,8 +98,8 @@ def coarse_calibration(calibration: Calibration, factor: int) -> Calibration:
     return calibration if calibration.camera is None else replace(calibration, camera=BinnedCamera.of(calibration.camera, factor))
 
 
-def in_full_size(raw: RawCapture, full: FullImages, calibration: Calibration, asked: Asked, solve: Solve, progress: Progress) -> Surface:
-    """The surface of a capture that is too large to be held: `solve` gives the coarse one.
+def in_full_size(raw: RawCapture, calibration: Calibration, asked: Asked, solve: Solve, progress: Progress) -> Surface:
+    """The surface of a capture in coarse pixels with its images in full size beside it: `solve` gives the coarse one.
 
     Raises
     ------
@@ -106,6 +108,8 @@ def in_full_size(raw: RawCapture, full: FullImages, calibration: Calibration, as
     DisagreementError
         The images are not of the camera's size.
     """
+    full = raw.full
+    assert full is not None
     if asked.method not in WAYS:
         raise UsageError(
             f"{len(raw.lights)} images of {full.size[1]}x{full.size[0]} are too large for a method to compare with",

@@ -13,6 +13,7 @@ is the object's (interreflection) lies in few pixels and does not move a median;
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Literal
 
@@ -21,7 +22,7 @@ import numpy.typing as npt
 
 from lpcal.api import compared, stacks
 from lpcal.api.curve import settle_sensor
-from lpcal.api.full_size import Asked, in_full_size
+from lpcal.api.full_size import SOLVED, Asked, in_full_size
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import contradicting, notes_of
@@ -30,6 +31,7 @@ from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError
+from lpcal.formats.full_size import made_coarse
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.integration import convention
 from lpcal.integration import mesh as meshes
@@ -168,12 +170,14 @@ def reconstruct(
     calibration = calibration.of_images(raw.size)
     saying = _saying(sensor, raw, calibration)
     if raw.full is None:
-        return replace(_reconstructed(raw, calibration, asked, saying, progress), placement=placement)
+        with suppress(solver.TooManySamplesError):
+            return replace(_reconstructed(raw, calibration, asked, saying, progress), placement=placement)
+        raw = made_coarse(raw)
 
     def solve(fewer: RawCapture, coarse: Calibration, of_fewer: Asked, kept: list[solver.Solved]) -> Surface:
         return _reconstructed(fewer, coarse, of_fewer, saying, progress, kept)
 
-    return replace(in_full_size(raw, raw.full, calibration, asked, solve, progress), placement=placement)
+    return replace(in_full_size(raw, calibration, asked, solve, progress), placement=placement)
 
 
 def _reconstructed(
@@ -184,7 +188,13 @@ def _reconstructed(
     progress: Progress,
     kept: list[solver.Solved] | None = None,
 ) -> Surface:
-    """`reconstruct` for a capture that is held; what the surface was made from is added to `kept`."""
+    """`reconstruct` for a capture that is held; what the surface was made from is added to `kept`.
+
+    Raises
+    ------
+    TooManySamplesError
+        The object has more samples than are solved at once, and nothing is kept.
+    """
     settled = settle_sensor(raw, calibration, saying)
     used, said = settled.used.sensor, (*settled.notes, *contradictions(saying))
     refuse_bright_ambient(raw, used)
@@ -209,6 +219,7 @@ def _reconstructed(
         keep=asked.keep,
         ambient_known=raw.ambient is not None,
         linear=settled.linear,
+        most_samples=SOLVED if kept is None else None,
     )
     radiance = _linear(raw, used, said, part, use_mask=automatic)
     surface = solver.reconstruct(radiance, calibration, options, progress, kept)

@@ -1,5 +1,7 @@
 """A capture that is too large to be held: each image is read once, kept on the disk as it is stored, and in memory in coarse pixels.
 
+One that is held, but whose object is too large to be solved at once, becomes coarse likewise, its images staying in memory.
+
 A coarse pixel is the mean of the numbers of a square of pixels. Where one of these is as bright as the numbers get, the whole counts as
 saturated, as one that is no longer a mean of light. On the disk the images lie in square parts, of which one is read at a time.
 """
@@ -20,7 +22,7 @@ import numpy.typing as npt
 from lpcal.formats.full_scale import FullScale, full_scale
 from lpcal.formats.images import Numbers
 from lpcal.geometry.arrays import Image, Mask
-from lpcal.geometry.piled import piled
+from lpcal.geometry.piled import piled, piled_level
 from lpcal.records.full_images import PART, FullImages, Store
 from lpcal.records.observations import RawCapture
 
@@ -144,6 +146,42 @@ def read_all[P](paths: Sequence[P], read: Callable[[P], Numbers], lights: int, f
     sieve = Sieve.of(first, len(paths), lights, store)
     shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
     return sieve
+
+
+def made_coarse(raw: RawCapture) -> RawCapture:
+    """A capture that is held in coarse pixels, its images beside it in full size."""
+    from lpcal.view.bands import shared
+
+    ambient = [] if raw.ambient is None else [*raw.ambient]
+    store = InMemory([*raw.images, *ambient, *raw.short.values()])
+    sieve = Sieve(store, 1.0, raw.step, factor_for(raw.images.shape[1:]), len(raw.images))
+    shared(lambda k: sieve.take(k, Numbers(store.images[k], 1.0, raw.step)), range(len(store.images)))
+    white = raw.white_level or 1.0
+    full = FullScale(white_level=piled_level(raw.images, white, raw.step) or white)
+    L, K = len(raw.images), len(ambient)
+    coarse = replace(
+        raw,
+        images=sieve.coarse(range(L), full),
+        ambient=None if raw.ambient is None else sieve.coarse(range(L, L + K), full),
+        short=dict(zip(raw.short, sieve.coarse(range(L + K, len(store.images)), full), strict=True)),
+    )
+    return settled(coarse, sieve, full, raw.mask)
+
+
+class InMemory:
+    """Images (H, W[, 3]) of one size in memory, as a store."""
+
+    def __init__(self, images: Sequence[Image]) -> None:
+        """One image at least."""
+        self.images = images
+        self.shape: tuple[int, ...] = (len(images), *images[0].shape)
+
+    def keep(self, k: int, image: npt.NDArray[Any]) -> None:
+        """They are there already."""
+
+    def read(self, images: slice, rows: slice, columns: slice) -> npt.NDArray[Any]:
+        """Part (N, h, w[, 3]) of some of the images."""
+        return np.stack([image[rows, columns] for image in self.images[images]])
 
 
 class Scratch:

@@ -135,9 +135,14 @@ def _integrated(
 
 
 def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
-    """u (P,) with the weights (edges,) as they are."""
+    """u (P,) with the weights (edges,) as they are.
+
+    The minimum has ``sum_p H_p (u_p - h_p) = 0``, as steps do not see what all pixels share: where H is next to nothing, a million pixels
+    wander from it by as much as the solve's precision lets them.
+    """
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
-    return multigrid.solve(A, right, start, precision=FINELY)
+    u = multigrid.solve(A, right, start, precision=FINELY)
+    return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))
 
 
 def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:

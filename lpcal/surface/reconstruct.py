@@ -69,6 +69,12 @@ class Options:
     """Whether the ambient light has been taken away; else it is estimated."""
     linear: bool = True
     """Whether the signals may be taken as linear; else powers of lights that were not measured are held, not estimated."""
+    most_samples: int | None = None
+    """Samples, lights times pixels of the object, that are solved at once; None: any number."""
+
+
+class TooManySamplesError(Exception):
+    """An object of more samples than are solved at once: it is to be solved in coarse pixels first (api.full_size); nobody sees it."""
 
 
 @dataclass(frozen=True)
@@ -93,6 +99,8 @@ def reconstruct(
         Fewer than three lights, or all in a plane with the object; no object; too few lit pixels.
     DisagreementError
         The images are not of the calibrated camera's size.
+    TooManySamplesError
+        The object has more samples than the options want solved at once.
     """
     sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
     lights = sight.lights_of(calibration, radiance)
@@ -226,6 +234,7 @@ def _given(radiance: Radiance, options: Options) -> Mask | None:
 
 
 def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
+    """The object's pixels (H, W), refused where they are too few, or too many to be solved at once."""
     given = _given(radiance, options)
     if given is None:
         given = background.kept(options.keep) if background is not None else np.ones(radiance.signal.shape[1:3], bool)
@@ -237,6 +246,8 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
             needed=f"{FEWEST_PIXELS} at least",
             todo="give one with --mask FILE, or say where the object is with --box X,Y,WIDTH,HEIGHT or --point X,Y",
         )
+    if options.most_samples is not None and len(radiance.lights) * given.sum() > options.most_samples:
+        raise TooManySamplesError
     return given
 
 

@@ -160,3 +160,32 @@ def test_a_method_to_compare_with_is_refused_for_a_large_capture(small: None, tm
     folder = written(tmp_path / "ball", images, None, mask, ["L0", "L1", "L2", "L3", "L4"])
     with pytest.raises(UsageError, match="too large"):
         lpcal.reconstruct(read_capture(folder, ["L0", "L1", "L2", "L3", "L4"]), DOME, method="l1")
+
+
+@pytest.mark.parametrize("given", ["argument", "capture", "found"])
+def test_an_object_of_many_samples_is_solved_as_a_large_capture_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, given: str) -> None:
+    monkeypatch.setattr(full_size, "COARSE_PIXELS", 4_000)
+    mask, n, images = ball((203, 251))
+    names = [light.name for light in DOME.lights]
+    folder = written(tmp_path / "ball", images, np.full(mask.shape, 0.02), mask if given == "capture" else None, names)
+    held = read_capture(folder, names)
+    assert held.full is None
+    monkeypatch.setattr(full_size, "HELD", 50_000)
+    by = {"mask": mask} if given == "argument" else {}
+    large = lpcal.reconstruct(read_capture(folder, names), DOME, method="distant", **by)
+    monkeypatch.setattr("lpcal.api.surfaces.SOLVED", 50_000)
+    surface = lpcal.reconstruct(held, DOME, method="distant", **by)
+    for name, most in {"normals": 1e-3, "depth": 5e-3, "albedo": 1e-3, "normal_std_deg": 1e-2, "mask": 0}.items():
+        np.testing.assert_allclose(getattr(surface, name), getattr(large, name), rtol=0, atol=most, err_msg=name)
+    monkeypatch.setattr("lpcal.api.surfaces.SOLVED", 10**9)
+    at_once = lpcal.reconstruct(held, DOME, method="distant", **by)
+    assert not np.array_equal(at_once.normals[mask], surface.normals[mask])
+    both = mask & at_once.mask & surface.mask & (n[..., 2] < -0.4)
+    assert np.median(np.degrees(np.arccos(np.clip(np.sum(at_once.normals * surface.normals, axis=-1)[both], -1, 1)))) < 0.3
+
+
+def test_a_method_to_compare_with_takes_what_is_held(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lpcal.api.surfaces.SOLVED", 50_000)
+    mask, _, images = ball((203, 251))
+    surface = lpcal.reconstruct(np.clip(images, 0, 1), DOME, ambient=np.full(mask.shape, 0.02), mask=mask, method="l1")
+    assert np.isfinite(surface.normals[mask]).mean() > 0.5
