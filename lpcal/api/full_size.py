@@ -29,12 +29,13 @@ from lpcal.surface.ground import Ground, between
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
 from lpcal.view import sight
 from lpcal.view.bands import shared
+from lpcal.view.sight import Indices
 
 SOLVED = 10_000_000
 """Samples, lights times pixels of an object, that are solved at once: the solver's lists take 200 bytes of each."""
 NOISE_PARTS = 5
 """Parts of the picture, along each side, that the noise is read off: they hold some 400,000 pixels of every image."""
-BAND_ROWS = 256
+BAND_ROWS = 64
 """Rows that are worked on at once where maps are made of coarse ones."""
 OUTLINE_PX = 2
 """Coarse pixels on either side of a coarse outline that the picture in full size is asked for."""
@@ -209,15 +210,19 @@ def _surface(whole: solver.Full, found: solver.Maps, coarse: Surface) -> Surface
     if whole.camera is not None:
         rays_C = np.empty((*inside.shape, 3), np.float32)
     scale = np.float32(1.0 if whole.scene.seen.central else ground.factor)
-    for first in range(0, inside.shape[0], BAND_ROWS):
-        rows = slice(first, min(first + BAND_ROWS, inside.shape[0]))
+
+    def fill(rows: slice) -> Indices:
         here = inside[rows]
         component[rows] = np.where(here, ground.at(coarse.component, rows, columns), 0)
         layer[rows] = np.where(here, ground.at(coarse.layer, rows, columns), 0)
         depth_std[rows] = np.where(here, scale * ground.at(coarse.depth_std, rows, columns), np.nan)
         if whole.camera is not None:
             rays_C[rows] = whole.rays_C(rows, columns)
-    pixels = np.bincount(component.ravel(), minlength=256)
+        return np.bincount(component[rows].ravel(), minlength=256)
+
+    height = inside.shape[0]
+    bands = [slice(first, min(first + BAND_ROWS, height)) for first in range(0, height, BAND_ROWS)]
+    pixels = np.sum(shared(fill, bands), axis=0)
     components = tuple(replace(piece, pixels=int(pixels[piece.label])) for piece in coarse.components)
     used = found.lights_used[inside]
     three = int(np.sum(np.isfinite(found.normal_std_deg[inside]) & (used >= 3)))

@@ -110,7 +110,9 @@ def _write_maps(draft: Path, surface: Surface, outputs: Collection[str]) -> None
         return
     maps = {name: getattr(surface, name) for name in MAPS}
     layer = surface.layer if surface.layer.size else surface.mask.astype(np.uint8)
-    _write_arrays(draft / MAPS_FILE, {**maps, "layer": layer, "breaks": surface.breaks}, {"rays": surface.rays_C.astype(np.float32)})
+    _write_arrays(
+        draft / MAPS_FILE, {**maps, "layer": layer, "breaks": surface.breaks}, {"rays": surface.rays_C.astype(np.float32, copy=False)}
+    )
 
 
 def _write_arrays(path: Path, arrays: Mapping[str, npt.NDArray[np.generic]], plain: Mapping[str, npt.NDArray[np.generic]]) -> None:
@@ -230,7 +232,7 @@ def albedo_16(surface: Surface) -> npt.NDArray[np.uint16]:
     return found
 
 
-def _bands(image: npt.NDArray[np.uint16]) -> list[slice]:
+def _bands(image: npt.NDArray[Any]) -> list[slice]:
     """Rows of an image that are turned into numbers at once: what that takes is several times the image."""
     return [slice(first, first + BAND_ROWS) for first in range(0, len(image), BAND_ROWS)]
 
@@ -250,13 +252,15 @@ def _write_images(draft: Path, surface: Surface, outputs: Collection[str]) -> No
 
 
 def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
+    """Write an image (H, W) or (H, W, 3), whose colours are turned over in their place: a large one is not held twice."""
     import cv2
 
-    stored = pixels[..., ::-1] if pixels.ndim == 3 else pixels
-    encoded, data = cv2.imencode(".png", stored)
+    for rows in _bands(pixels) if pixels.ndim == 3 else ():
+        pixels[rows] = pixels[rows, :, ::-1].copy()
+    encoded, data = cv2.imencode(".png", pixels)
     if not encoded:
         raise InputError("cannot be encoded as PNG", where=str(path))
-    path.write_bytes(data.tobytes())
+    path.write_bytes(memoryview(data))
 
 
 def write_meshes(draft: Path, surface: Surface, outputs: Collection[str], placement: Placement | None = None) -> list[str]:

@@ -117,13 +117,8 @@ class Full:
 
     def rays_C(self, rows: slice, columns: slice) -> Array:
         """Rays (h, w, 3) of length 1 in z."""
-        rays = np.zeros((rows.stop - rows.start, columns.stop - columns.start, 3))
-        rays[..., 2] = 1.0
-        if self.camera is not None:
-            row, column = np.mgrid[rows, columns].astype(float)
-            unit_C = self.camera.unproject(np.stack([column, row], axis=-1).reshape(-1, 2))
-            rays[...] = (unit_C / unit_C[:, 2:]).reshape(rays.shape)
-        return rays
+        row, column = np.mgrid[rows, columns]
+        return sight.rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), self.camera).reshape(*row.shape, 3)
 
     def solve(self, progress: Progress) -> Maps:
         """All maps."""
