@@ -3,6 +3,12 @@ r"""How much light of the room a capture holds that has no image without lights:
 At a coarse scale all that is seen is explained as matter of any normal, as planes or as a place that no lamp reaches, at one level of the
 room's light after another (see segmentation.room_samples); the level at which all together cost least is that of the room, and each pixel's
 best explanation says what it holds of it. What is left without it is seen as a capture whose room light was taken away.
+
+What the explanations lack is smooth over a surface and changes the cost by more than noise does, so the costs' curvature says little of
+how sure a level is: how far parts of the picture disagree does. The picture's blocks are drawn again and again, with repetition, and what
+is said by all draws together counts (the block bootstrap, Kunsch 1989, Ann. Statist. 17; of posteriors, Buhlmann 2014, Statist. Sci. 29).
+With it goes what is known beforehand: what levels are usual, and that a place which no lamp reaches is a part of the same room, matter
+under the same light, which sends back about what the object does.
 """
 
 from __future__ import annotations
@@ -12,10 +18,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import flats, layers, room_samples
 from lpcal.segmentation.samples import LIT_SIGMAS
+from lpcal.view.agreed import FEWEST_PIXELS
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.sight import Grey, second, strength
 
@@ -27,10 +34,14 @@ RARE_ROUNDS = 2
 """Times that the cost of each explanation is set by how rare it is: a plane that holds a few pixels by chance then spares nothing."""
 USUAL, USUAL_STD = 0.1, 1.3
 """The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures show next to nothing."""
+FAR_STD = 0.8
+"""Standard deviation of the logarithm of a distant wall's albedo over the object's, each from 0.2 to 0.8; some are as dark as cloth."""
+DRAWS = 100
+"""Times that the picture's blocks are drawn again: their spread is then right to a tenth."""
 SHARED = 60.0
 """Pixels or samples whose errors are alike: what the explanations of the room's light lack is smooth over a surface."""
 UNSURE = 0.1
-"""Share of the room's light at a pixel that is left in doubt: how far it was off on simulated scenes, besides level and albedo."""
+"""Share of the room's light that is left in doubt besides: of a pixel, how far it was off on simulated scenes; of the level at least."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +55,31 @@ class RoomLight:
     """(H, W) of every pixel, in units of the signals."""
 
 
+@dataclass(frozen=True)
+class Explained:
+    """P coarse pixels by their best explanations at a level of the room's light."""
+
+    cost: Array
+    """(P,)."""
+    A: Array
+    """(P,)."""
+    far: Mask
+    """(P,) places that no lamp reaches."""
+    matter: Mask
+    """(P,) matter of any normal."""
+    size: Array
+    """(P,) |b| as such matter."""
+
+    def as_far(self) -> float | None:
+        """What matter of |b| = 1 sends back of the room's light if the object does so as the places do that no lamp reaches.
+
+        None where too little is seen of either.
+        """
+        if min(self.far.sum(), self.matter.sum()) < FEWEST_PIXELS:
+            return None
+        return float(np.median(self.A[self.far]) / max(np.median(self.size[self.matter]), 1e-20))
+
+
 def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> RoomLight:
     """The room's light of a picture with lights near the object, which is at about a distance."""
     share = np.array([1 / light.intensity.mean() for light in lights])
@@ -51,14 +87,13 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     table = LightTable.of(few, lights, distance_m)
     unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
 
-    def cost(level: float) -> float:
-        each = _explained(few, RoomPrior(share, level * unit), table, distance_m, drawn=False)[0]
-        return each * len(few.rays_C) / SHARED + (np.log(level / USUAL) / USUAL_STD) ** 2
+    def explained(level: float) -> Explained:
+        return _explained(few, RoomPrior(share, level * unit), table, distance_m, drawn=False)
 
-    level, level_std = _cheapest(cost)
+    level, level_std = _level(explained, few.shape, unit)
     room = RoomPrior(share, unit * level)
     image = coarse_of(maps, rays_C, factor_of(maps, PIXELS))
-    _, A = _explained(image, room, LightTable.of(image, lights, distance_m), distance_m, drawn=True)
+    A = _explained(image, room, LightTable.of(image, lights, distance_m), distance_m, drawn=True).A
     return RoomLight(room, level_std, _spread(A, image, share, maps))
 
 
@@ -68,10 +103,10 @@ def taken_away(maps: Grey, light: RoomLight) -> Grey:
     return Grey(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
 
 
-def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: float, *, drawn: bool) -> tuple[float, Array]:
-    """Mean cost of the coarse pixels at the room's level, and A (P,) by each pixel's best explanation.
+def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: float, *, drawn: bool) -> Explained:
+    """The coarse pixels at the room's level.
 
-    `drawn`: by that which a map of labels drawn with few boundaries gives it, of all depths; else by half the depths.
+    `drawn`: by what a map of labels drawn with few boundaries gives each, of all depths; else by half the depths.
     """
     image = replace(seen, room=room)
     everywhere = np.arange(len(image.rays_C))
@@ -97,27 +132,65 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
         part = np.bincount(np.argmin(every, axis=0), minlength=len(every)) / every.shape[1]
         every = np.stack([*costs, cost]) - 2 * np.log(np.maximum(part, 1 / every.shape[1]))[:, None]
     bounded = np.minimum(every, every.min(axis=0) + layers.CEILING).reshape(-1, *image.shape)
-    labels = layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)
-    return float(every.min(axis=0).mean()), each[labels.ravel(), everywhere]
+    labels = (layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)).ravel()
+    size = np.linalg.norm(free.b, axis=1)
+    return Explained(every.min(axis=0), each[labels, everywhere], labels == len(every) - 1, labels == 0, size)
 
 
-def _cheapest(cost: Callable[[float], float]) -> tuple[float, float]:
-    """The level of least cost, twice a negative log likelihood, and the standard deviation of its logarithm.
+def _level(explained: Callable[[float], Explained], shape: tuple[int, int], unit: float) -> tuple[float, float]:
+    """The level, and the standard deviation of its logarithm, of a picture of a shape that is explained at a level.
 
-    Of LEVELS first, then half way to the neighbours of the best, then by the parabola through the best and its neighbours.
+    LEVELS are tried first, then half way to the neighbours of the best. `unit` is a lamp's irradiance.
     """
-    tried = {level: cost(level) for level in LEVELS}
-    for again in (True, False):
-        levels = sorted(tried)
-        k = min(max(levels.index(min(levels, key=tried.__getitem__)), 1), len(levels) - 2)
-        below, best, above = levels[k - 1 : k + 2]
-        if again:
-            tried |= {level: cost(level) for level in (float(np.sqrt(below * best)), float(np.sqrt(best * above)))}
-    x = np.log([below, best, above])
-    curve, slope, _ = np.polyfit(x, [tried[level] for level in (below, best, above)], 2)
-    if curve * USUAL_STD**2 < 1:  # no more than the prior says
-        return min(tried, key=tried.__getitem__), USUAL_STD
-    return float(np.exp(np.clip(-slope / (2 * curve), x[0], x[2]))), float(1 / np.sqrt(curve))
+    tried = {level: explained(level) for level in LEVELS}
+    cost = {level: float(one.cost.sum()) / SHARED + (np.log(level / USUAL) / USUAL_STD) ** 2 for level, one in tried.items()}
+    k = min(max(LEVELS.index(min(cost, key=cost.__getitem__)), 1), len(LEVELS) - 2)
+    tried |= {level: explained(level) for level in np.sqrt(np.multiply(LEVELS[k - 1 : k + 1], LEVELS[k : k + 2])).tolist()}
+    levels = sorted(tried)
+    x = np.log(levels)
+    middle, std = _by_blocks(x, np.stack([tried[level].cost for level in levels]).reshape(-1, *shape))
+    std = float(np.hypot(std, UNSURE))
+    as_far = tried[levels[int(np.argmin(np.abs(x - middle)))]].as_far()
+    if as_far is None or as_far <= 0:
+        return float(np.exp(middle)), std
+    at = np.linspace(x[0] - USUAL_STD, x[-1] + USUAL_STD, 500)
+    over2 = ((at - np.log(as_far / unit)) / FAR_STD) ** 2
+    far = np.where(at < np.log(as_far / unit), over2, 2 * np.log1p(over2 / 2))
+    middle, std = _moments(at, ((at - middle) / std) ** 2 + far)
+    return float(np.exp(middle)), std
+
+
+def _by_blocks(x: Array, cost: Array) -> tuple[float, float]:
+    """Mean and standard deviation of x (N,), of which pixels say costs (N, rows, columns) and common rooms the rest.
+
+    Of each draw of the picture's blocks, the parabola through the least cost and its neighbours: the mean and the variance of what all
+    draws say together.
+    """
+    side = round(SHARED**0.5)
+    row, column = (np.arange(length) // side for length in cost.shape[1:])
+    block = (row[:, None] * (column[-1] + 1) + column).ravel()
+    by_block = np.stack([np.bincount(block, one.ravel()) for one in cost]) / SHARED
+    count = by_block.shape[1]
+    drawn = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), DRAWS)
+    said = np.array([_said(x, one) for one in drawn @ by_block.T])
+    return float(said[:, 0].mean()), float(np.sqrt(said[:, 0].var() + said[:, 1].mean()))
+
+
+def _said(x: Array, cost: Array) -> tuple[float, float]:
+    """Mean and variance of x (N,) by costs (N,), twice a negative log likelihood, and by what common rooms are."""
+    k = min(max(int(np.argmin(cost)), 1), len(x) - 2)
+    usual = np.log(USUAL) - x[k]
+    curve, slope, _ = np.polyfit(x[k - 1 : k + 2] - x[k], cost[k - 1 : k + 2], 2)
+    information = max(float(curve), 0.0) + USUAL_STD**-2
+    mean = x[k] + (usual * USUAL_STD**-2 - slope / 2) / information
+    return float(np.clip(mean, x[0] - USUAL_STD, x[-1] + USUAL_STD)), 1 / information
+
+
+def _moments(at: Array, energy: Array) -> tuple[float, float]:
+    """Mean and standard deviation of places (N,) under an energy (N,), twice a negative log likelihood."""
+    weight = np.exp((energy.min() - energy) / 2)
+    middle = float(np.average(at, weights=weight))
+    return middle, float(np.sqrt(np.average((at - middle) ** 2, weights=weight)))
 
 
 def _spread(A: Array, image: Coarse, share: Array, maps: Grey) -> Image:

@@ -31,10 +31,10 @@ from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.segmentation import background, mask, planes, room_light, room_samples
-from lpcal.segmentation.room_light import SHARED, RoomLight
+from lpcal.segmentation.room_light import FEW_PIXELS, SHARED, USUAL_STD, RoomLight
 from lpcal.shading import normals
 from lpcal.view import sight
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, NEXT_TO_NOTHING, OUTLIER2
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -66,7 +66,7 @@ def reconstruct(
         room_map = light.A
         found_by = mask.automatic(room_light.taken_away(maps, light), rays_C, lights, begin_m, hints)
         object_mask = found_by.mask if given is None else given
-        wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, light.room.level)
+        wall = wall_of(maps, rays_C, lights, found_by, ~object_mask, light)
     elif object_mask is None:
         object_mask = mask.automatic(maps, rays_C, lights, None, hints).mask
     depth = np.full(int(object_mask.sum()), begin_m if calibration.camera is not None else 1.0)
@@ -100,10 +100,14 @@ def without(radiance: Radiance, room_map: Image, lights: tuple[Light, ...]) -> R
 
 
 def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surface:
-    """The surface with what PATCHY more of room light changes (`other`) added to its standard deviations."""
+    """The surface with what PATCHY more of room light changes (`other`) added to its standard deviations, as much as it is in doubt.
+
+    A pixel's room light is off as all of the object's is, and patchy about that; a piece's distance rests on the whole.
+    """
     both = surface.mask & other.mask
+    doubt = float(np.hypot(room.std, PATCHY)) / PATCHY
     turned = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(surface.normals - other.normals, axis=-1) / 2, 0, 1))) / np.sqrt(2)
-    normal_std = np.where(both, np.hypot(surface.normal_std_deg, np.nan_to_num(turned)), surface.normal_std_deg)
+    normal_std = np.where(both, np.hypot(surface.normal_std_deg, doubt * np.nan_to_num(turned)), surface.normal_std_deg)
     central = bool(surface.rays_C[..., :2].any())
     depth_std, components = surface.depth_std.copy(), []
     anchored = surface.figures.shadow_anchors or {}
@@ -115,7 +119,7 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
         change = np.log(other.depth[inside] / surface.depth[inside]) if central else other.depth[inside] - surface.depth[inside]
         whole = float(np.median(change))
         scale = surface.depth[inside] if central else 1.0
-        depth_std[inside] = np.hypot(depth_std[inside], np.abs(change - whole) * scale)
+        depth_std[inside] = np.hypot(depth_std[inside], doubt * np.abs(change - whole) * scale)
         held = not central or piece.label in anchored
         scale_std = piece.scale_std if held else float(np.hypot(piece.scale_std, whole * room.std / PATCHY))
         components.append(replace(piece, scale_std=scale_std))
@@ -143,8 +147,6 @@ TILT = 0.35
 NEEDED_GAIN = 0.05
 """The misfit must fall by this share, or there is no room light to be seen."""
 STEPS = 100
-WALL_STD = 0.04
-"""Relative standard deviation of the room's light on a wall's plane: its fit gives it within 2 %, and it is not uniform."""
 LAW_ROUNDS = 10
 """Solves of the law, pixels weighed by how well they follow it: it then stands still."""
 LAW_STD, BLIND_STD = 0.06, 0.25
@@ -153,8 +155,6 @@ PATCHY = 0.12
 """Relative standard deviation of A about the law, from part to part of an object."""
 WALL_STEPS = 25
 """Times that the fit of the wall asks for its equations at most."""
-LAMPS_SHARE = 0.25
-"""A plane of whose light the lamps bring less shows the room alone, and not where it is."""
 
 
 @dataclass(frozen=True)
@@ -165,6 +165,8 @@ class Wall:
     """See segmentation.planes."""
     ratio: float
     """a: room light on it over its albedo."""
+    std: float
+    """Relative standard deviation of the ratio, by how its samples hold it."""
     n_C: Array
 
 
@@ -178,10 +180,11 @@ class Room:
     """Relative, of the object's A as a whole."""
 
 
-def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, level: float) -> Wall | None:
-    """The largest plane behind the object with one room light for all of it, from its pixels; None where none is seen well enough.
+def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, light: RoomLight) -> Wall | None:
+    """The largest plane behind the object with one room light for all of it, from its pixels.
 
-    `outside` (H, W) is what is not the object; the room's light on matter of albedo 1 is about `level`.
+    None where it says no more of the room's light than is known of rooms beforehand. `outside` (H, W) is what is not the object, `light` is
+    the room's as the whole picture says it.
     """
     if not found.planes or found.layer is None:
         return None
@@ -197,17 +200,15 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
         r, _ = planes.residuals(some, planes.predicted(x[:3], some.rays_C, lights) + x[3] / h, shaded=False)
         return np.nan_to_num(r, posinf=1e2).ravel()
 
-    first = np.append(found.planes[0].q, level)
+    first = np.append(found.planes[0].q, light.room.level)
     x = cauchy_fit.fitted(lambda x: Equations.differenced(cost, x), first, np.abs(first).clip(np.abs(first[:3]).max()), WALL_STEPS)
-    lamps = planes.predicted(x[:3], some.rays_C, lights)
-    m = lamps + x[3] / h
-    if (
-        x[3] < 0
-        or not np.nanmedian(lamps / m) > LAMPS_SHARE
-        or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > mask.FIT_SIGMAS
-    ):
+    m = planes.predicted(x[:3], some.rays_C, lights) + x[3] / h
+    if x[3] <= 0 or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > mask.FIT_SIGMAS:
         return None
-    return Wall(x[:3], float(x[3]), -x[:3] / np.linalg.norm(x[:3]))
+    alike = max(some.pixels * SHARED / (float(own.mean()) * FEW_PIXELS), 1.0)
+    variance = alike * np.linalg.pinv(Equations.differenced(cost, x).curvature)[3, 3]
+    std = float(np.sqrt(variance) / x[3])
+    return Wall(x[:3], float(x[3]), std, -x[:3] / np.linalg.norm(x[:3])) if std < USUAL_STD else None
 
 
 def on_object(
@@ -233,23 +234,33 @@ def on_object(
 
 
 def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, light: RoomLight) -> tuple[Room, Array]:
-    """The law that the pixels' own A follow, each under the prior of the whole picture, and A (P,) by it."""
+    """The law that the pixels' own A follow, and A (P,) by it.
+
+    Each A is found under a prior about the level of the whole picture. What its samples say by themselves is further from it, by one over
+    their information, and the less sure; the law is fitted to that under the prior of the whole picture. Pixels lack the same far about
+    themselves, as parts of the picture do: how sure the law is counts such parts, not pixels.
+    """
     d, E = light_vectors(lights, seen.points_C(depth))
     found = room_samples.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
     b, length = found.b, np.maximum(np.linalg.norm(found.b, axis=1), 1e-20)
-    rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], found.A / length / light.room.level
+    known = np.maximum(found.information, NEXT_TO_NOTHING)
+    rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], 1 + (found.A / length / light.room.level - 1) / known
+    own2 = room_samples.SPREAD**2 * (1 - known) / known
     prior = np.diag([light.level_std**-2, *3 * [TILT**-2]])
     right = np.array([light.level_std**-2, 0, 0, 0])
     if wall is not None:
-        by_wall, weight = np.append(1.0, wall.n_C), (light.room.level / wall.ratio / WALL_STD) ** 2
+        by_wall, weight = np.append(1.0, wall.n_C), (light.room.level / wall.ratio) ** 2 / (wall.std**2 + LAW_STD**2)
         prior, right = prior + weight * np.outer(by_wall, by_wall), right + weight * by_wall * wall.ratio / light.room.level
     law = np.array([1.0, 0, 0, 0])
     for _ in range(LAW_ROUNDS):
-        weighted = rows * (found.information / (PATCHY**2 + (ratio - rows @ law) ** 2) / SHARED)[:, None]
+        weighted = rows / (PATCHY**2 + np.maximum(own2, (ratio - rows @ law) ** 2))[:, None] / SHARED
         law = np.linalg.solve(weighted.T @ rows + prior, weighted.T @ ratio + right)
-    c = light.room.level * law
-    std = float(np.hypot(LAW_STD, WALL_STD if wall is not None else light.level_std))
-    return Room(c, std), np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
+    c, mean = light.room.level * law, (length @ rows) / length.sum()
+    by_parts = weighted.T @ rows * FEW_PIXELS / seen.mask.size
+    of_law = float(np.sqrt(mean @ np.linalg.solve(by_parts + prior, mean))) / max(float(mean @ law), NEXT_TO_NOTHING)
+    A = np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
+    thrown = room_samples.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
+    return Room(c, float(np.hypot(np.hypot(LAW_STD, of_law), thrown))), A
 
 
 def intensities(lights: Sequence[Light]) -> Array:

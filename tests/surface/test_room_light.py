@@ -57,7 +57,7 @@ def test_the_wall_tells_its_place_and_its_room_light(
     maps: tuple[Grey, Array, tuple[Light, ...]], seen_whole: tuple[RoomLight, Found]
 ) -> None:
     light, found = seen_whole
-    wall = room.wall_of(*maps, found, ~found.mask, light.room.level)
+    wall = room.wall_of(*maps, found, ~found.mask, light)
     assert 1 / wall.q[2] == pytest.approx(LIT.wall_z, rel=0.01)
     grey, rays_C, lights = maps
     on = ~truth(LIT)[0]
@@ -73,7 +73,7 @@ def test_a_background_that_the_lamps_do_not_reach_is_no_wall() -> None:
     grey, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera)
     light = whole.found(grey, rays_C, lights, 0.35)
     found = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
-    assert room.wall_of(grey, rays_C, lights, found, ~found.mask, light.room.level) is None
+    assert room.wall_of(grey, rays_C, lights, found, ~found.mask, light) is None
     true = truth(scene)[0]
     assert np.sum(found.mask & true) / np.sum(found.mask | true) > 0.97
 
@@ -86,7 +86,7 @@ def test_an_objects_room_light_comes_out_within_its_sigma(maps: tuple[Grey, Arra
     grey = sight.grey(to_radiance(untold(LIT, seed), Sensor()), lights)
     light = whole.found(grey, rays_C, lights, 0.35)
     found_by = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
-    wall = room.wall_of(grey, rays_C, lights, found_by, ~mask, light.room.level)
+    wall = room.wall_of(grey, rays_C, lights, found_by, ~mask, light)
     seen = sight.look_at(grey, rays_C, mask, central=True)
     true = room_light(LIT)[mask]
     for told in (wall, None):
@@ -164,3 +164,39 @@ def test_samples_tell_their_room_light(shadowed: int) -> None:
     assert np.median(np.abs(albedo / np.linalg.norm(b, axis=1) - 1)) < 0.02
     assert not lit[:shadowed].any()
     assert np.median(room_samples.nothing(known.share[:, None] * A, sigma, usable, none, known)[0]) < 1e-9
+
+
+def test_a_level_is_as_sure_as_the_parts_of_the_picture_agree() -> None:
+    """Blocks that each cost least at levels of their own: the mean of these within its standard error, and that as stated."""
+    x, rng = np.linspace(-5, 0, 8), np.random.default_rng(3)
+    of_block = rng.normal(-2.0, 0.6, (5, 5))
+    everywhere = np.kron(of_block, np.ones((8, 8)))
+    level, std = whole._by_blocks(x, 100 * (x[:, None, None] - everywhere) ** 2)
+    assert level == pytest.approx(of_block.mean(), abs=std)
+    assert std == pytest.approx(0.6 / 5, rel=0.3)
+    assert whole._by_blocks(x, 100 * (x[:, None, None] - np.full_like(everywhere, -2.0)) ** 2)[1] < 0.03
+
+
+def test_a_picture_that_says_nothing_leaves_what_is_known_of_rooms() -> None:
+    level, std = whole._by_blocks(np.linspace(-5, 0, 8), np.full((8, 40, 40), 7.0))
+    assert level == pytest.approx(np.log(whole.USUAL))
+    assert std == pytest.approx(whole.USUAL_STD)
+
+
+def test_a_place_that_no_lamp_reaches_tells_the_level_where_nothing_else_does() -> None:
+    """Of a picture whose costs are the same at all levels; a place as dark as cloth says less than a bright one."""
+
+    def level(far: float) -> tuple[float, float]:
+        flat = np.zeros(1600)
+        half = np.arange(1600) < 800
+        return whole._level(lambda _: whole.Explained(flat, np.where(half, far, 0.0), half, ~half, flat + 1.0), (40, 40), 1.0)
+
+    alone, std = whole._level(
+        lambda _: whole.Explained(np.zeros(1600), np.zeros(1600), *np.zeros((2, 1600), bool), np.ones(1600)), (40, 40), 1.0
+    )
+    bright, bright_std = level(0.6)
+    dark, dark_std = level(0.003)
+    assert bright > 2 * alone
+    assert bright_std < std
+    assert dark > 0.01
+    assert dark_std > bright_std
