@@ -10,7 +10,8 @@ The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the
 many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
 which decides where the light hardly determines it. The full solve begins in the likeliest.
 
-Smaller pieces that break off in the full solve are swept (`of_piece`): their shape kept, the cost of their samples at each distance.
+Smaller pieces that break off in the full solve are swept (`of_piece`): their shape kept, the cost of their samples at each distance. How
+sharply this cost rises about the distance that a piece ends at is how surely its light knows it (`std_of`).
 """
 
 from __future__ import annotations
@@ -47,6 +48,9 @@ APART = 0.03
 """Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
 INDEPENDENT = 3.1
 """Independent pixels that an object counts as: regions share the model's errors. By tools/fit_basin_odds.py on simulated scenes."""
+NEARBY = 48.0
+"""The same about one distance, as more of what the model lacks is common to neighbouring ones: the errors of the distances of 119 simulated
+scenes are likeliest so; tools/fit_distance_sigma.py says by how much others disagree."""
 WORKING = 0.3
 """Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
 PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
@@ -150,6 +154,20 @@ class PieceEnds:
     """(N,) of sum 1."""
     std: float
     """Standard deviation of the first of the shifts, by the energy about it: wide where the light hardly knows the distance."""
+
+
+def std_of(seen: Sight, lights: Sequence[Light], u: Array, inside: Mask) -> float:
+    """Standard deviation of the log distance of a piece `inside` (P,) of log depths u (P,), by how its samples' cost rises about it.
+
+    Few lights, near to each other or on one side, a shallow shape, shadows and gloss all make the same costs of neighbouring distances.
+    """
+    step = float(PIECE_SWEEP[1] - PIECE_SWEEP[0])
+    some = np.flatnonzero(inside)
+    some = some[:: max(1, len(some) // MANY_PIXELS)]
+    few = seen.at(some)
+    nearer, here, beyond = (_cost_of(few, lights, u[some] + shift, None) for shift in (-step, 0.0, step))
+    bend = (nearer - 2 * here + beyond) / step**2 / 2 / max(here / len(lights), 1.0)
+    return float(1 / np.sqrt(NEARBY * max(bend, 0.0) + WORKING**-2))
 
 
 def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:

@@ -9,14 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.geometry.arrays import Array, Labels
 from lpcal.integration.of_normals import UNKNOWN_DISTANCE
 from lpcal.records.surface import Alternative, Component
 from lpcal.surface import basins, uncertainty
 from lpcal.surface.basins import Basins
 from lpcal.surface.rounds import Scene, State
 from lpcal.view.agreed import STATED_STD, UNLIKELY
-from lpcal.view.sight import LIGHTS_NEEDED
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:
@@ -30,7 +29,11 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
             std = STATED_STD
         elif scene.near:
             fewer = uncertainty.fewer_regions(int(inside.sum()), found[0].pixels) if found else 1.0
-            model = state.anchors[int(one)].std if int(one) in state.anchors else fewer * model_std(state, inside)
+            model = (
+                state.anchors[int(one)].std
+                if int(one) in state.anchors
+                else fewer * basins.std_of(scene.seen, scene.lights, np.log(depth), inside)
+            )
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
             std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
             std = float(np.hypot(std, uncertainty.BROKEN_OFF * np.log(middle / found[0].mean_depth_m))) if found else std
@@ -43,13 +46,6 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
             piece = _by_its_light(scene, state, np.log(depth), label, piece)
         found.append(piece)
     return tuple(found)
-
-
-def model_std(state: State, inside: Mask) -> float:
-    """What the model lacks in the distance of a piece (P,): see uncertainty.model_std."""
-    shaded = float(np.mean(state.found.used[inside] <= LIGHTS_NEEDED))
-    shine = state.field.gloss
-    return uncertainty.model_std(glossy=shine is not None and shine.clear, shaded_share=shaded)
 
 
 def _by_its_light(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> Component:

@@ -192,7 +192,7 @@ def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: plane
     """The state with pieces put where their shadows on the wall place them, and one more round of normals there."""
     shown = shadow_anchor.screen(whole.seen, wall, scene.lights, whole.hidden, whole.factor)
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    model_std = {int(one): components.model_std(state, label == one) for one in np.unique(label)}
+    model_std = {int(one): basins.std_of(scene.seen, scene.lights, state.u, label == one) for one in np.unique(label)}
     anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)
     if not anchors:
         return state

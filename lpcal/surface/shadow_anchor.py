@@ -32,7 +32,7 @@ RIM = 4
 NEEDED_RISE = 0.3
 """Pixels that disagree more, RIM scales to either side of the best one, by the root of the dark area: a shallower valley says nothing."""
 EDGE_STD, PLANE_STD = 0.0107, 0.0213
-"""Relative standard deviation of a distance by a shadow: by its edge, and by a plane of misfit 1; in proportion to uncertainty.OPEN."""
+"""Relative standard deviation of a distance by a shadow: by its edge, and by a plane of misfit 1; on simulated scenes."""
 
 
 @dataclass(frozen=True)

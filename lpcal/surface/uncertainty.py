@@ -36,11 +36,6 @@ MM_A_PERCENT = 4.0
 """Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
 WORKING_M = 0.35
 CORRELATION = 20.0
-OPEN, HIDDEN = 0.0096, 0.0256
-"""Relative standard deviation of a piece's distance by what its light's model lacks: open and convex, concave or partly hidden or glossy.
-
-Their ratio is by light between parts of one object; their size by tools/fit_distance_sigma.py on 104 simulated scenes.
-"""
 BROKEN_OFF = 0.2
 """Share of the log distance between a broken-off piece and the largest that is unsure: parts of one object seldom stand far apart.
 
@@ -131,16 +126,6 @@ def calibration_deg(lights: Sequence[Light]) -> float:
     direction = _mean_square([np.degrees(light.direction_std_rad) for light in lights])
     intensity = _mean_square([np.degrees(light.intensity_std / np.sqrt(2)) for light in lights])
     return float(np.sqrt((direction + intensity) / len(lights)))
-
-
-def model_std(*, glossy: bool, shaded_share: float) -> float:
-    """Relative standard deviation of a piece's distance by what the model of its light lacks, whatever the calibration.
-
-    `shaded_share` of its pixels see three lights or fewer: they are hidden from the rest by other parts of the object, which throw light
-    too.
-    """
-    hidden = min(1.0, 2 * shaded_share + 0.5 * glossy)
-    return OPEN + (HIDDEN - OPEN) * hidden
 
 
 def fewer_regions(pixels: int, largest: int) -> float:

@@ -40,3 +40,17 @@ def test_of_two_distances_that_the_light_allows_that_nearer_the_main_piece_is_li
     near, far = (basins.of_piece(three, GIVEN.lights[:3], u, None, everything, float(np.median(u)) + main) for main in (-0.4, 0.5))
     assert near.shift[0] < far.shift[0]
     assert near.std > 0.15, "and it is said that the light hardly knows"
+
+
+def test_the_fewer_lights_know_the_distance_the_wider_is_its_sigma_and_three_say_next_to_nothing() -> None:
+    seen, u = piece(0)
+    everything = np.ones(len(u), bool)
+
+    def std(some: list[int]) -> float:
+        part = sight.Sight(seen.mask, seen.rays_C, seen.signal[some], seen.sigma[some], seen.usable[some], seen.central)
+        return basins.std_of(part, [GIVEN.lights[k] for k in some], u, everything)
+
+    six, four, three = std([0, 1, 2, 3, 4, 5]), std([0, 1, 3, 4]), std([0, 2, 4])
+    assert six < four < three
+    assert three == pytest.approx(basins.WORKING, rel=0.5), "no more than is known beforehand"
+    assert six < 0.03
