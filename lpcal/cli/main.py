@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 from lpcal import __version__
 from lpcal.cli.console import complain, open_streams, progress_bars, show
+from lpcal.cli.freed_memory import keep as keep_freed_memory
 from lpcal.cli.stops import Stopped, received, say_stopped
 from lpcal.errors import InputError, LpcalError, UsageError
 
@@ -85,6 +86,7 @@ def main(words: list[str] | None = None) -> int:
             options, command = _parse(words)
         except (SystemExit, BrokenPipeError) as end:  # help and versions end there
             return _ended(end)
+        keep_freed_memory()
         with logged(options), progress_bars(quiet=options.quiet) as progress, ExitStack() as options.until_done:
             outcome = command.run(options, progress)
         return _said(outcome, as_json=options.json)
