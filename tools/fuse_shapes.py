@@ -6,10 +6,10 @@ fused. What is there already is not made again, except the fusion. With ``--peer
 photogrammetry is tried on the ambient images (`fuse_peers.py`). Prints one table, and writes OUT/table.json.
 
 Columns: rms of the model's vertices and of the single surfaces as placed, from the true surface along its normal; how many times nearer;
-how much of what two views saw the model has; median error of its normals; share of vertices within two of their sigmas; rms of what all
-vertices share (one motion and growth of the whole: one draw a session), and its sigma; the errors' rms in sigmas, the median sigma; the rms
-that one motion and growth of the whole does not explain; errors of the views' distances before and after; processor time of fusing over
-that of all reconstructions, and its peak memory.
+how much of what two views saw the model has; median error of its normals, as it stands and put where it belongs; share of vertices within
+two of their sigmas; rms of what all vertices share (one motion and growth of the whole: one draw a session), and its sigma; the errors' rms
+in sigmas, the median sigma; the rms that one motion and growth of the whole does not explain; errors of the views' distances before and
+after; processor time of fusing over that of all reconstructions, and its peak memory.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ COLUMNS = {
     "gain": ("nearer", 1),
     "completeness_percent": ("complete %", 2),
     "normals_median_deg": ("normals deg", 2),
+    "normals_own_median_deg": ("own deg", 2),
     "within_2_sigma_percent": ("in 2 sigma %", 1),
     "shared_rms_mm": ("shared mm", 3),
     "shared_sigma_mm": ("shared sigma", 3),

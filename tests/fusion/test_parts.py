@@ -1,4 +1,4 @@
-"""Parts of a piece that a break and a seam of unsure normals cut off together: placed each by itself."""
+"""Parts of a piece that breaks and seams of unsure or sharply turning normals cut off: placed each by itself."""
 
 from __future__ import annotations
 
@@ -35,12 +35,15 @@ def inside() -> Mask:
     return (row >= CUT) & (column < SEAM)
 
 
-@pytest.mark.parametrize("seam", ["unsure", "sharp"])
-def test_a_break_and_a_seam_cut_off_a_part(seam: str) -> None:
-    """Where normals are unsure, or turn sharply from one pixel to the next, a piece hangs on to what may lie behind it."""
+@pytest.mark.parametrize(("above", "beside"), [("break", "unsure"), ("break", "sharp"), ("seam", "unsure")])
+def test_breaks_and_seams_cut_off_a_part(above: str, beside: str) -> None:
+    """Where normals are unsure, or turn sharply beside a break, a piece hangs on to what may lie behind it."""
     component, breaks, normals, std_deg = piece()
-    cut(breaks)
-    if seam == "unsure":
+    if above == "break":
+        cut(breaks)
+    else:
+        std_deg[CUT, : SEAM + 1] = 20
+    if beside == "unsure":
         std_deg[CUT - 2 :, SEAM] = 20
     else:
         normals[:, :SEAM] = [0.7, 0, -np.sqrt(0.51)]
@@ -50,16 +53,16 @@ def test_a_break_and_a_seam_cut_off_a_part(seam: str) -> None:
     assert np.mean((found == 2) == inside()) > 0.98
 
 
-@pytest.mark.parametrize("what", ["break", "seam", "a seam all round", "neither"])
-def test_one_of_them_alone_cuts_nothing_off(what: str) -> None:
-    """A break that ends within the piece leaves a way round it, and a part whose border is nowhere broken is held by it."""
+@pytest.mark.parametrize("what", ["break", "seam", "edge", "neither"])
+def test_what_ends_within_a_piece_or_is_its_own_edge_cuts_nothing_off(what: str) -> None:
+    """There is a way round a break or a seam; at an edge sure normals turn sharply, and nothing is broken."""
     component, breaks, normals, std_deg = piece()
     if what == "break":
         cut(breaks)
     elif what == "seam":
-        std_deg[:, SEAM] = 20
-    elif what == "a seam all round":
-        std_deg[CUT, : SEAM + 1] = std_deg[CUT:, SEAM] = 20
+        std_deg[CUT:, SEAM] = 20
+    elif what == "edge":
+        normals[inside()] = [0.7, 0, -np.sqrt(0.51)]
     found, of = parted(component, breaks, normals, std_deg)
     assert of == {1: 1}
     np.testing.assert_array_equal(found, component)
