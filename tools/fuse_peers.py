@@ -20,7 +20,9 @@ import numpy as np
 
 from lpcal.fusion.align import POINTS, SHARED, Aligned, sampled
 from lpcal.fusion.bending import bending_of
+from lpcal.fusion.factor import BlockMatrix, Factor
 from lpcal.fusion.pairs import Placed
+from lpcal.fusion.partners import everyone
 from lpcal.fusion.vertices import on_the_views
 from lpcal.fusion.views import PlacedView, view_of
 from lpcal.fusion.volume import surface_of
@@ -32,6 +34,8 @@ ROUNDS = 4
 REACH_M = 0.004
 """How far apart points of two views may be to be taken for one, metres: some sigmas of the single views."""
 KNOTS_PX = 48
+SURE = 1e12
+"""Information of every parameter where nothing is aligned: standard deviations of a thousandth of a millimetre."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +70,10 @@ def surface_at(views: Sequence[PlacedView], H_OC: Sequence[np.ndarray]) -> np.nd
     sizes = [6 + one.bending.size for one in state]
     starts = SHARED + np.concatenate([[0], np.cumsum(sizes)])[:-1]
     size = SHARED + sum(sizes)
-    still = Aligned(tuple(state), np.zeros(size), np.zeros((size, size)), starts, {}, 1e-4, 0.0, 0.0, np.zeros((6, 6)))
+    sure = BlockMatrix(np.array([0, *starts, size]))
+    for block in range(len(starts) + 1):
+        sure.add(sure.rows(block), np.diag(np.full(len(sure.rows(block)), SURE)))
+    still = Aligned(tuple(state), np.zeros(size), Factor.of(sure), starts, {}, everyone(len(state)), 1e-4, 0.0, 0.0, np.zeros((6, 6)))
     return on_the_views(still, surface_of(state)).triangles.vertices_A
 
 
