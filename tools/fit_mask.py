@@ -1,7 +1,7 @@
 """Fit the network that the automatic mask judges by: ``python tools/fit_mask.py SCENES... [--jobs N] [--on ENGINE] [--folds FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (a `mask`); without an ambient image the room's light is
-estimated, as the mask does it. Writes the weights that lpcal.segmentation.network reads; cross-validated by scene in FOLDS parts, how good
+estimated, as the mask does it. Writes the weights that lpcal.view.network reads; cross-validated by scene in FOLDS parts, how good
 the coarse masks are. The networks that were fitted without a part of the scenes go to FILE, for tools/fit_outline.py, which must not see
 odds of scenes that they were fitted to. The labels themselves depend a little on the network. Needs PyTorch (``uv run --with torch``); with
 OMP_NUM_THREADS=1 where other work shares the machine.
@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,15 +27,11 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.segmentation import background, clues, flats, layers, mask, network, room_light
+from lpcal.segmentation import background, clues, flats, layers, mask, room_light
 from lpcal.segmentation.clues import View
 from lpcal.segmentation.samples import LIT_SIGMAS
-from lpcal.view import sight
+from lpcal.view import network, sight
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
-
-if TYPE_CHECKING:
-    import torch
-    from torch import nn
 
 FOLDS = 4
 EPOCHS, BATCH = 64, 8
@@ -137,44 +132,6 @@ def crop(true: np.ndarray, rng: np.random.Generator) -> tuple[slice, slice]:
     return sides[0], sides[1]
 
 
-def unet(channels: int) -> nn.Module:
-    """The network of lpcal.segmentation.network, to be fitted."""
-    import torch
-    from torch import nn
-    from torch.nn import functional
-
-    def step(before: int, after: int) -> nn.Module:
-        return nn.Sequential(nn.Conv2d(before, after, 3, padding=1, bias=False), nn.BatchNorm2d(after), nn.ReLU())
-
-    class Unet(nn.Module):
-        def __init__(self) -> None:
-            super().__init__()
-            zero, one, two, three, last = WIDTHS
-            pairs = {"in": (channels + 2, zero), "up 2": (two + 2 * three, two), "up 1": (one + two, one), "up 0": (zero + one, last)}
-            for level, (before, after) in enumerate(((zero, one), (one, two), (two, three)), 1):
-                pairs |= {f"down {level}": (before, after), f"down {level}, again": (after, after)}
-            self.steps = nn.ModuleDict({name: step(*pair) for name, pair in pairs.items()})
-            self.out = nn.Conv2d(last, 1, 1)
-
-        def forward(self, x: torch.Tensor) -> torch.Tensor:
-            count, _, rows, columns = x.shape
-            y, z = ((torch.arange(side) + 0.5 - side / 2) / network.PLACE for side in (rows, columns))
-            place = torch.stack(torch.meshgrid(y, z.abs(), indexing="ij")).expand(count, 2, rows, columns)
-            x, seen = self.steps["in"](torch.cat([x, place], 1)), []
-            for level in (1, 2, 3):
-                seen.append(x)
-                half = functional.avg_pool2d(x, 2, ceil_mode=True, count_include_pad=False)
-                x = self.steps[f"down {level}, again"](self.steps[f"down {level}"](half))
-            x = torch.cat([x, x.mean((2, 3), keepdim=True).expand_as(x)], 1)
-            for level in (2, 1, 0):
-                before = seen.pop()
-                wide = functional.interpolate(x, scale_factor=2, mode="nearest")[..., : before.shape[2], : before.shape[3]]
-                x = self.steps[f"up {level}"](torch.cat([before, wide], 1))
-            return self.out(x)[:, 0]
-
-    return Unet()
-
-
 def pierced(x: np.ndarray, share: np.ndarray, names: Sequence[str], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """The same with a hole in the object that shows what its background shows elsewhere; as it is where there is no room for one."""
     rows, columns = np.indices(share.shape)
@@ -235,6 +192,8 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
     import torch
     from torch.nn import functional
 
+    from unet import Unet, arrays
+
     torch.manual_seed(seed)
     names, rng = list(train[0].channels), np.random.default_rng(seed)
     pixels = np.concatenate([np.stack([one.channels[name].ravel() for name in names])[:, ::7] for one in train], axis=1)
@@ -242,7 +201,8 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
     by_name: dict[str, list[Example]] = {}
     for one in train:
         by_name.setdefault(one.name, []).append(one)
-    net, each = unet(len(names)), len(by_name) // BATCH
+    net, each = Unet(len(names), WIDTHS, 1), len(by_name) // BATCH
+    place = np.broadcast_to(network.places(*SIDES), (BATCH, 2, *SIDES))
     optimizer = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=DECAY)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=EPOCHS * each, pct_start=0.15)
     for _ in range(EPOCHS):
@@ -251,9 +211,9 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
             drawn = [sampled(by_name[name][rng.integers(len(by_name[name]))], names, rng) for name in batch]
             x = (np.stack([one[0] for one in drawn]) - middle[:, None, None]) / spread[:, None, None]
             x = np.clip(x, -network.FURTHEST, network.FURTHEST) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
-            x = torch.from_numpy((x + NOISE * rng.standard_normal(x.shape)).astype(np.float32))
+            x = np.concatenate([x + NOISE * rng.standard_normal(x.shape), place], axis=1)
             share = torch.from_numpy(np.stack([one[1] for one in drawn]).astype(np.float32))
-            said, true = net(x), (share > 0.5).float()
+            said, true = net(torch.from_numpy(x.astype(np.float32)))[:, 0], (share > 0.5).float()
             weight = 2 * (share - 0.5).abs() / true.sum((1, 2), keepdim=True).clamp(min=FEWEST)
             logistic = (functional.binary_cross_entropy_with_logits(said, true, reduction="none") * weight).sum((1, 2))
             p = torch.sigmoid(said)
@@ -263,24 +223,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
             torch.nn.utils.clip_grad_norm_(net.parameters(), 2.0)
             optimizer.step()
             schedule.step()
-    return arrays(net, names, middle, spread)
-
-
-def arrays(net: nn.Module, names: Sequence[str], middle: np.ndarray, spread: np.ndarray) -> dict[str, np.ndarray]:
-    """What lpcal.segmentation.network reads: the normalisation of each batch has become a part of the convolution before it."""
-    state = {name: value.detach().numpy() for name, value in net.state_dict().items()}
-    found = {"channels": np.array(names), "mirrored": np.where(np.isin(names, clues.MIRRORED), -1, 1), "middle": middle, "spread": spread}
-    for name in net.steps:
-        at = f"steps.{name}"
-        gain = state[f"{at}.1.weight"] / np.sqrt(state[f"{at}.1.running_var"] + net.steps[name][1].eps)
-        weight = state[f"{at}.0.weight"] * gain[:, None, None, None]
-        found[f"{name}.weight"] = np.moveaxis(weight.reshape(*weight.shape[:2], 9), 2, 0)
-        found[f"{name}.offset"] = state[f"{at}.1.bias"] - gain * state[f"{at}.1.running_mean"]
-    found |= {"out.weight": state["out.weight"][0, :, 0, 0], "out.offset": state["out.bias"]}
-    return {
-        name: value if name == "channels" else np.asarray(value, np.float16 if name.endswith(".weight") else np.float32)
-        for name, value in found.items()
-    }
+    return arrays(net, names, clues.MIRRORED, middle, spread)
 
 
 def by_folds(examples: Sequence[Example]) -> dict[str, network.Network]:
@@ -313,10 +256,10 @@ def report(examples: Sequence[Example], folds: Path | None = None) -> None:
         folds.write_bytes(pickle.dumps(left_out))
         for whole, name in ((True, "as they are"), (False, "with noise added")):
             some = [one for one in examples if one.whole is whole]
-            masks = [background.object_in(left_out[one.name].log_odds(one.channels) > 0, ()) for one in some]
+            masks = [background.object_in(background.log_odds_by(left_out[one.name], one.channels) > 0, ()) for one in some]
             values = [iou(found, one.of_object > 0.5) for found, one in zip(masks, some, strict=True)]
             print(line_of(f"{len(some)} scenes left out, images {name}: IoU of coarse masks", values))
-    np.savez_compressed(network.FITTED, **fitted(examples))
+    np.savez_compressed(background.FITTED, **fitted(examples))
 
 
 def of_scenes[T](description: str | None, example: Callable[[Path, Path | None], T]) -> tuple[list[T], Path | None]:

@@ -1,12 +1,14 @@
 """Fit the standard deviation of normals: how each clue of ``surface/uncertainty.py`` counts.
 
-``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE.npz] [--noise X]``: SCENES are simulated scenes with
-truth (folders that hold ``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of such. Each is
-reconstructed within its true mask; the clues of its pixels stand beside the angle between its normals and the true ones. The variance is a
-sum of squared clues, each with a factor that is not negative; the factors are those of the greatest likelihood (Student's, so that outliers
-do not dominate), every scene counting alike, scaled so that the median scene has the share of pixels within two sigma that is expected.
+``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE.npz] [--distant] [--noise X]``: SCENES are simulated
+scenes with truth (folders that hold ``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of
+such, to which the network of surface.normal_prior was not fitted. Each is reconstructed within its true mask; the clues of its pixels
+stand beside the angle between its normals and the true ones. The variance is a sum of squared clues, each with a factor that is not
+negative; the factors are those of the greatest likelihood (Student's, so that outliers do not dominate), every scene counting alike,
+scaled so that the median scene has the share of pixels within two sigma that is expected.
 
-``--keep`` writes the clues, or reads them where the file is there. ``--noise`` holds the factor of the samples' own noise: drawn matter is
+``--distant`` does not ask what is expected of the normals: the factors are then those of distant light. ``--keep`` writes the clues, or
+reads them where the file is there. ``--noise`` holds the factor of the samples' own noise, the first of distant light: drawn matter is
 the model's, and so says less of it than real sets do (``tools/bench_surface.py`` prints median errors over sigma on DiLiGenT).
 
 Printed: the factors; for each scene the share of pixels within two sigma, by factors fitted on all the others (cross-validated by scene);
@@ -17,6 +19,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,11 +28,11 @@ from scipy import ndimage, optimize
 from lpcal import read_calibration, read_capture, reconstruct
 from lpcal.api.engines import engine_of
 from lpcal.geometry.arrays import Array
-from lpcal.surface import uncertainty
+from lpcal.surface import normal_prior, uncertainty
 
 FREEDOM = 4.0
 """Degrees of freedom of Student's distribution: errors of normals have heavy tails."""
-EXPECTED = 92.0
+EXPECTED = 93.0
 """Share of errors within two standard deviations at the median scene, per cent: 86.5 would be a normal distribution's, but scenes differ in
 what the clues do not see, and at the worst tenth of them two thirds should still be within."""
 MOST_PIXELS = 4000
@@ -37,7 +40,9 @@ MOST_PIXELS = 4000
 DISAGREES = 5.0
 """Spread of the true normals over 3x3 pixels, degrees, over which a pixel's true normal hangs on where in the pixel one looks."""
 NAMES = ("noise", "bend round", "bend", "edge", "three", "filled", "thrown", "unseen")
-"""The clues, in the order of `uncertainty.squares`."""
+"""The clues of distant light, in the order of `uncertainty.squares`."""
+NEAR_NAMES = ("bend", "expected")
+"""Those of near light."""
 
 
 def scenes_of(paths: list[Path]) -> Iterator[Path]:
@@ -49,10 +54,10 @@ def scenes_of(paths: list[Path]) -> Iterator[Path]:
             yield from sorted(one for one in path.iterdir() if (one / "calibration.yaml").exists())
 
 
-def clues_of(scene: Path) -> tuple[str, Array, Array, float]:
-    """Squares of the clues (P, 8) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
+def clues_of(scene: Path, *, distant: bool = False) -> tuple[str, Array, Array, float]:
+    """Squares of the clues (P, N) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
     seen: list[tuple[Array, float]] = []
-    plain = uncertainty.normal_sigma_deg
+    plain, turned = uncertainty.normal_sigma_deg, normal_prior.turned
 
     def heard(found: uncertainty.Clues, calibration_deg: float) -> Array:
         seen.append((uncertainty.squares(found), calibration_deg))
@@ -61,11 +66,13 @@ def clues_of(scene: Path) -> tuple[str, Array, Array, float]:
     with np.load(scene / "truth" / "surface.npz") as stored:
         mask, truth = stored["mask"].astype(bool), stored["normals"]
     uncertainty.normal_sigma_deg = heard
+    if distant:
+        normal_prior.turned = lambda _scene, state: (state, None)
     try:
         calibration = read_calibration(scene / "calibration.yaml")
         found = reconstruct(read_capture(scene / "capture", [light.name for light in calibration.lights]), calibration, mask=mask)
     finally:
-        uncertainty.normal_sigma_deg = plain
+        uncertainty.normal_sigma_deg, normal_prior.turned = plain, turned
     square, calibration_deg = seen[-1]
     error = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(found.normals - truth, axis=-1) / 2, 0, 1)))
     steady = mask & (_spread_deg(truth, mask) < DISAGREES)
@@ -83,7 +90,7 @@ def _spread_deg(n: Array, mask: Array) -> Array:
 
 
 def fitted(scenes: list[tuple[str, Array, Array, float]], noise: float | None = None) -> Array:
-    """Factors (8,) of the greatest likelihood: an angle e has the density ``e / s^2 (1 + e^2 / (F s^2))^-(F/2+1)``.
+    """Factors (N,) of the greatest likelihood: an angle e has the density ``e / s^2 (1 + e^2 / (F s^2))^-(F/2+1)``.
 
     The first is held where `noise` gives it.
     """
@@ -124,6 +131,7 @@ def main() -> None:
     words.add_argument("--on", default="processes")
     words.add_argument("--keep", type=Path)
     words.add_argument("--noise", type=float)
+    words.add_argument("--distant", action="store_true")
     given = words.parse_args()
     if given.keep is not None and given.keep.exists():
         with np.load(given.keep) as kept:
@@ -131,16 +139,17 @@ def main() -> None:
             scenes = [(name, kept[f"{name}.square"], kept[f"{name}.error"], float(kept[f"{name}.calibration"])) for name in names]
     else:
         with engine_of(given.on, given.jobs, Path()).start() as pool:
-            scenes = list(pool.map(clues_of, scenes_of(given.scenes)))
+            scenes = list(pool.map(partial(clues_of, distant=given.distant), scenes_of(given.scenes)))
         if given.keep is not None:
             parts = ((f"{one[0]}.{key}", one[k]) for one in scenes for k, key in ((1, "square"), (2, "error"), (3, "calibration")))
             np.savez(given.keep, **{key: np.asarray(value) for key, value in parts})
-    for name, factor in zip(NAMES, fitted(scenes, given.noise), strict=True):
+    titles, factors = (NAMES, uncertainty.FACTORS) if given.distant else (NEAR_NAMES, uncertainty.NEAR_FACTORS)
+    for name, factor in zip(titles, fitted(scenes, given.noise), strict=True):
         print(f"{name:<12}{factor:12.4g}")
     print(f"\n{'scene':<14}{'now':>8}{'left out':>10}   within two sigma, %")
     table = []
     for k, scene in enumerate(scenes):
-        table.append((within(scene, np.array(uncertainty.FACTORS)), within(scene, fitted(scenes[:k] + scenes[k + 1 :], given.noise))))
+        table.append((within(scene, np.array(factors)), within(scene, fitted(scenes[:k] + scenes[k + 1 :], given.noise))))
         print(f"{scene[0]:<14}{table[-1][0]:8.1f}{table[-1][1]:10.1f}")
     for title, share in (("median", 50), ("worst tenth", 10)):
         print(f"{title:<14}" + "".join(f"{value:9.1f}" for value in np.percentile(table, share, axis=0)))

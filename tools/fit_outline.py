@@ -19,7 +19,7 @@ from scipy import optimize
 from fit_mask import WRONG, Seen, iou, line_of, of_scenes
 from lpcal.geometry.raster import block_means
 from lpcal.segmentation import background, cut, flats, layers, mask, outline
-from lpcal.segmentation.network import Network
+from lpcal.view.network import Network
 
 RIDGE = 1e-3
 """Penalty on the square of a weight, by a mean weight of 1 for pixels: pixels are many, it keeps the equations solvable."""

@@ -241,5 +241,5 @@ def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mas
     found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, sight.room(radiance), drawn=False)
     _, around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
     seen = sight.look_at(maps, rays_C, object_mask, central=True)
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held, solver.room_of(radiance, object_mask))
     return solver.surface_of(radiance, scene, rounds.run(scene, held.u, silent), rays_C, None)

@@ -157,3 +157,20 @@ def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Ar
     pull, count = weight * step, len(curvature)
     right = curvature * optimum + np.bincount(grid.b, pull, count) - np.bincount(grid.a, pull, count)
     return Matrix(grid.pyramid, curvature, weight), right
+
+
+def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
+    """Normals (P, 3) of points (P, 3) of a grid's pixels, turned towards the camera; NaN where no slope is known both ways.
+
+    The cross product of the slopes along rows and columns, over those edges (edges,) that are `whole`.
+    """
+    count = len(points_C)
+    slopes = []
+    for edges in (grid.horizontal & whole, ~grid.horizontal & whole):
+        a, b = grid.a[edges], grid.b[edges]
+        chord = points_C[b] - points_C[a]
+        number = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)
+        total = np.stack([np.bincount(a, column, count) + np.bincount(b, column, count) for column in chord.T], axis=1)
+        slopes.append(np.where(number[:, None] > 0, total / np.maximum(number, 1)[:, None], np.nan))
+    normal = -np.cross(slopes[0], slopes[1])
+    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))

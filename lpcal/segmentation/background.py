@@ -1,14 +1,15 @@
 r"""Which coarse pixels are the object and which the wall behind it or the support under it: odds, and how far they leave the mask open.
 
-The odds are those of a network (segmentation.network) that sees what the layers and the sweep of depths say (segmentation.clues). What they
+The odds are those of a network (view.network) that sees what the layers and the sweep of depths say (segmentation.clues). What they
 leave uncertain is the mask's stated doubt. The user may say where the object is: a box takes the place of the image, and what a given point
 shows is the object.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -17,9 +18,11 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.segmentation import clues
 from lpcal.segmentation.clues import View
-from lpcal.segmentation.network import Network
 from lpcal.view.agreed import UNLIKELY
+from lpcal.view.network import Network
 
+FITTED = Path(__file__).with_name("mask_network.npz")
+"""Where the network's weights are that tools/fit_mask.py has fitted."""
 RIM = 2
 """Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
 HOLE = 0.005
@@ -56,7 +59,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
 
     Where nothing is rather the object than not, it is what is likeliest.
     """
-    log_odds = (network or Network.fitted()).log_odds(clues.channels(view, labels, planes, cost))
+    log_odds = log_odds_by(network or Network.read(FITTED), clues.channels(view, labels, planes, cost))
     odds = np.zeros(labels.shape)
     odds[view.window] = 1 / (1 + np.exp(-np.clip(log_odds, -30, 30)))
     for at in view.points:
@@ -65,6 +68,11 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
     likeliest = float(odds.max())
     behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, UNLIKELY))
     return Judged(odds, behind, object_in(~behind, view.points))
+
+
+def log_odds_by(network: Network, channels: Mapping[str, Array]) -> Array:
+    """Log odds (rows, columns) that pixels are the object: the mean of the network's answers on a picture and on its mirror image."""
+    return np.asarray(np.mean(network.answers(channels), axis=0)[0], float)
 
 
 def all_of(judgement: Judged, lit: Mask) -> Judged:

@@ -22,6 +22,7 @@ from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
 from lpcal.segmentation.clues import View
 from lpcal.view import bands
+from lpcal.view.agreed import UNLIKELY
 from lpcal.view.coarse import LightTable
 from lpcal.view.sight import Indices, strength
 
@@ -45,8 +46,6 @@ STEPS = 250
 """Steps of the primal-dual method: labels then no longer change."""
 BINS = 40
 """Cells of an appearance."""
-RARE = 0.02
-"""Share of an appearance that is spread over all albedos: none is impossible."""
 BRIGHTEST = 75
 """Percentile of the object's brightest shading that stands for its matter in full light; at first the median of all that is lit does."""
 FEWEST = 30
@@ -71,7 +70,7 @@ class Appearance:
         """The appearance of log values (N,), smoothed over a bin."""
         count, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
         smooth = raster.blurred(count.astype(float), 1.0)
-        return Appearance(low, high, (1 - RARE) * BINS * smooth / max(smooth.sum(), 1e-12) + RARE)
+        return Appearance(low, high, (1 - UNLIKELY) * BINS * smooth / max(smooth.sum(), 1e-12) + UNLIKELY)  # no albedo is impossible
 
     def at(self, values: Array) -> Array:
         """Density at log values (P,)."""

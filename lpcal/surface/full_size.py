@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
+from lpcal.integration.integrate import Grid, Own, integrate, normals_of, settle, steps
 from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.records.calibration import Camera
 from lpcal.records.observations import Radiance
@@ -29,7 +29,7 @@ from lpcal.shading import field
 from lpcal.shading.field import Field
 from lpcal.shading.gloss import Gloss
 from lpcal.shading.normals import Estimate, albedo_of
-from lpcal.surface import reconstruct, uncertainty
+from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground
 from lpcal.surface.rounds import FULL_ROUNDS, Scene
 from lpcal.view import bands, sight
@@ -160,10 +160,14 @@ class Full:
         if ground.hidden is not None:
             hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
         lit = Lit(*sight.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
-        n = lambert.unit(ground.between(ground.n, *tile.outer)[inside].astype(float))[0]
+        n = ground.between(ground.n, *tile.outer)[inside].astype(float)
+        turn: Array = np.zeros(3)
+        if ground.turn is not None:
+            turn = ground.between(ground.turn[..., :3], *tile.outer)[inside].astype(float)
+        n = lambert.unit(n - turn)[0]
         start = Field(_albedo_by(n, seen, lit, hidden)[:, None] * n, Estimate.nothing(), self.gloss)
         whole = field.solve(seen, Grid.of(inside), lit, hidden, start, rounds=FULL_ROUNDS)
-        n = lambert.unit(whole.b)[0]
+        n = lambert.unit(lambert.unit(whole.b)[0] + turn)[0]
         signal = radiance.signal[:, inside].reshape(len(seen.signal), seen.pixels, -1)
         intensity = np.stack([light.intensity if signal.shape[2] > 1 else light.intensity[:1] for light in self.scene.lights])
         intensity = np.broadcast_to(intensity, (len(intensity), signal.shape[2]))
@@ -253,13 +257,16 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
         else:
             points = np.stack([*np.nonzero(inside)[::-1], depth], axis=1).astype(float)
         whole = ~np.where(grid.horizontal, *(found.breaks[k][tile.outer][inside][grid.a] for k in (0, 1)))
-        of_depth = reconstruct.normals_of(grid, points, whole)
+        of_depth = normals_of(grid, points, whole)
         of_depth = np.where(np.isfinite(of_depth), of_depth, own)
         noise, used = (one[tile.outer][inside].astype(float) for one in (found.normal_std_deg, found.lights_used))
         share = full.ground.at(full.ground.share, *tile.outer)[inside].astype(float)
         around = full.ground.unseen
         unseen = np.zeros(len(own)) if around is None else full.ground.at(around, *tile.outer)[inside].astype(float)
-        clues = uncertainty.clues_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen)
+        expected = None
+        if full.ground.turn is not None:
+            expected = np.degrees(full.ground.between(full.ground.turn[..., 3], *tile.outer)[inside].astype(float))
+        clues = uncertainty.clues_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen, expected)
         drawn = np.exp(-((clues.bend_deg / agree_deg) ** 2))[:, None]
         n[inside] = lambert.unit(own + drawn * of_depth)[0]
         sigma[inside] = uncertainty.normal_sigma_deg(clues, calibration_deg)

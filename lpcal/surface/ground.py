@@ -11,7 +11,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading.normals import thrown_share
-from lpcal.surface import rounds
+from lpcal.surface import normal_prior, rounds
 from lpcal.surface.rounds import Scene, State
 from lpcal.view.agreed import GRAZING
 from lpcal.view.sight import Indices, Lit
@@ -36,6 +36,11 @@ class Ground:
     """(h, w, L) which lights the surface hides."""
     loose: Mask
     """Where the surface breaks, or next to it: there the coarse depth does not hold the fine one."""
+    turn: Image | None
+    """(h, w, 4) what is added to normals for what is expected of them (surface.normal_prior), and their standard deviation, radians.
+
+    None where they are not asked.
+    """
     nearest: Indices
     """(2, h, w) row and column of the nearest pixel of the object."""
 
@@ -60,8 +65,12 @@ class Ground:
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
         loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool))
         share = np.asarray(filled(thrown_share(lit, state.found).astype(np.float32)), np.float32)
-        u, n = np.asarray(filled(state.u)), np.asarray(filled(normals_C[mask].astype(float)))
-        return Ground(factor, rays_C[tuple(nearest)], u, n, thrown, unseen, share, hidden, np.asarray(loose), nearest)
+        other, sigma_rad = normal_prior.turned(scene, state)
+        turn = None
+        if sigma_rad is not None:
+            turn = np.asarray(filled(np.column_stack([other.normals - state.normals, sigma_rad]).astype(np.float32)), np.float32)
+        u, n = np.asarray(filled(other.u)), np.asarray(filled(normals_C[mask].astype(float)))
+        return Ground(factor, rays_C[tuple(nearest)], u, n, thrown, unseen, share, hidden, np.asarray(loose), turn, nearest)
 
     def place(self, rows: slice, columns: slice) -> tuple[Indices, Indices]:
         """Rows (h,) and columns (w,) of the coarse pixels that pixels in full size lie in."""

@@ -3,8 +3,6 @@
 Without a camera, or with distant lights, the light does not determine the distance: parallel rays give a depth in pixels about zero, a
 camera one about the distance that is given or designed.
 
-Normals of a depth: the cross product of its slopes along rows and columns, taken where the surface does not break.
-
 Where to begin when nothing says how far away the object is: the distance of a flat front at which near light explains the images best.
 
 At each distance of a sweep every pixel has a normal and an albedo of its own; the residual shows how well the distance fits.
@@ -33,7 +31,18 @@ from lpcal.segmentation.background import NOTHING, OBJECT
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.shading import normals
 from lpcal.shading.normals import albedo_of
-from lpcal.surface import basins, components, reading, rounds, self_calibration, shadow_anchor, surroundings, uncertainty, without_ambient
+from lpcal.surface import (
+    basins,
+    components,
+    normal_prior,
+    reading,
+    rounds,
+    self_calibration,
+    shadow_anchor,
+    surroundings,
+    uncertainty,
+    without_ambient,
+)
 from lpcal.surface.basins import Basins
 from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import Scene, State
@@ -140,7 +149,8 @@ def reconstruct(
         basins_found = reading.weighed(basins_found, options.reading, calibration.camera)
         u = basins_found.start(object_mask) if basins_found is not None else u
     whole, around = beside()
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around)
+    room, likely = room_of(radiance, object_mask), _of_object(background if wanted else None, radiance, options)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around, None, room, likely)
     del maps, beside  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     if whole is not None and calibration.camera is not None and options.distance_m is None:
@@ -165,6 +175,19 @@ def _background(
         return None
     room, drawn = sight.room(radiance), wanted or not options.automatic_mask
     return mask.automatic(maps, rays_C, lights, about_m, options.hints, room, drawn=drawn)
+
+
+def _of_object(found_by: mask.Found | None, radiance: Radiance, options: Options) -> float:
+    """Odds that the mask is that of an object: those of the automatic one, unless all else is wanted, too."""
+    if found_by is not None:
+        return 1 - (found_by.doubt or 0.0) if options.keep == "object" else 0.0
+    return 0.0 if _given(radiance, options) is None else 1.0
+
+
+def room_of(radiance: Radiance, object_mask: Mask) -> Array | None:
+    """The signal (P,) of a mask's pixels without lights; None where there is no such image."""
+    room = sight.room(radiance)
+    return None if room is None else np.asarray(room[object_mask], float)
 
 
 def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
@@ -260,13 +283,13 @@ def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
 def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:
     """The maps of a surface by the state that its rounds ended in, and by the basins of its distance that were found."""
     seen, grid = scene.seen, scene.grid
+    state, expected_rad = normal_prior.turned(scene, state)
     depth = np.exp(state.u) if seen.central else state.u
     label = pieces.pieces(grid, state.weight, seen.mask)
     albedo = _albedo(radiance, scene, state)
     whole = state.weight > pieces.BREAK_WEIGHT
-    of_depth = normals_of(grid, seen.shape_C(depth), whole)
-    of_depth = np.where(np.isfinite(of_depth), of_depth, state.normals)
-    clues = uncertainty.clues(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole)
+    of_depth = normal_prior.normals_of_depth(scene, state)
+    clues = uncertainty.clues(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole, expected_rad)
     sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
     drawn = np.exp(-((clues.bend_deg / AGREE_DEG) ** 2))[:, None]
     n = lambert.unit(state.normals + drawn * of_depth)[0]
@@ -323,20 +346,6 @@ def _figures(state: State) -> SurfaceFigures:
         reflectance=None if state.reflects is None else state.reflects.median,
         residual_sigmas_rms=float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),
     )
-
-
-def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
-    """Normals (P, 3) of points (P, 3) of a grid's pixels, turned towards the camera; NaN where no slope is known both ways."""
-    count = len(points_C)
-    slopes = []
-    for edges in (grid.horizontal & whole, ~grid.horizontal & whole):
-        a, b = grid.a[edges], grid.b[edges]
-        chord = points_C[b] - points_C[a]
-        number = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)
-        total = np.stack([np.bincount(a, column, count) + np.bincount(b, column, count) for column in chord.T], axis=1)
-        slopes.append(np.where(number[:, None] > 0, total / np.maximum(number, 1)[:, None], np.nan))
-    normal = -np.cross(slopes[0], slopes[1])
-    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
 
 
 SPAN = (0.5, 40.0)

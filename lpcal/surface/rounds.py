@@ -118,6 +118,10 @@ class Scene:
     """What stands round the object and reflects light onto it."""
     held: Held | None = None
     """What other views say of it; None: nothing."""
+    room: Array | None = None
+    """(P,) signal of the image without lights; None where there is none."""
+    of_object: float = 1.0
+    """Odds that the pixels are an object and not what it stands on or before: by these its normals are turned (surface.normal_prior)."""
 
     @property
     def near(self) -> bool:

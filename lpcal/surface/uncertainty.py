@@ -5,10 +5,11 @@ the depth, R5 its rms over 5x5 pixels::
 
     sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
-with the clues: s max(1, sqrt(chi2 / dof)), s as of INDEPENDENT lights at most; R5; R; whether an edge or a break is near; whether three
-lights were used; whether the normal is filled in; the light that is reflected onto the pixel by its surroundings as a share of the
-direct light; and how much of what stands round it is a side that the camera does not see (surface.bounce). The factors are fitted by
-tools/fit_normal_sigma.py on simulated scenes. The calibration's part is common to the whole image.
+with the clues, of distant light: s max(1, sqrt(chi2 / dof)), s as of INDEPENDENT lights at most; R5; R; whether an edge or a break is
+near; whether three lights were used; whether the normal is filled in; the light that is reflected onto the pixel by its surroundings as a
+share of the direct light; and how much of what stands round it is a side that the camera does not see (surface.bounce). Of near light: R,
+and what is stated of the normals that are expected (surface.normal_prior). The factors are fitted by tools/fit_normal_sigma.py on simulated
+scenes. The calibration's part is common to the whole image.
 """
 
 from __future__ import annotations
@@ -29,6 +30,9 @@ from lpcal.view.sight import Lit
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
 """What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
 tools/fit_normal_sigma.py on 200 simulated scenes, the first held: drawn matter is the model's and says less of it than DiLiGenT's does."""
+NEAR_FACTORS = (0.388, 1.75)
+"""The same of near light, where a network says how far it trusts a normal: R, and what the network states; fitted by
+tools/fit_normal_sigma.py on 70 simulated scenes that the network had not been fitted to. The samples' noise adds nothing to these two."""
 INDEPENDENT = 4.0
 """Lights whose samples count in full: what real matter is not of the model's is common to neighbouring lights, and more of them do not
 average it away. By DiLiGenT's ball and bear, whose normals err alike by 10 lights and by 96."""
@@ -63,13 +67,21 @@ class Clues:
     """Light from around by that which comes straight."""
     unseen: Array
     """Share of unseen sides in what stands around."""
+    expected_deg: Array | None = None
+    """What surface.normal_prior states of each normal; None where it is not asked."""
 
 
-def clues(grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_depth: Array, whole: Mask) -> Clues:
-    """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold."""
+def clues(
+    grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_depth: Array, whole: Mask, expected_rad: Array | None = None
+) -> Clues:
+    """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold.
+
+    `expected_rad` (P,) is what surface.normal_prior states of the normals.
+    """
     noise, misfit = noise_deg(found, normals)
     unseen = np.zeros(len(normals)) if lit.unseen is None else lit.unseen
-    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, thrown_share(lit, found), unseen)
+    expected_deg = None if expected_rad is None else np.degrees(expected_rad)
+    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, thrown_share(lit, found), unseen, expected_deg)
 
 
 def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
@@ -97,6 +109,7 @@ def clues_of(
     used: Array,
     thrown: Array,
     unseen: Array,
+    expected_deg: Array | None = None,
 ) -> Clues:
     """The clues of each pixel, those that come from its samples given."""
     bend = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(normals - of_depth, axis=1) / 2, 0, 1)))
@@ -106,11 +119,13 @@ def clues_of(
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
     edge = raster.away(rim)[mask] < RIM_PX
-    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen)
+    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen, expected_deg)
 
 
 def squares(found: Clues) -> Array:
-    """The squares of the clues (P, 8)."""
+    """The squares of the clues: (P, 8), or (P, 2) with what surface.normal_prior states."""
+    if found.expected_deg is not None:
+        return np.stack([found.bend_deg, found.expected_deg], axis=1) ** 2
     noise = found.noise_deg * np.maximum(1, np.sqrt(found.misfit))
     flags = [found.edge, found.used == 3, found.filled]
     return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.thrown, found.unseen], axis=1) ** 2
@@ -118,7 +133,8 @@ def squares(found: Clues) -> Array:
 
 def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:
     """Standard deviation (P,) of a normal per axis, degrees."""
-    return np.sqrt(squares(found) @ np.array(FACTORS) + calibration_deg**2)
+    factors = FACTORS if found.expected_deg is None else NEAR_FACTORS
+    return np.asarray(np.sqrt(squares(found) @ np.array(factors) + calibration_deg**2))
 
 
 def calibration_deg(lights: Sequence[Light]) -> float:

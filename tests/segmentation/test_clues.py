@@ -9,9 +9,10 @@ import pytest
 
 from lit_scene import calibration
 from lpcal.segmentation import clues, layers, mask
+from lpcal.segmentation.background import FITTED
 from lpcal.segmentation.clues import View
-from lpcal.segmentation.network import Network
 from lpcal.view.coarse import LightTable, coarse_of
+from lpcal.view.network import Network
 from lpcal.view.sight import Grey
 from plane_scene import WALL, WORKING_M, picture, scene
 
@@ -36,7 +37,7 @@ def seen(scale: float = 1.0, factor: int = 4) -> tuple[View, np.ndarray, np.ndar
 def test_the_networks_channels_are_the_clues() -> None:
     view, labels, cost = seen()
     found = clues.channels(view, labels, [WALL, CARD], cost)
-    assert set(Network.fitted().channels) == set(found)
+    assert set(Network.read(FITTED).channels) == set(found)
     assert set(clues.MIRRORED) < set(found)
     assert all(value.shape == labels.shape and np.isfinite(value).all() for value in found.values())
 

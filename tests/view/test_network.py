@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from lpcal.segmentation import clues, network
-from lpcal.segmentation.network import Convolution, Network, doubled, halved
+from lpcal.segmentation import clues
+from lpcal.segmentation.background import FITTED, log_odds_by
+from lpcal.view.network import Convolution, Network, doubled, halved
 
 
 def test_a_convolution_is_the_sum_over_nine_places_and_rectified() -> None:
@@ -42,21 +43,21 @@ def random_channels(shape: tuple[int, int], net: Network) -> dict[str, np.ndarra
 @pytest.mark.parametrize("shape", [(60, 80), (33, 47)])
 def test_left_and_right_are_alike(shape: tuple[int, int]) -> None:
     """In a mirror the answer is the mirror image; and normals' x counts: without its sign the answer differs."""
-    net = Network.fitted()
+    net = Network.read(FITTED)
     seen = random_channels(shape, net)
     mirror = {name: (-1 if name in clues.MIRRORED else 1) * value[:, ::-1] for name, value in seen.items()}
-    np.testing.assert_allclose(net.log_odds(mirror)[:, ::-1], net.log_odds(seen), atol=1e-3)
+    np.testing.assert_allclose(log_odds_by(net, mirror)[:, ::-1], log_odds_by(net, seen), atol=1e-3)
     wrong = {name: value[:, ::-1] for name, value in seen.items()}
-    assert np.abs(net.log_odds(wrong)[:, ::-1] - net.log_odds(seen)).max() > 0.05
+    assert np.abs(log_odds_by(net, wrong)[:, ::-1] - log_odds_by(net, seen)).max() > 0.05
 
 
 def test_a_file_holds_all_of_it_and_what_is_wild_is_cut_off() -> None:
-    net = Network.fitted()
-    with np.load(network.FITTED) as arrays:
+    net = Network.read(FITTED)
+    with np.load(FITTED) as arrays:
         again = Network.of(arrays)
     seen = random_channels((24, 32), net)
-    np.testing.assert_array_equal(again.log_odds(seen), net.log_odds(seen))
+    np.testing.assert_array_equal(log_odds_by(again, seen), log_odds_by(net, seen))
     far = {name: net.middle[k] + 1e6 * (seen[name] - net.middle[k]) for k, name in enumerate(net.channels)}
     further = {name: net.middle[k] + 1e9 * (seen[name] - net.middle[k]) for k, name in enumerate(net.channels)}
-    np.testing.assert_array_equal(net.log_odds(far), net.log_odds(further))
-    assert np.isfinite(net.log_odds(far)).all()
+    np.testing.assert_array_equal(log_odds_by(net, far), log_odds_by(net, further))
+    assert np.isfinite(log_odds_by(net, far)).all()

@@ -1,11 +1,11 @@
-r"""A small convolutional network that says of coarse pixels how likely they are the object.
+r"""A small convolutional network that judges a coarse picture by some channels: which pixels are the object, which way they face.
 
 A U-Net: a picture of several channels is convolved and halved three times; the last scale also knows its own means over the picture. On the
 way back each scale is joined with what was found there before. A convolution takes 3 x 3 pixels; outside the picture all is 0::
 
     y = max(0, b + sum_k W_k x_k)          k: the 9 places
 
-The picture and its mirror image are both judged and the answers' mean taken, so that left and right are alike. tools/fit_mask.py fits the
+The picture and its mirror image are both judged, so that left and right are alike. tools/fit_mask.py and tools/fit_normal_prior.py fit the
 weights. Source: Ronneberger, Fischer and Brox 2015, Medical Image Computing and Computer-Assisted Intervention 9351.
 """
 
@@ -19,10 +19,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 
-FITTED = Path(__file__).with_name("mask_network.npz")
-"""Where the fitted weights are."""
 FURTHEST = 6.0
 """Standard deviations of its channel at which a value is cut off: none that the network has not seen."""
 PLACE = 40.0
@@ -64,14 +62,15 @@ class Network:
     """(C,) mean and standard deviation of each channel over the pixels that it was fitted to."""
     steps: Mapping[str, Convolution]
     weight: npt.NDArray[np.float32]
-    """(D,) of the last channels in the log odds."""
-    offset: float
+    """(N, D) of the last channels in the N answers."""
+    offset: npt.NDArray[np.float32]
+    """(N,)."""
 
     @staticmethod
     @cache
-    def fitted() -> Network:
-        """The one that tools/fit_mask.py has fitted."""
-        with np.load(FITTED) as arrays:
+    def read(path: Path) -> Network:
+        """The fitted one that a file keeps."""
+        with np.load(path) as arrays:
             return Network.of(arrays)
 
     @staticmethod
@@ -80,22 +79,23 @@ class Network:
         one = {name: np.asarray(value, np.float32) for name, value in arrays.items() if name != "channels"}
         names = [name.removesuffix(".weight") for name in one if name.endswith(".weight") and name != "out.weight"]
         steps = {name: Convolution(one[f"{name}.weight"], one[f"{name}.offset"]) for name in names}
-        last = one["out.weight"], one["out.offset"].item()
+        last = np.atleast_2d(one["out.weight"]), one["out.offset"]
         return Network(tuple(map(str, arrays["channels"])), one["mirrored"], one["middle"], one["spread"], steps, *last)
 
-    def log_odds(self, channels: Mapping[str, Array]) -> Array:
-        """Log odds (rows, columns) that pixels are the object, by channels (rows, columns) of these names, of which there may be more."""
-        x = np.stack([np.asarray(channels[name], np.float32) for name in self.channels])
-        mirror = self.mirrored[:, None, None] * x[:, :, ::-1]
-        return np.asarray((self._once(x) + self._once(mirror)[:, ::-1]) / 2, float)
+    def answers(self, channels: Mapping[str, Array], inside: Mask | None = None) -> tuple[Image, Image]:
+        """Answers (N, rows, columns) of the picture, and of its mirror image put back in place.
 
-    def _once(self, x: Image) -> Image:
-        rows, columns = x.shape[1:]
+        By channels (rows, columns) of these names, of which there may be more; only pixels `inside` count, all others are 0 everywhere.
+        """
+        x = np.stack([np.asarray(channels[name], np.float32) for name in self.channels])
+        counted = np.ones(x.shape[1:], bool) if inside is None else inside
+        mirror = self.mirrored[:, None, None] * x[:, :, ::-1]
+        return self._once(x, counted), self._once(mirror, counted[:, ::-1])[..., ::-1]
+
+    def _once(self, x: Image, inside: Mask) -> Image:
         x = np.clip((x - self.middle[:, None, None]) / self.spread[:, None, None], -FURTHEST, FURTHEST)
-        y, z = ((np.arange(side) + 0.5 - side / 2) / PLACE for side in (rows, columns))
-        place = np.stack(np.meshgrid(y, np.abs(z), indexing="ij")).astype(np.float32)
         step, seen = self.steps, list[Image]()
-        x = step["in"](np.concatenate([x, place]))
+        x = step["in"](np.concatenate([x, places(*inside.shape)]) * inside)
         for level in ("1", "2", "3"):
             seen.append(x)
             x = step[f"down {level}, again"](step[f"down {level}"](halved(x)))
@@ -103,7 +103,13 @@ class Network:
         for level in ("2", "1", "0"):
             before = seen.pop()
             x = step[f"up {level}"](np.concatenate([before, doubled(x, before.shape[1:])]))
-        return np.asarray(np.tensordot(self.weight, x, axes=1) + self.offset, np.float32)
+        return np.asarray(np.tensordot(self.weight, x, axes=1) + self.offset[:, None, None], np.float32)
+
+
+def places(rows: int, columns: int) -> Image:
+    """Where in the picture its pixels are (2, rows, columns): down from its middle, and how far left or right of it."""
+    y, z = ((np.arange(side) + 0.5 - side / 2) / PLACE for side in (rows, columns))
+    return np.stack(np.meshgrid(y, np.abs(z), indexing="ij")).astype(np.float32)
 
 
 def halved(x: Image) -> Image:

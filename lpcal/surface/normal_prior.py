@@ -1,0 +1,300 @@
+"""Which way a surface faces, beside what the samples of each pixel say: a network's answer (view.network), and its channels.
+
+The rounds (surface.rounds) leave normals open where one light or two reach, and can be mistaken where most light is thrown by other
+surfaces. How objects are shaped, how shading goes on and where an outline is say more than a smooth field does. Vectors are given about
+each pixel's ray: turned the shortest way that takes the direction to the viewer to (0, 0, -1). No channel has a scale of length or
+brightness.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lpcal.geometry import lambert, raster
+from lpcal.geometry.arrays import Array, Mask
+from lpcal.integration import pieces
+from lpcal.integration.integrate import integrate, normals_of, settle, steps
+from lpcal.integration.pieces import BREAK_WEIGHT
+from lpcal.shading import field, normals
+from lpcal.shading.normals import Estimate
+from lpcal.view import bands
+from lpcal.view.agreed import MANY_PIXELS
+from lpcal.view.network import Network
+from lpcal.view.sight import Lit, Sight
+
+if TYPE_CHECKING:
+    from lpcal.surface.rounds import Scene, State
+
+FITTED = Path(__file__).with_name("normal_network.npz")
+"""Where the network's weights are that tools/fit_normal_prior.py has fitted."""
+LOG_SIGMA = (-5.0, 0.5)
+"""Bounds of the natural logarithm of a standard deviation, in radians: a third of a degree, and any direction."""
+VECTORS = ("normal", "own normal", "depth normal", "lit from", "dark from", "thrown from", "bright from")
+"""Channels that have an x, y and z."""
+DARKEST, BRIGHTEST = 1e-3, 20.0
+"""Bounds of the image without lights, over its median, and of a sample's shading, over the albedo: wild pixels are like others."""
+MOST_SHARE = 3.0
+"""Light of other surfaces, or gloss, over the lights' own, at most."""
+FEW = 6.0
+"""Samples from which it makes no difference how many there are."""
+WAVES = {"shading": (2, 3), "left": (1, 2)}
+"""Waves round a pixel's ray whose strength in the samples' shading, and in what the state leaves of it, are channels."""
+MIRRORED = (*(f"{name} x" for name in VECTORS), "open xy", "open xz", *(f"{name} sin {m}" for name, some in WAVES.items() for m in some))
+"""Those that change their sign in a mirror."""
+
+
+def factor_of(pixels: int) -> int:
+    """Side of the blocks of pixels that are joined."""
+    return max(1, round(np.sqrt(pixels / MANY_PIXELS)))
+
+
+def about_rays(rays_C: Array, x: Array, *, back: bool = False) -> Array:
+    """Vectors x (..., P, 3) of the camera's frame turned into that of each pixel's ray (P, 3), or back."""
+    half = -lambert.unit(rays_C)[0] + np.array([0.0, 0.0, -1.0])
+    turned, flip = lambert.unit(half)[0], np.array([-1.0, -1.0, 1.0])  # two half turns make a turn of twice the angle between their axes
+
+    def about(y: Array) -> Array:
+        return np.asarray(2 * lambert.dot(y, turned)[..., None] * turned - y)
+
+    return about(x * flip) if back else about(x) * flip
+
+
+def expected(scene: Scene, state: State, network: Network | None = None) -> tuple[Array, Array]:
+    """What is expected of each pixel's normal (P, 3), by a state that the rounds have settled, and its sigma (P,), radians.
+
+    Of a turn t that the network states with a standard deviation s the share ``t^2 / (t^2 + s^2)`` is taken (Wiener's): where samples leave
+    nothing open, they know better than it does.
+    """
+    scene = scene.closely()
+    seen, side = scene.seen, factor_of(scene.seen.pixels)
+    found = clues(scene, state)
+    begin = unit(np.stack([found[f"normal {axis}"] for axis in "xyz"]))
+    n, log_sigma = answer(network or Network.read(FITTED), found, begin)
+    square = np.sum((n - begin) ** 2, axis=0)
+    turn = square / (square + np.exp(2 * log_sigma)) * (n - begin)
+    said = between(np.concatenate([turn, log_sigma[None]]), found["share"] > 0, seen.mask, side)
+    there = lambert.unit(about_rays(seen.rays_C, state.normals) + said[:, :3])[0]
+    return lambert.unit(about_rays(seen.rays_C, there, back=True))[0], np.exp(said[:, 3])
+
+
+def answer(network: Network, channels: dict[str, Array], begin: Array) -> tuple[Array, Array]:
+    """Normals (3, rows, columns) that are expected in place of others, and the logarithm of their sigma (rows, columns), radians.
+
+    The mean of the network's answers on the picture and on its mirror image.
+    """
+    found = []
+    for said, mirror in zip(network.answers(channels, channels["share"] > 0), (1, -1), strict=True):
+        n = unit(begin + said[:3] * np.array([mirror, 1, 1])[:, None, None])
+        found.append(np.concatenate([n, np.clip(said[3:], *LOG_SIGMA)]))
+    mean = np.mean(found, axis=0)
+    return unit(mean[:3]), mean[3]
+
+
+def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
+    """A settled state with its normals turned to what is expected of them and the depth that they make, and their sigma (P,), radians.
+
+    Each piece stays at its distance, by its median. The network knows objects alone: where the pixels are likely to show walls, too, the
+    turn is less by these odds; where they surely do, or the light is distant, the state stays as it is and no sigma is stated.
+    """
+    if not scene.near or scene.of_object <= 0:
+        return state, None
+    n, sigma_rad = expected(scene, state)
+    n = lambert.unit(state.normals + scene.of_object * (n - state.normals))[0]
+    grid, seen, weight = scene.grid, scene.seen, state.weight
+    step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=sigma_rad)
+    if not state.anchors:  # which are of pieces as they are; else a gap that steep normals had bridged breaks
+        _, weight = integrate(grid, step, sigma, state.own, state.u, graduated=False)
+        weight = pieces.without_slivers(grid, weight, seen.mask)
+    u = settle(grid, step, sigma, state.own, state.u, weight)
+    label = pieces.pieces(grid, weight, seen.mask)
+    for one in np.unique(label):
+        inside = label == one
+        u[inside] += np.median(state.u[inside]) - np.median(u[inside])
+    b = np.linalg.norm(state.field.b, axis=1)[:, None] * n
+    return replace(state, u=u, weight=weight, normals=n, field=replace(state.field, b=b)), sigma_rad
+
+
+def between(picture: Array, inside: Mask, mask: Mask, side: int) -> Array:
+    """Values (P, C) at the pixels of a mask (H, W), linear between those (C, rows, columns) of its blocks."""
+    rows, columns = np.nonzero(mask)
+    row, column = ((at - (side - 1) / 2) / side for at in (rows, columns))
+    total, weight = np.zeros((len(rows), len(picture))), np.zeros(len(rows))
+    for i in (0, 1):
+        for j in (0, 1):
+            r, c = (
+                np.clip(np.floor(at).astype(int) + k, 0, most - 1)
+                for at, k, most in ((row, i, inside.shape[0]), (column, j, inside.shape[1]))
+            )
+            share = np.maximum(1 - np.abs(row - r), 0) * np.maximum(1 - np.abs(column - c), 0) * inside[r, c] + 1e-9 * inside[r, c]
+            total += share[:, None] * picture[:, r, c].T
+            weight += share
+    return total / np.maximum(weight, 1e-30)[:, None]
+
+
+def unit(x: Array) -> Array:
+    """Vectors (3, rows, columns) of length 1."""
+    return np.asarray(x / np.maximum(np.linalg.norm(x, axis=0), 1e-6))
+
+
+def normals_of_depth(scene: Scene, state: State) -> Array:
+    """Normals (P, 3) of a state's depth, its own where that breaks."""
+    depth = np.exp(state.u) if scene.seen.central else state.u
+    n = normals_of(scene.grid, scene.seen.shape_C(depth), state.weight > BREAK_WEIGHT)
+    return np.where(np.isfinite(n), n, state.normals)
+
+
+@dataclass(frozen=True)
+class _Whole:
+    """What the channels take of all pixels together."""
+
+    of_depth: Array
+    """(P, 3) normals of the depth."""
+    breaks: Array
+    """(P,) share of a pixel's four sides where the surface breaks or ends."""
+    level: Array
+    """(P,) logarithm of the albedo."""
+    room: Array | None
+    """(P,) logarithm of the image without lights."""
+    middle: dict[str, float]
+    """Medians of what has a scale."""
+
+    @staticmethod
+    def of(scene: Scene, state: State) -> _Whole:
+        """By a state of the rounds."""
+        level = np.log(np.maximum(np.linalg.norm(state.field.b, axis=1), 1e-12))
+        middle, room = {"level": float(np.median(level)), "u": float(np.median(state.u))}, None
+        if scene.room is not None:
+            room = np.log(np.maximum(scene.room, DARKEST * float(np.median(scene.room)) + 1e-12))
+            middle |= {"room": float(np.median(room)), "room over albedo": float(np.median(room - level))}
+        return _Whole(normals_of_depth(scene, state), _breaks(scene, state), level, room, middle)
+
+
+def clues(scene: Scene, state: State) -> dict[str, Array]:
+    """The channels, maps (rows, columns) of blocks of pixels, by a state of the rounds and a scene that is cut to its object.
+
+    Besides those of `channels` they are the share of each block that is the object, and how far it is from the outline.
+    """
+    seen, side, whole = scene.seen, factor_of(scene.seen.pixels), _Whole.of(scene, state)
+    shape = tuple(-(-length // side) for length in seen.mask.shape)
+    row, column = np.nonzero(seen.mask)
+    block = row // side * shape[1] + column // side
+    names: list[str] = []
+
+    def summed(at: slice) -> tuple[int, Array]:
+        found, own = channels(scene, state, whole, at), block[at]
+        names[:] = found
+        first = int(own.min())
+        return first, np.stack([np.bincount(own - first, one) for one in found.values()])
+
+    parts = bands.each(seen.pixels, len(seen.signal), summed)
+    total = np.zeros((len(names), shape[0] * shape[1]))
+    for first, part in parts:
+        total[:, first : first + part.shape[1]] += part
+    count = np.bincount(block, minlength=total.shape[1])
+    means = (total / np.maximum(count, 1)).reshape(-1, *shape)
+    away = raster.away(np.pad(~seen.mask, 1, constant_values=True))[1:-1, 1:-1]
+    more = maps({"edge": np.log1p(away[seen.mask] / side)}, seen.mask, side)
+    return dict(zip(names, means, strict=True)) | more
+
+
+def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, Array]:
+    """The channels (Q,) of some of the pixels."""
+    seen, lit, found, n, of_depth = scene.seen.at(at), state.lit.at(at), state.found.at(at), state.normals[at], whole.of_depth[at]
+    b, level = state.field.b[at], whole.level[at]
+    shading = np.where(seen.usable, seen.signal / np.maximum(lit.E, 1e-300), 0.0)
+    lights, nothing, albedo = len(shading), np.zeros(len(level)), np.exp(level)
+    top = np.sort(shading, axis=0)[::-1]
+    out = _vectors(seen, lit, found, n, of_depth, shading) | _open(seen, lit, found, b) | _round_the_ray(seen, lit, found, b)
+    out |= {name: np.minimum(top[k] / albedo, BRIGHTEST) for k, name in enumerate(("brightest", "second", "third"))}
+    room = whole.room[at] if whole.room is not None else None
+    return out | {
+        "albedo": level - whole.middle["level"],
+        "mean": np.log(np.maximum(shading.mean(axis=0), 1e-12)) - whole.middle["level"],
+        "tilt": nothing if state.field.tilt_rad is None else state.field.tilt_rad[at],
+        "used": found.used / lights,
+        "used of few": np.minimum(found.used, FEW) / FEW,
+        "lights": np.full(len(level), 1 / lights),
+        "known": np.isfinite(found.b[:, 0]).astype(float),
+        "misfit": np.log1p(np.nan_to_num(found.chi2) / np.maximum(found.used - 2, 1)),
+        "cost": np.log1p(np.nan_to_num(found.cost) / lights),
+        "thrown": np.minimum(np.nan_to_num(normals.thrown_share(lit, found)), MOST_SHARE),
+        "gloss": np.minimum(np.nan_to_num(normals.gloss_share(lit, found)), MOST_SHARE),
+        "unseen": nothing if lit.unseen is None else lit.unseen,
+        "bend": np.linalg.norm(n - of_depth, axis=1),
+        "own distance": np.clip((state.own.optimum[at] - state.u[at]) * 10, -3, 3),
+        "depth": state.u[at] - whole.middle["u"],
+        "room": nothing if room is None else room - whole.middle["room"],
+        "room over albedo": nothing if room is None else room - level - whole.middle["room over albedo"],
+        "has room": np.full(len(level), float(room is not None)),
+        "around": np.full(len(level), float(scene.around is not None)),
+        "breaks": whole.breaks[at],
+    }
+
+
+def _vectors(seen: Sight, lit: Lit, found: Estimate, n: Array, of_depth: Array, shading: Array) -> dict[str, Array]:
+    """Normals, and where lights and shadows, light of other surfaces and the brightest samples lie, about the rays."""
+    agreed, known, bright = found.inliers.astype(float), np.isfinite(found.b[:, :1]), np.maximum(shading, 0.0)
+    thrown = np.zeros_like(n) if lit.thrown is None else lit.thrown.sum(axis=0) / lit.E.sum(axis=0)[:, None]
+    vectors = {
+        "normal": n,
+        "own normal": lambert.unit(np.where(known, found.b, 0.0))[0] * known,
+        "depth normal": of_depth,
+        "lit from": np.einsum("kp,kpi->pi", agreed, lit.d) / len(agreed),
+        "dark from": np.einsum("kp,kpi->pi", 1 - agreed, lit.d) / len(agreed),
+        "thrown from": thrown,
+        "bright from": np.einsum("kp,kpi->pi", bright, lit.d) / np.maximum(bright.sum(axis=0), 1e-300)[:, None],
+    }
+    turned = {name: about_rays(seen.rays_C, vectors[name]) for name in VECTORS}
+    return {f"{name} {axis}": value[:, k] for name, value in turned.items() for k, axis in enumerate("xyz")}
+
+
+def _open(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
+    """Covariance of the normals by the samples that agree, as a share of what is expected of one without any, about the rays."""
+    variance = seen.sigma**2 + (field.SHARED * seen.signal) ** 2 + (field.SHARED * seen.signal.max(axis=0)) ** 2
+    B = lit.B
+    held = np.einsum("kp,kpi,kpj->pij", found.inliers / variance, B, B) * lambert.dot(b, b)[:, None, None]
+    covariance = np.linalg.inv(held * field.ANY_RAD**2 + np.eye(3))
+    turned = about_rays(seen.rays_C, about_rays(seen.rays_C, covariance.transpose(1, 0, 2)).transpose(2, 1, 0))  # (3, Q, 3)
+    return {f"open {'xyz'[i]}{'xyz'[j]}": turned[i, :, j] for i in range(3) for j in range(i, 3)}
+
+
+def _round_the_ray(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
+    """Waves of the samples' shading round each ray, and of what the state leaves of it, over the pixel's albedo."""
+    scale = np.maximum(lit.E * np.linalg.norm(b, axis=1), 1e-300)
+    left = seen.signal - np.maximum(lambert.dot(lit.direct, b), 0.0)
+    if lit.thrown is not None:
+        left = left - np.maximum(lambert.dot(lit.thrown, b), 0.0)
+    if found.gloss is not None:
+        left = left - found.gloss
+    values = {name: np.where(seen.usable, np.clip(of / scale, -2, 2), 0.0) for name, of in (("shading", seen.signal), ("left", left))}
+    d = about_rays(seen.rays_C, lit.d)
+    angle = np.arctan2(d[..., 0], d[..., 1])
+    out = {"left": values["left"].mean(axis=0), "left spread": values["left"].std(axis=0)}
+    for name, some in WAVES.items():
+        for m in some:
+            out |= {f"{name} {wave.__name__} {m}": (values[name] * wave(m * angle)).mean(axis=0) for wave in (np.sin, np.cos)}
+    return out
+
+
+def _breaks(scene: Scene, state: State) -> Array:
+    """Share (P,) of a pixel's four sides where the surface breaks or ends."""
+    grid, whole = scene.grid, state.weight > BREAK_WEIGHT
+    holds = np.bincount(grid.a[whole], minlength=scene.seen.pixels) + np.bincount(grid.b[whole], minlength=scene.seen.pixels)
+    return np.asarray(1 - holds / 4)
+
+
+def maps(found: dict[str, Array], mask: Mask, side: int) -> dict[str, Array]:
+    """Means of values (P,) as maps (rows, columns) of blocks of a mask (H, W), 0 where there is no pixel, and the mask's share of each."""
+    rows, columns = (-length % side for length in mask.shape)
+
+    def joined(values: Array) -> Array:
+        picture = np.zeros(mask.shape)
+        picture[mask] = values
+        return raster.block_means(np.pad(picture, ((0, rows), (0, columns))), side)
+
+    share = joined(np.ones(int(mask.sum())))
+    return {name: joined(values) / np.maximum(share, 1e-9) for name, values in found.items()} | {"share": share}
