@@ -138,10 +138,12 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
     """u (P,) with the weights (edges,) as they are.
 
     The minimum has ``sum_p H_p (u_p - h_p) = 0``, as steps do not see what all pixels share: where H is next to nothing, a million pixels
-    wander from it by as much as the solve's precision lets them.
+    wander from it by as much as the solve's precision lets them, and are put there.
     """
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
     u = multigrid.solve(A, right, start, precision=FINELY)
+    if own.curvature.max() > NEXT_TO_NOTHING:
+        return u
     return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))
 
 

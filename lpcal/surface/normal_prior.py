@@ -17,7 +17,7 @@ import numpy as np
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import pieces
-from lpcal.integration.integrate import integrate, normals_of, settle, steps
+from lpcal.integration.integrate import normals_of, settle, steps
 from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading import field, normals
 from lpcal.shading.normals import Estimate
@@ -104,18 +104,17 @@ def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
         return state, None
     n, sigma_rad = expected(scene, state)
     n = lambert.unit(state.normals + scene.of_object * (n - state.normals))[0]
-    grid, seen, weight = scene.grid, scene.seen, state.weight
+    grid, seen = scene.grid, scene.seen
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=sigma_rad)
-    if not state.anchors:  # which are of pieces as they are; else a gap that steep normals had bridged breaks
-        _, weight = integrate(grid, step, sigma, state.own, state.u, graduated=False)
-        weight = pieces.without_slivers(grid, weight, seen.mask)
-    u = settle(grid, step, sigma, state.own, state.u, weight)
-    label = pieces.pieces(grid, weight, seen.mask)
+    _, before = steps(grid, state.normals, seen.rays_C, central=seen.central, tilt_rad=state.field.tilt_rad)
+    sigma = np.maximum(sigma, before)  # a step that steep normals left open is no surer for being turned: it may bridge a gap
+    u = settle(grid, step, sigma, state.own, state.u, state.weight)
+    label = pieces.pieces(grid, state.weight, seen.mask)
     for one in np.unique(label):
         inside = label == one
         u[inside] += np.median(state.u[inside]) - np.median(u[inside])
     b = np.linalg.norm(state.field.b, axis=1)[:, None] * n
-    return replace(state, u=u, weight=weight, normals=n, field=replace(state.field, b=b)), sigma_rad
+    return replace(state, u=u, normals=n, field=replace(state.field, b=b)), sigma_rad
 
 
 def between(picture: Array, inside: Mask, mask: Mask, side: int) -> Array:

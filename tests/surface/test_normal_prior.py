@@ -16,10 +16,14 @@ from lpcal.api.surfaces import reconstruct as reconstruct_capture
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
-from lpcal.surface import normal_prior
+from lpcal.integration.integrate import Grid, Own
+from lpcal.shading.field import Field
+from lpcal.shading.normals import Estimate
+from lpcal.surface import normal_prior, rounds
 from lpcal.surface.normal_prior import FITTED, about_rays, answer, between, maps
 from lpcal.surface.reconstruct import Options, Solved, reconstruct
 from lpcal.view.network import Network
+from lpcal.view.sight import Lit, Sight
 
 
 def rays(count: int) -> np.ndarray:
@@ -160,3 +164,25 @@ def test_five_scenes_of_another_renderer(data: Callable[[str], Path], monkeypatc
             errors.append(np.degrees(2 * np.arcsin(np.linalg.norm(one.normals - true, axis=-1)[mask & one.mask] / 2)).mean())
     assert np.mean(after) < np.mean(before)
     assert max(a / b for a, b in zip(after, before, strict=True)) < 1.3
+
+
+def test_a_turn_does_not_close_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two bodies that steep normals bridge, 3 cm apart, stay so when the normals of their gap are turned towards the viewer."""
+    mask = np.ones((40, 40), bool)
+    row, column = np.nonzero(mask)
+    rays_C = np.column_stack([(column - 20) / 300, (row - 20) / 300, np.ones(len(row))])
+    behind, gap = column >= 20, (column == 19) | (column == 20)
+    u = np.log(np.where(behind, 0.33, 0.30))
+    facing = -rays_C / np.linalg.norm(rays_C, axis=1, keepdims=True)
+    steep = np.array([-1.0, 0.0, -0.035]) / np.hypot(1, 0.035)
+    n = np.where(gap[:, None], steep, facing)
+    nothing = np.zeros((0, len(u)))
+    seen = Sight(mask, rays_C, nothing, nothing, nothing > 0, True)
+    grid = Grid.of(mask)
+    scene = rounds.Scene("two", seen, grid, (), None)
+    whole = Field(0.5 * n, Estimate.nothing(), None, np.full(len(u), 0.02))
+    state = rounds.State(u, np.ones(len(grid.a)), n, Estimate.nothing(), Own(np.full(len(u), 400.0), u), Lit(nothing, nothing), whole)
+    monkeypatch.setattr(normal_prior, "expected", lambda _scene, _state: (facing, np.full(len(u), 0.02)))
+    turned, _ = normal_prior.turned(scene, state)
+    apart = np.median(turned.u[behind & ~gap]) - np.median(turned.u[~behind & ~gap])
+    assert apart == pytest.approx(np.log(0.33 / 0.30), rel=0.1)
