@@ -28,6 +28,7 @@ from lpcal.errors import LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.surface import normal_prior
+from lpcal.surface.rounds import Scene, State
 from lpcal.view import network
 from lpcal.view.network import Network
 
@@ -78,8 +79,8 @@ def example(scene: Path) -> list[Example]:
     seen: list[Example] = []
     plain = normal_prior.expected
 
-    def heard(part, state, judge=None):  # noqa: ANN001, ANN202
-        true, part = truth[part.seen.mask], part.closely()
+    def heard(whole: Scene, state: State) -> tuple[np.ndarray, np.ndarray]:
+        true, part = truth[whole.seen.mask], whole.closely()
         side = normal_prior.factor_of(part.seen.pixels)
         about = normal_prior.about_rays(part.seen.rays_C, np.nan_to_num(true))
         known = np.isfinite(true).all(axis=1).astype(float)
@@ -88,7 +89,7 @@ def example(scene: Path) -> list[Example]:
         mean = np.stack([of[axis] for axis in "xyz"])
         weight = np.where((of["known"] > 0.5) & (np.linalg.norm(mean, axis=0) > HALF), of["known"] * of["share"], 0.0)
         seen.append(Example(scene.name, {k: v.astype(np.float32) for k, v in found.items()}, normal_prior.unit(mean), weight))
-        return plain(part, state, judge)
+        return plain(whole, state)
 
     normal_prior.expected = heard
     try:

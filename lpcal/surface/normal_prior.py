@@ -1,9 +1,8 @@
 """Which way a surface faces, beside what the samples of each pixel say: a network's answer (view.network), and its channels.
 
-The rounds (surface.rounds) leave normals open where one light or two reach, and can be mistaken where most light is thrown by other
-surfaces. How objects are shaped, how shading goes on and where an outline is say more than a smooth field does. Vectors are given about
-each pixel's ray: turned the shortest way that takes the direction to the viewer to (0, 0, -1). No channel has a scale of length or
-brightness.
+The rounds (surface.rounds) leave normals open where one light or two reach, and can be mistaken where most light is interreflected. How
+objects are shaped, how shading goes on and where an outline is say more than a smooth field does. Vectors are given about each pixel's ray:
+turned the shortest way that takes the direction to the viewer to (0, 0, -1). No channel has a scale of length or brightness.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ def about_rays(rays_C: Array, x: Array, *, back: bool = False) -> Array:
     return about(x * flip) if back else about(x) * flip
 
 
-def expected(scene: Scene, state: State, network: Network | None = None) -> tuple[Array, Array]:
+def expected(scene: Scene, state: State) -> tuple[Array, Array]:
     """What is expected of each pixel's normal (P, 3), by a state that the rounds have settled, and its sigma (P,), radians.
 
     Of a turn t that the network states with a standard deviation s the share ``t^2 / (t^2 + s^2)`` is taken (Wiener's): where samples leave
@@ -73,7 +72,7 @@ def expected(scene: Scene, state: State, network: Network | None = None) -> tupl
     seen, side = scene.seen, factor_of(scene.seen.pixels)
     found = clues(scene, state)
     begin = unit(np.stack([found[f"normal {axis}"] for axis in "xyz"]))
-    n, log_sigma = answer(network or Network.read(FITTED), found, begin)
+    n, log_sigma = answer(Network.read(FITTED), found, begin)
     square = np.sum((n - begin) ** 2, axis=0)
     turn = square / (square + np.exp(2 * log_sigma)) * (n - begin)
     said = between(np.concatenate([turn, log_sigma[None]]), found["share"] > 0, seen.mask, side)
@@ -181,23 +180,22 @@ def clues(scene: Scene, state: State) -> dict[str, Array]:
     shape = tuple(-(-length // side) for length in seen.mask.shape)
     row, column = np.nonzero(seen.mask)
     block = row // side * shape[1] + column // side
-    names: list[str] = []
+    count = np.bincount(block, minlength=shape[0] * shape[1])
 
-    def summed(at: slice) -> tuple[int, Array]:
-        found, own = channels(scene, state, whole, at), block[at]
-        names[:] = found
+    def summed(at: slice) -> tuple[int, dict[str, Array]]:
+        own = block[at]
         first = int(own.min())
-        return first, np.stack([np.bincount(own - first, one) for one in found.values()])
+        return first, {name: np.bincount(own - first, one) for name, one in channels(scene, state, whole, at).items()}
 
     parts = bands.each(seen.pixels, len(seen.signal), summed)
-    total = np.zeros((len(names), shape[0] * shape[1]))
+    total = {name: np.zeros(len(count)) for name in parts[0][1]}
     for first, part in parts:
-        total[:, first : first + part.shape[1]] += part
-    count = np.bincount(block, minlength=total.shape[1])
-    means = (total / np.maximum(count, 1)).reshape(-1, *shape)
+        for name, one in part.items():
+            total[name][first : first + len(one)] += one
+    means = {name: (one / np.maximum(count, 1)).reshape(shape) for name, one in total.items()}
     away = raster.away(np.pad(~seen.mask, 1, constant_values=True))[1:-1, 1:-1]
     more = maps({"edge": np.log1p(away[seen.mask] / side)}, seen.mask, side)
-    return dict(zip(names, means, strict=True)) | more
+    return means | more
 
 
 def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, Array]:
