@@ -28,20 +28,21 @@ static bool holds(const double y[3], int64_t height, int64_t width, const double
     return deep > tolerance && deep < thickness;
 }
 
-#define TOGETHER 8
-#define WHOLE_SINGLE 12582912.0f /* the same for singles */
+#define SOME 64                  /* ways that are tried together */
+#define LANES 4                  /* lights that are summed together */
+#define WHOLE_SINGLE 12582912.0f /* WHOLE for singles */
 
 /* The body in single precision: how many places are tried of a way, and where a ray meets the image. */
 typedef struct {
     int64_t steps, width;
     const double *front;
-    float column[6], row[6], wide, high, each;
+    float column[6], row[6], wide, high;
     double least, most; /* depths of what lies in it, as shares of the front's */
 } Body;
 
 static Body body_of(int64_t steps, int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
                     double thickness) {
-    Body body = {.steps = steps, .width = width, .front = front, .wide = (float)width, .high = (float)height, .each = 1.0f / (float)steps};
+    Body body = {.steps = steps, .width = width, .front = front, .wide = (float)width, .high = (float)height};
     body.least = 1.0 + tolerance;
     body.most = 1.0 + thickness;
     for (int i = 0; i < 6; i++) {
@@ -51,38 +52,36 @@ static Body body_of(int64_t steps, int64_t height, int64_t width, const double *
     return body;
 }
 
-/* Whether the surface stands between two points, TOGETHER places at a time: `holds` of each, but that its pixel is found in single precision,
-   to some 1e-4 of a pixel. */
-static inline bool stands_between(const Body *body, const double from[3], const double to[3]) {
-    const float *x = body->column, *y = body->row;
-    float begin[3], way[3];
-    for (int i = 0; i < 3; i++) {
-        begin[i] = (float)from[i];
-        way[i] = (float)(to[i] - from[i]);
-    }
-    for (int64_t first = 0; first < body->steps; first += TOGETHER) {
-        float depth[TOGETHER], across[TOGETHER], down[TOGETHER], at = (float)first + 0.5f;
-        int32_t inside[TOGETHER], any = 0;
-        bool found = false;
-        for (int j = 0; j < TOGETHER; j++) {
-            float share = (at + (float)j) * body->each, z = begin[2] + share * way[2], by = 1.0f / z;
-            float a = (begin[0] + share * way[0]) * by, b = (begin[1] + share * way[1]) * by;
+/* Where ways begin and how far they lead, each coordinate of all by itself. */
+typedef struct {
+    float x[SOME], y[SOME], z[SOME], along_x[SOME], along_y[SOME], along_z[SOME];
+} Ways;
+
+/* Whether the surface stands on some ways (at most SOME): `holds` of each of their places, but that its pixel is found in single precision, to
+   some 1e-4 of a pixel. */
+static void stands_between(const Body *body, int64_t some, const Ways *way, int32_t *stands) {
+    const float *x = body->column, *y = body->row, each = 1.0f / (float)body->steps;
+    float depth[SOME];
+    int32_t pixel[SOME];
+    for (int64_t j = 0; j < some; j++) stands[j] = 0;
+    for (int64_t step = 0; step < body->steps; step++) {
+        float share = ((float)step + 0.5f) * each;
+        int32_t width = (int32_t)body->width, any = 0;
+        for (int64_t j = 0; j < some; j++) {
+            float z = way->z[j] + share * way->along_z[j], by = 1.0f / z;
+            float a = (way->x[j] + share * way->along_x[j]) * by, b = (way->y[j] + share * way->along_y[j]) * by;
             float column = x[0] + a * (x[1] + a * x[3] + b * x[4]) + b * (x[2] + b * x[5]) + WHOLE_SINGLE - WHOLE_SINGLE;
             float row = y[0] + a * (y[1] + a * y[3] + b * y[4]) + b * (y[2] + b * y[5]) + WHOLE_SINGLE - WHOLE_SINGLE;
-            inside[j] = (column >= 0.0f) & (row >= 0.0f) & (column < body->wide) & (row < body->high) & (share < 1.0f);
-            across[j] = column;
-            down[j] = row;
-            depth[j] = z;
-            any |= inside[j];
+            int32_t inside = (column >= 0.0f) & (row >= 0.0f) & (column < body->wide) & (row < body->high);
+            pixel[j] = inside ? (int32_t)row * width + (int32_t)column : 0;
+            depth[j] = inside ? z : 0.0f; /* in front of everything */
+            any |= inside;
         }
-        for (int j = 0; any && j < TOGETHER; j++) {
-            if (!inside[j]) continue;
-            double there = body->front[(int64_t)down[j] * body->width + (int64_t)across[j]], z = (double)depth[j];
-            found |= z > body->least * there && z < body->most * there;
+        for (int64_t j = 0; any && j < some; j++) {
+            double there = body->front[pixel[j]], z = (double)depth[j];
+            stands[j] |= (z > body->least * there) & (z < body->most * there);
         }
-        if (found) return true;
     }
-    return false;
 }
 
 KERNEL void lpcal_behind(int64_t count, const double *y, int64_t height, int64_t width, const double *front, const double *pixel_of_ray,
@@ -93,10 +92,23 @@ KERNEL void lpcal_behind(int64_t count, const double *y, int64_t height, int64_t
 KERNEL void lpcal_hidden(int64_t count, const double *from, const double *to, int64_t steps, int64_t height, int64_t width,
                          const double *front, const double *pixel_of_ray, double tolerance, double thickness, bool *found) {
     Body body = body_of(steps, height, width, front, pixel_of_ray, tolerance, thickness);
-    for (int64_t p = 0; p < count; p++) found[p] = stands_between(&body, from + 3 * p, to + 3 * p);
+    for (int64_t first = 0; first < count; first += SOME) {
+        int64_t some = count - first < SOME ? count - first : SOME;
+        int32_t stands[SOME];
+        Ways way;
+        for (int64_t j = 0; j < some; j++) {
+            const double *begin = from + 3 * (first + j), *end = to + 3 * (first + j);
+            way.x[j] = (float)begin[0];
+            way.y[j] = (float)begin[1];
+            way.z[j] = (float)begin[2];
+            way.along_x[j] = (float)(end[0] - begin[0]);
+            way.along_y[j] = (float)(end[1] - begin[1]);
+            way.along_z[j] = (float)(end[2] - begin[2]);
+        }
+        stands_between(&body, some, &way, stands);
+        for (int64_t j = 0; j < some; j++) found[first + j] = stands[j] != 0;
+    }
 }
-
-#define SOME 64
 
 /* Places and normals of patches, each coordinate of all patches by itself. */
 typedef struct {
@@ -122,33 +134,73 @@ static int64_t facing(const Facing *of, int64_t first, int64_t some, const doubl
     return count;
 }
 
+/* What patches give a place that they face, if nothing stands between: their numbers, the ways to them, and by how much these weigh. */
+typedef struct {
+    Ways way;
+    int64_t number[SOME];
+    double weight[3][SOME]; /* unit vectors to them times form factors */
+} Giving;
+
+/* The ways to `some` patches, of the numbers that it holds, from a place, less a share at both ends; patches' normals and areas. */
+static void giving(Giving *to, int64_t some, const Facing *of, const double *area, const double here[3], double skipped) {
+    double x[SOME], y[SOME], z[SOME], n[3][SOME], size[SOME];
+    for (int64_t j = 0; j < some; j++) {
+        int64_t q = to->number[j];
+        x[j] = of->x[0][q];
+        y[j] = of->x[1][q];
+        z[j] = of->x[2][q];
+        for (int i = 0; i < 3; i++) n[i][j] = of->n[i][q];
+        size[j] = area[q];
+    }
+    for (int64_t j = 0; j < some; j++) {
+        double along[3] = {x[j] - here[0], y[j] - here[1], z[j] - here[2]};
+        double far2 = dot3(along, along), square = far2 > 1e-18 ? far2 : 1e-18, share = skipped / sqrt(square);
+        share = share < 0.5 ? share : 0.5;
+        double begin[3] = {here[0] + share * along[0], here[1] + share * along[1], here[2] + share * along[2]};
+        to->way.x[j] = (float)begin[0];
+        to->way.y[j] = (float)begin[1];
+        to->way.z[j] = (float)begin[2];
+        to->way.along_x[j] = (float)(x[j] - share * along[0] - begin[0]);
+        to->way.along_y[j] = (float)(y[j] - share * along[1] - begin[1]);
+        to->way.along_z[j] = (float)(z[j] - share * along[2] - begin[2]);
+        double leaving = -(along[0] * n[0][j] + along[1] * n[1][j] + along[2] * n[2][j]);
+        double factor = leaving * size[j] / ((PI * square + size[j]) * square); /* the way's length is in it twice */
+        for (int i = 0; i < 3; i++) to->weight[i][j] = along[i] * factor;
+    }
+}
+
 /* J (lights, count, 3) at patches of place x and normal n, from the first on up to the last, of the light of others with place and normal
-   (3, others), area and signal (others, lights). */
+   (3, others), area and signal (others, lights; zeros up to a multiple of LANES). */
 KERNEL void lpcal_received(int64_t lights, int64_t count, int64_t others, const double *x, const double *n, const double *other_x,
                            const double *other_n, const double *area, const double *signal, double *J, int64_t height, int64_t width,
                            const double *front, const double *pixel_of_ray, int64_t steps, double tolerance, double thickness, double grazing,
                            double off, int64_t first, int64_t last) {
     Facing of = {{other_x, other_x + others, other_x + 2 * others}, {other_n, other_n + others, other_n + 2 * others}};
     Body body = body_of(steps, height, width, front, pixel_of_ray, tolerance, thickness);
+    int64_t lanes = (lights + LANES - 1) / LANES * LANES;
     for (int64_t p = first; p < last; p++)
         for (int64_t begin = 0; begin < others; begin += SOME) {
             const double *here = x + 3 * p;
-            int64_t seen[SOME], some = facing(&of, begin, others - begin < SOME ? others - begin : SOME, here, n + 3 * p, grazing, seen);
-            for (int64_t j = 0; j < some; j++) {
-                int64_t q = seen[j];
-                double there[3] = {of.x[0][q], of.x[1][q], of.x[2][q]}, way[3], from[3], to[3];
-                for (int i = 0; i < 3; i++) way[i] = there[i] - here[i];
-                double square = fmax(dot3(way, way), 1e-18), far = sqrt(square), share = fmin(off * here[2] / far, 0.5);
-                for (int i = 0; i < 3; i++) {
-                    from[i] = here[i] + share * way[i];
-                    to[i] = there[i] - share * way[i];
+            int32_t stands[SOME], free[SOME], count_free = 0;
+            Giving by;
+            int64_t some = facing(&of, begin, others - begin < SOME ? others - begin : SOME, here, n + 3 * p, grazing, by.number);
+            if (some == 0) continue;
+            giving(&by, some, &of, area, here, off * here[2]);
+            stands_between(&body, some, &by.way, stands);
+            for (int32_t j = 0; j < (int32_t)some; j++) {
+                free[count_free] = j;
+                count_free += !stands[j];
+            }
+            for (int64_t k = 0; k < lights; k += LANES) {
+                double sum[3][LANES] = {{0.0}};
+                for (int32_t f = 0; f < count_free; f++) {
+                    int32_t j = free[f];
+                    const double *shown = signal + by.number[j] * lanes + k;
+                    for (int i = 0; i < 3; i++)
+                        for (int lane = 0; lane < LANES; lane++) sum[i][lane] += shown[lane] * by.weight[i][j];
                 }
-                if (stands_between(&body, from, to)) continue;
-                double leaving = -(way[0] * of.n[0][q] + way[1] * of.n[1][q] + way[2] * of.n[2][q]);
-                double factor = leaving * area[q] / ((PI * square + area[q]) * square); /* the way's length is in it twice */
-                for (int i = 0; i < 3; i++) way[i] *= factor;
-                for (int64_t k = 0; k < lights; k++)
-                    for (int i = 0; i < 3; i++) J[3 * (k * count + p) + i] += signal[q * lights + k] * way[i];
+                for (int64_t lane = 0; lane < LANES && k + lane < lights; lane++)
+                    for (int i = 0; i < 3; i++) J[3 * ((k + lane) * count + p) + i] += sum[i][lane];
             }
         }
 }

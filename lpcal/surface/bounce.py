@@ -39,6 +39,8 @@ STEPS = 6
 """Places between two patches at which it is asked whether a surface stands there."""
 BLOCK = 128
 """Patches whose light is summed together: a call of the kernel then costs next to nothing of its own."""
+LANES = 4
+"""Lights that the kernel sums together (kernels/relief.c)."""
 OFF = 0.025
 """Share of the depth that is skipped at both ends of an occlusion ray, so that a patch does not hide itself."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
@@ -254,7 +256,8 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
     """J (L, Q, 3) at patches, of the light of others."""
     found = np.zeros((len(of.signal), *at.x_C.shape))
     if run := kernel("received"):
-        patches = [np.ascontiguousarray(one) for one in (at.x_C, at.n, of.x_C.T, of.n.T, of.area, of.signal.T)]
+        signal = np.pad(of.signal.T, ((0, 0), (0, -len(of.signal) % LANES)))
+        patches = [np.ascontiguousarray(one) for one in (at.x_C, at.n, of.x_C.T, of.n.T, of.area, signal)]
         between = (*relief.front.shape, relief.front, relief.pixel_of_ray, STEPS, body.TOLERANCE, body.THICKNESS)
 
         def of_band(some: slice) -> None:
