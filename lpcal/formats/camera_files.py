@@ -16,8 +16,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import Any
-from xml.etree import ElementTree as ET
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import yaml
@@ -34,6 +33,9 @@ from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera
+
+if TYPE_CHECKING:
+    from xml.etree import ElementTree as ET
 
 ROS_LENSES = ("plumb_bob", "rational_polynomial", "")
 """The lenses of ROS that lpcal projects with."""
@@ -225,6 +227,8 @@ def _stored(path: Path) -> dict[str, Any]:
     if len(text) > MOST_BYTES:
         raise InputError(f"{len(text) / 1e6:.0f} MB", where=str(path), needed="the file of a camera")
     if text.lstrip().startswith("<"):
+        from xml.etree import ElementTree as ET
+
         found: Any = _from_xml(ET.fromstring(text))
     elif text.lstrip().startswith("{"):
         found = json.loads(text)

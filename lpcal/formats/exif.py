@@ -50,10 +50,10 @@ class TakenAt:
 
 def taken_at(data: bytes) -> TakenAt | None:
     """What an image file's bytes say of its exposure; None where they say nothing, or nothing that can be."""
-    from PIL import Image as Picture
-
     if data.startswith(PNG_START) and not any(mark in data for mark in PNG_MARKS):
         return None
+    from PIL import Image as Picture
+
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -94,7 +94,7 @@ class Numbers:
         return StoredImage(pixels, self.step, self.claim, self.taken)
 
 
-@reader("an image", "cv2", "PIL.Image")
+@reader("an image", "cv2")
 def read_numbers(path: Path) -> Numbers:
     """Read an image as `read_image` does, its numbers as they are stored.
 
@@ -177,6 +177,9 @@ def refuse_odd_head(data: bytes, path: Path) -> None:
     InputError
         One of these; a head that cannot be read is left to the decoder.
     """
+    if data.startswith(PNG_HEAD) and len(data) >= PNG_HEAD_BYTES:  # one image, and sound if its checksums are
+        width, height = struct.unpack_from(">II", data, len(PNG_HEAD))
+        return _refuse_bomb(width, height, len(data), path)
     from PIL import Image as Picture
 
     try:
@@ -194,7 +197,7 @@ def refuse_odd_head(data: bytes, path: Path) -> None:
         if "decoder error" in str(error):  # OpenCV fills the rest with whatever it has
             raise InputError("the image is damaged", where=str(path), needed="a whole file", todo="copy it again") from error
     except (ValueError, SyntaxError, TypeError, KeyError, struct.error, OverflowError):
-        return
+        return None
 
 
 def _refuse_bomb(width: int, height: int, size: int, path: Path) -> None:
@@ -250,6 +253,10 @@ def _tag(tiff: bytes) -> int:
     return 1
 
 
+PNG_HEAD, PNG_HEAD_BYTES = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 24
+"""How a PNG begins, and the bytes in which its width and height are stated: Pillow, which knows every kind, is not imported for that."""
+PNG_CLAIMS = (b"sRGB", b"gAMA", b"iCCP")
+"""Chunks before the pixels by which a PNG claims a curve."""
 MAKER, CAMERA = 271, 272
 CURVES = (b"rTRC", b"kTRC", b"gTRC")
 AT = np.array([0.05, 0.2, 0.5])
@@ -260,6 +267,8 @@ SAME = 0.001
 
 def tone_claim(data: bytes) -> ToneClaim | None:
     """What an image file's bytes claim of its curve; None where they claim nothing, or cannot be read."""
+    if data.startswith(PNG_HEAD) and not any(mark in data[: data.find(b"IDAT")] for mark in PNG_CLAIMS):
+        return None
     from PIL import Image as Picture
 
     try:

@@ -89,10 +89,12 @@ def _joined[T: np.floating](values: npt.NDArray[T], weights: Sequence[Array], bo
     assert run is not None
     found = np.ascontiguousarray(values)
     for axis, (n, weight) in enumerate(zip(values.shape, weights, strict=True)):
+        if len(weight) == 1:  # each value by itself
+            continue
         before, found = found, np.empty(values.shape, values.dtype)
         radius, outer, inner = len(weight) - 1, int(np.prod(values.shape[:axis])), int(np.prod(values.shape[axis + 1 :]))
         run(outer, n, inner, radius, BORDERS.index(border), weight, np.empty(3 * n + 2 * radius + BLOCK), before, found)
-    return found
+    return values.copy() if found is values else found
 
 
 def block_means(picture: npt.NDArray[np.floating], side: int) -> Array:

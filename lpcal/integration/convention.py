@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.errors import DegenerateError, DisagreementError
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
@@ -93,7 +94,7 @@ def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
     """What the curl of normals (H, W, 3) says along rays (H, W, 3)."""
     n = normals_C.astype(float)
     facing = -np.einsum("...i,...i->...", n, rays_C)
-    length = np.linalg.norm(n, axis=-1) * np.linalg.norm(rays_C, axis=-1)
+    length = lambert.length(n) * lambert.length(rays_C)
     good = mask & (facing > GRAZING * length)
     size = np.where(good, facing, 1.0)
     if rays_C[..., :2].any():

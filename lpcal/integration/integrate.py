@@ -84,7 +84,7 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
         run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, GRAZING, *found)
         return found
     mean = normals[grid.a] + normals[grid.b]
-    mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+    mean /= np.maximum(lambert.length(mean)[..., None], 1e-12)
     error = np.full(len(grid.a), NORMAL_ERROR_RAD)
     if tilt_rad is not None:
         error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
@@ -95,7 +95,7 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
     off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
     towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -GRAZING)
     towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -GRAZING)
-    return np.log(towards_a / towards_b), np.hypot(off, error * np.linalg.norm(r_b - r_a, axis=1) / (towards_a * towards_b))
+    return np.log(towards_a / towards_b), np.hypot(off, error * lambert.length(r_b - r_a) / (towards_a * towards_b))
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
@@ -175,4 +175,4 @@ def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
         total = np.stack([np.bincount(a, column, count) + np.bincount(b, column, count) for column in chord.T], axis=1)
         slopes.append(np.where(number[:, None] > 0, total / np.maximum(number, 1)[:, None], np.nan))
     normal = -np.cross(slopes[0], slopes[1])
-    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))
+    return np.asarray(normal / lambert.length(normal)[..., None])

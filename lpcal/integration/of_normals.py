@@ -154,7 +154,7 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
     own_a, own_b, across_a, across_b = (
         np.maximum(-np.einsum("ei,ei->e", n, r), GRAZING) for n, r in ((n_a, r_a), (n_b, r_b), (n_a, r_b), (n_b, r_a))
     )
-    h = np.linalg.norm(r_b - r_a, axis=1)
+    h = lambert.length(r_b - r_a)
     return np.log(own_a / across_a), np.log(across_b / own_b), (own_a / h) ** 2, (own_b / h) ** 2
 
 

@@ -11,6 +11,8 @@
 #define KERNEL
 #endif
 
+#define LANES 4 /* doubles that are worked on together, to a multiple of which some arrays are filled up (kernels/library.py) */
+
 /* Before a loop of few rounds that are all alike: clang would write it out, a number at a time. */
 #if defined(__clang__)
 #define LANEWISE _Pragma("clang loop vectorize(enable) unroll(disable)")

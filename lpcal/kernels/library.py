@@ -19,6 +19,8 @@ FOLDER = Path(__file__).resolve().parent
 ENDING = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 WIDE = "-avx2"
 """What the name of the library for x86 processors with vectors of four doubles has besides: same sources, same operations, same bytes."""
+LANES = 4
+"""Doubles that kernels work on together (kernel.h); arrays that are to have a multiple of so many in a row are filled up with zeros."""
 SWITCH = "LPCAL_KERNELS"
 """Environment variable: `numpy` leaves the library alone and lets the twins do all the work."""
 

@@ -29,7 +29,6 @@ static bool holds(const double y[3], int64_t height, int64_t width, const double
 }
 
 #define SOME 64                  /* ways that are tried together */
-#define LANES 4                  /* lights that are summed together */
 #define WHOLE_SINGLE 12582912.0f /* WHOLE for singles */
 
 /* The body in single precision: how many places are tried of a way, and where a ray meets the image. */

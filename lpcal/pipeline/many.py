@@ -15,11 +15,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lpcal.api.engines import Engine, Lost, each
 from lpcal.errors import InputError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.images import read_image
@@ -31,6 +30,9 @@ from lpcal.records.outcome import Outcome, Progress, silent
 from lpcal.records.pictures import data_uri, png
 from lpcal.report.pictures import shaded, shrink
 from lpcal.report.side_pages import COLLECTION_MARK, Row, collection_html
+
+if TYPE_CHECKING:  # where all is done here, no processes are asked for
+    from lpcal.api.engines import Engine
 
 logger = logging.getLogger("lpcal")
 BUG = 1
@@ -189,6 +191,8 @@ def _there(jobs: Sequence[Job], engine: Engine, progress: Progress) -> list[Done
 
 
 def _each(jobs: Sequence[Job], engine: Engine) -> Iterator[tuple[int, Done]]:
+    from lpcal.api.engines import Lost, each
+
     for number, found in each(do, [_absolute(job) for job in jobs], engine):
         if isinstance(found, Lost):
             where, todo = str(jobs[number].task.capture), "the same command again does what is not done yet"

@@ -7,7 +7,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from lpcal.api.placement import place
 from lpcal.errors import DegenerateError, InputError
 from lpcal.formats.documents import plain, sha256
 from lpcal.pipeline.workspace import Workspace
@@ -60,6 +59,8 @@ def placed(stated: StatedPlace, calibration: Calibration, recorded: Recorded, ca
     if stated.H_OP is not None or stated.H_OC is not None:
         if stated.body is not None:
             raise InputError("body with a stated pose", where=where, needed="time and a recording that holds both bodies, or pose alone")
+        from lpcal.api.placement import place
+
         at, tolerance = stated.t_camera_s, stated.tolerance
         found = place(calibration, t_camera_s=at, H_OP=stated.H_OP, H_OC=stated.H_OC, tolerance=tolerance)
         return found, found.notes
@@ -76,6 +77,8 @@ def placed(stated: StatedPlace, calibration: Calibration, recorded: Recorded, ca
         if stated.body is not None:
             raise InputError(lacking, where=where, needed="what says where the panel and the body were")
         return None, (UNPLACED.format(lacking),)
+    from lpcal.api.placement import place
+
     try:
         found = place(
             calibration,

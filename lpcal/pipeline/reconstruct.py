@@ -13,7 +13,6 @@ import time
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +37,7 @@ from lpcal.pipeline.placing import NO_RIG, Recorded, made_from, placed, placed_s
 from lpcal.pipeline.sensor import stated_in_panel
 from lpcal.pipeline.workspace import Stage, Workspace, within
 from lpcal.records.calibration import Calibration, Camera
+from lpcal.records.installed import version_of
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
@@ -187,7 +187,7 @@ def summary_document(surface: Surface, task: Task, calibration_path: Path, wishe
         "flatness": flatness(surface),
         "times_s": {key: round(value, 2) for key, value in times_s.items()},
         "peak_memory_mb": peak_memory_mb(),
-        "versions": {"lpcal": __version__} | {name: version(name) for name in ("numpy", "scipy")},
+        "versions": {"lpcal": __version__} | {name: version_of(name) for name in ("numpy", "scipy")},
         "options": {
             word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word not in {"jobs", "recorded"}
         },

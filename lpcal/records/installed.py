@@ -1,9 +1,10 @@
-"""What installed packages add to lpcal by entry points: formats of motion capture and of other systems, kinds of lobe."""
+"""What installed packages add to lpcal by entry points (formats of motion capture and of other systems, kinds of lobe), and their versions."""
 
 from __future__ import annotations
 
+import re
 from functools import cache
-from importlib.metadata import entry_points
+from importlib.metadata import distribution, entry_points
 
 from lpcal.errors import InputError
 
@@ -28,3 +29,9 @@ def installed[T](group: str, kind: type[T], needed: str) -> tuple[T, ...]:
             raise InputError(f"is a {type(one).__name__}", where=where, needed=needed, todo="correct or uninstall it")
         found.append(one)
     return tuple(found)
+
+
+def version_of(package: str) -> str:
+    """The version of an installed package: `importlib.metadata.version` reads it with a parser of mail, which is longer to import."""
+    stated = re.search(r"^Version: *(\S+)", distribution(package).read_text("METADATA") or "", re.MULTILINE)
+    return stated[1] if stated else ""

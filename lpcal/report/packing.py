@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.surface import Surface
 from lpcal.report.pictures import block_sum
@@ -95,7 +96,7 @@ def _reduced(surface: Surface, window: tuple[slice, slice], step: int) -> Reduce
         return summed / np.maximum(total, 1).reshape(total.shape + (1,) * (value.ndim - 2))
 
     normals = mean(surface.normals)
-    length = np.linalg.norm(normals, axis=2, keepdims=True)
+    length = lambert.length(normals)[..., None]
     below = (slice(window[0].start, window[0].stop + 1), window[1])  # the surface may break between this band and the next
     cut = block_sum(breaks_of(surface, below)[: len(mask)].astype(np.float32), step) > 0
     return Reduced(

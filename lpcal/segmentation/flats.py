@@ -75,7 +75,7 @@ class Sweep:
     def normals(self) -> Array:
         """Normal (P, 3) at each pixel's best depth."""
         b = self.b[np.argmin(self.cost, axis=0), np.arange(self.b.shape[1])]
-        return np.asarray(b / np.maximum(np.linalg.norm(b, axis=1, keepdims=True), 1e-12))
+        return np.asarray(b / np.maximum(lambert.length(b)[..., None], 1e-12))
 
 
 def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -> Sweep:
@@ -275,7 +275,7 @@ class _Votes:
     @staticmethod
     def of(image: Coarse, swept: Sweep, distance_m: float) -> _Votes:
         """The votes of all pixels."""
-        n = swept.b / np.maximum(np.linalg.norm(swept.b, axis=2, keepdims=True), 1e-12)
+        n = swept.b / np.maximum(lambert.length(swept.b)[..., None], 1e-12)
         towards = -lambert.dot(n, image.rays_C)
         weight = np.exp(-(swept.cost - swept.least) / max(2, len(image.signal))) * ((towards > STEEPEST) & (n[..., 2] < 0))
         weight /= np.maximum(weight.sum(axis=0), 1e-9)

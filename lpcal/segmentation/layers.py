@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import raster
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
@@ -111,7 +111,7 @@ def costs(layers: Layers, at: Pixels, table: LightTable, u_free: Array) -> Array
     """Cost (2 + planes + 1, Q): the object's matter, each plane, nothing, other matter; `u_free` (Q,) is where matter is taken to be."""
     B, doubt = table.at(u_free, at.coarse)
     free = samples.free(at.signal, at.sigma, at.usable, B, doubt)[1]
-    return with_planes(layers, at, table, free, np.linalg.norm(B, axis=2))
+    return with_planes(layers, at, table, free, lambert.length(B))
 
 
 def shine(at: Pixels, E: Array) -> Array:
@@ -154,7 +154,7 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
     image, table = view.image, view.table
     everywhere = np.arange(len(image.rays_C))
     at = Pixels(image.signal, image.sigma, image.usable, image.rays_C, everywhere)
-    E = np.linalg.norm(table.at(np.full(len(everywhere), u_free), everywhere)[0], axis=2)
+    E = lambert.length(table.at(np.full(len(everywhere), u_free), everywhere)[0])
     bright = shine(at, E)
     weights = boundary(strength(image.maps))
     cost = np.empty((0, *image.shape))

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import flats, layers, room_samples
@@ -85,7 +86,7 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     share = np.array([1 / light.intensity.mean() for light in lights])
     few = coarse_of(maps, rays_C, factor_of(maps, FEW_PIXELS))
     table = LightTable.of(few, lights, distance_m)
-    unit = float(np.median(np.linalg.norm(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0], axis=2)))
+    unit = float(np.median(lambert.length(table.at(np.full(len(few.rays_C), np.log(distance_m)), np.arange(len(few.rays_C)))[0])))
 
     def explained(level: float) -> Explained:
         return _explained(few, RoomPrior(share, level * unit), table, distance_m, drawn=False)
@@ -123,7 +124,7 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
         cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, room)
         costs.append(cost)
         ambient.append(A)
-    E = np.linalg.norm(table.at(np.full(len(everywhere), np.log(distance_m)), everywhere)[0], axis=2)
+    E = lambert.length(table.at(np.full(len(everywhere), np.log(distance_m)), everywhere)[0])
     bright = np.max(np.where(image.usable, image.signal / np.maximum(E, 1e-12), 0.0), axis=0)
     around = np.median(bright[lit]) * E if lit.any() else np.median(bright) * E
     cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, room)
@@ -133,7 +134,7 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
         every = np.stack([*costs, cost]) - 2 * np.log(np.maximum(part, 1 / every.shape[1]))[:, None]
     bounded = np.minimum(every, every.min(axis=0) + layers.CEILING).reshape(-1, *image.shape)
     labels = (layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)).ravel()
-    size = np.linalg.norm(free.b, axis=1)
+    size = lambert.length(free.b)
     return Explained(every.min(axis=0), each[labels, everywhere], labels == len(every) - 1, labels == 0, size)
 
 

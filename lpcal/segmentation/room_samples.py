@@ -55,7 +55,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
         b, (A, cost, information) = np.empty(B.shape[1:]), np.empty((3, B.shape[1]))
         run(*signal.shape, *_given(signal, sigma, usable, B, doubt, room), STEPS, b, A, cost, information)
         return Free(b, A, cost, information)
-    share, E = room.share[:, None], np.linalg.norm(B, axis=2)
+    share, E = room.share[:, None], lambert.length(B)
     A = lowest(signal, usable, room) / 2
     n = np.zeros(B.shape[1:])
     n[:, 2] = -1.0
@@ -69,11 +69,11 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
         weight = usable / spread2
         if step:
             weight /= (1 + (lamps - np.where(dark, 0.0, lambert.predicted(B, b))) ** 2 / spread2 / samples.WIDTH2) ** 2
-        b, A, information = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, np.linalg.norm(b, axis=1), room)
-        length = np.linalg.norm(b, axis=1, keepdims=True)
+        b, A, information = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, lambert.length(b), room)
+        length = lambert.length(b)[..., None]
         n = np.where(length > 0, b / np.maximum(length, 1e-20), n)
     cost, _ = _costs(signal, sigma, usable, doubt, lambert.predicted(B, b), share * A)
-    return Free(b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, np.linalg.norm(b, axis=1), room), information)
+    return Free(b, A, np.sum(np.where(usable, cost, 0.0), axis=0) + _prior(A, lambert.length(b), room), information)
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:

@@ -69,7 +69,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
         b, cost = np.empty(B.shape[1:]), np.empty(B.shape[1])
         run(*signal.shape, *_given(signal, sigma, usable, B, doubt), ROUNDS, b, cost)
         return b, cost
-    spread2, E = variance(signal, sigma, doubt), np.linalg.norm(B, axis=2)
+    spread2, E = variance(signal, sigma, doubt), lambert.length(B)
     shading = np.where(usable & (E > 0), signal / np.maximum(E, 1e-12), 0.0)
     shadow = shading < SHADOW * second(shading)
     weight = (usable & ~shadow) / spread2

@@ -103,14 +103,14 @@ def solve(
     the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not. `rounds` is how many there
     are, by default as many as such a start needs; `palette` is that of the object's albedos, where it is known.
     """
-    v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+    v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     before = start if isinstance(start, Field) else None
     b = _begin(seen, grid, start.b) if before is None else before.b
     shine = None if before is None else before.gloss
     rounds = rounds or (ROUNDS if before is not None else FIRST_ROUNDS + GLOSS_ROUNDS * (glossy is not None))
     some = gloss.sample(seen.pixels)
     few, few_lit, few_hidden = seen.at(some), lit.at(some), None if hidden is None else hidden[:, some]
-    albedo = np.linalg.norm(b, axis=1)
+    albedo = lambert.length(b)
     own_samples = np.zeros((seen.pixels, 3, 3))
     for k in range(rounds):
         so_far, middle, last = (b, shine), np.median(albedo), k > 1 or before is not None
@@ -122,7 +122,7 @@ def solve(
         own_samples, right = _gathered(seen, lit, b, v, hidden, shine, warmth)
         drawn, of_palette = (0.0, 0.0) if palette is None else palette.pull(b).on(lambert.unit(b)[0])
         b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
-        towards, albedo = lambert.dot(b, v), np.linalg.norm(b, axis=1)
+        towards, albedo = lambert.dot(b, v), lambert.length(b)
         b = b + np.maximum(GRAZING * albedo - towards, 0.0)[:, None] * v
         same = shine == so_far[1] and np.median(albedo) == middle and np.array_equal(b, so_far[0])
         if last and warmth == 1.0 and same:
@@ -140,14 +140,14 @@ def _tilt_rad(b: Array, own: Array) -> Array:
     steep = np.isnan(covariance[:, 0, 0])  # samples of one direction so strong that the prior looks like nothing beside them
     strength, axis = np.linalg.eigh(own[steep] / loose[steep, None, None])
     covariance[steep] = (axis / (np.maximum(strength, 0.0) + 1)[:, None]) @ axis.transpose(0, 2, 1) / loose[steep, None, None]
-    across = np.trace(covariance, axis1=1, axis2=2) - np.einsum("pi,pij,pj->p", n, covariance, n)
+    across = lambert.trace(covariance) - np.einsum("pi,pij,pj->p", n, covariance, n)
     return np.asarray(np.sqrt(np.maximum(across, 0.0) / 2) / np.maximum(albedo, 1e-12))
 
 
 def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
     """A start (P, 3): estimates of single pixels without shadows, the rest filled from around."""
     known = np.isfinite(b[:, 0])
-    albedo = np.where(known, np.linalg.norm(np.nan_to_num(b), axis=1), 0.0)
+    albedo = np.where(known, lambert.length(np.nan_to_num(b)), 0.0)
     reach = np.sqrt(seen.pixels) / ACROSS
     picture = np.zeros(seen.mask.shape)
     picture[seen.mask] = albedo
@@ -158,7 +158,7 @@ def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
 
 def apart(x: Array, y: Array) -> Array:
     """Squares of the differences of b x and y (..., 3), in shares TURN of their albedo."""
-    both = np.linalg.norm(x, axis=-1) * np.linalg.norm(y, axis=-1) * TURN**2
+    both = lambert.length(x) * lambert.length(y) * TURN**2
     return np.asarray(lambert.dot(x - y, x - y) / np.maximum(both, 1e-300))
 
 
@@ -267,7 +267,7 @@ class _System:
             given = (grid.a, grid.b, np.ascontiguousarray(b, float), np.ascontiguousarray(own, float))
             run(len(link), len(b), *given, TURN**2, LINK2, work, link, block)
             return cls(grid, block, link)
-        albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
+        albedo = np.maximum(lambert.length(b), 1e-12)
         both = albedo[grid.a] * albedo[grid.b]
         link = 1 / (both * TURN**2) / (1 + apart(b[grid.a], b[grid.b]) / LINK2) ** 2
         total = np.bincount(grid.a, link, len(b)) + np.bincount(grid.b, link, len(b))
@@ -284,7 +284,7 @@ class _System:
     def solved(self, right: Array, begin: Array) -> Array:
         """x (P, 3) of a right side, by conjugate gradients from a beginning."""
         block = self.block
-        small = 1e-12 * float(np.trace(block, axis1=1, axis2=2).max())
+        small = 1e-12 * float(lambert.trace(block).max())
         if run := kernel("coupled"):
             stretches, (across, down) = self.grid.pyramid.levels[0].stretches, self.grid.pyramid.levels[0].by_pixel(self.link)
             x, work = np.array(begin, float), np.zeros(3 * (len(right) + 2) + 18 * len(right) + 12)
@@ -321,7 +321,7 @@ def _evidence(
     seen: Sight, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Normal equations of b and the strengths: own (P, 3, 3), pull (P, 3), across (N, P, 3), and summed square (N, N) and slope (N,)."""
-    v = -seen.rays_C / np.linalg.norm(seen.rays_C, axis=1, keepdims=True)
+    v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     if run := kernel("evidence"):
         (L, P), N = seen.signal.shape, len(parts)
         given = (*_given(seen, lit, before.b, v, hidden, before.gloss), *(np.ascontiguousarray(one, float) for one in parts))

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
@@ -61,10 +62,10 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
         run(*found.shape, *(np.ascontiguousarray(one, float) for one in (d, n, v)), roughness, found)
         return found
     h = d + v
-    h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
+    h /= np.maximum(lambert.length(h)[..., None], 1e-9)
     a2 = roughness**2
-    nh, nd = np.einsum("kpi,pi->kp", h, n), np.einsum("kpi,pi->kp", d, n)
-    nv = np.maximum(np.einsum("pi,pi->p", v, n), GRAZING)
+    nh, nd = lambert.dot(h, n), lambert.dot(d, n)
+    nv = np.maximum(lambert.dot(v, n), GRAZING)
     D = a2 / (np.pi * (np.maximum(nh, 0) ** 2 * (a2 - 1) + 1) ** 2)
 
     def smith(cosine: Array) -> Array:
@@ -76,10 +77,10 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
 def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
     """How the lobe of `lobe` changes with the normal (L, P, 3), along the surface's tangents."""
     h = d + v
-    h /= np.maximum(np.linalg.norm(h, axis=2, keepdims=True), 1e-9)
+    h /= np.maximum(lambert.length(h)[..., None], 1e-9)
     a2 = roughness**2
-    nh, nd = np.maximum(np.einsum("kpi,pi->kp", h, n), 0.0), np.maximum(np.einsum("kpi,pi->kp", d, n), 0.0)
-    nv = np.maximum(np.einsum("pi,pi->p", v, n), GRAZING)
+    nh, nd = np.maximum(lambert.dot(h, n), 0.0), np.maximum(lambert.dot(d, n), 0.0)
+    nv = np.maximum(lambert.dot(v, n), GRAZING)
     q = nh**2 * (a2 - 1) + 1
     D, s_d, s_v = a2 / (np.pi * q**2), np.sqrt(a2 + (1 - a2) * nd**2), np.sqrt(a2 + (1 - a2) * nv**2)
     S, V = 2 * nd / (nd + s_d + 1e-12), 0.5 / (nv + s_v)

@@ -196,7 +196,7 @@ def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Arra
     """The estimate with its inliers and misfit; b is NaN where too few agree or the normal looks away."""
     square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
     inliers = usable & (square < OUTLIER2)
-    towards = lambert.dot(b, rays_C) < -GRAZING * np.linalg.norm(b, axis=1) * np.linalg.norm(rays_C, axis=1)
+    towards = lambert.dot(b, rays_C) < -GRAZING * lambert.length(b) * lambert.length(rays_C)
     good = (inliers.sum(axis=0) >= LIGHTS_NEEDED) & towards
     return Estimate(
         np.where(good[:, None], b, np.nan),
@@ -227,7 +227,7 @@ def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array
 
 def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask) -> Array:
     """b (P, 3) by least squares on the candidates without the darkest and the brightest of them."""
-    shading = np.where(usable, signal / np.maximum(np.linalg.norm(B, axis=2), 1e-300), np.inf)
+    shading = np.where(usable, signal / np.maximum(lambert.length(B), 1e-300), np.inf)
     rank = np.argsort(np.argsort(shading, axis=0, kind="stable"), axis=0)
     count = usable.sum(axis=0)
     kept = usable & (rank >= np.floor(TRIMMED * count)) & (rank < np.ceil((1 - TRIMMED) * count))

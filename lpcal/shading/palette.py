@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import raster
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array
 from lpcal.view.agreed import RARE
 
@@ -69,7 +69,7 @@ class Palette:
 
         `other` (P,) is light from other surfaces and gloss, as a share of what the lamps make of matte matter.
         """
-        level = np.log(np.maximum(np.linalg.norm(b, axis=1), 1e-12))
+        level = np.log(np.maximum(lambert.length(b), 1e-12))
         middle = float(np.median(level))
         known = tilt_rad <= np.median(tilt_rad)
         weight = np.where(known, np.clip(1 - other / OTHER, 0.0, 1.0), 0.0)
@@ -82,7 +82,7 @@ class Palette:
 
     def pull(self, b: Array) -> Pull:
         """Where it pulls pixels of fields b (P, 3), and how strongly."""
-        level = np.log(np.maximum(np.linalg.norm(b, axis=1), 1e-12)) - self.middle
+        level = np.log(np.maximum(lambert.length(b), 1e-12)) - self.middle
         at = np.clip((level + SPAN) / (2 * SPAN) * BINS - 0.5, 0, BINS - 1)
         low = np.minimum(at.astype(int), BINS - 2)
         density, mean, variance = (one[low] + (at - low) * (one[low + 1] - one[low]) for one in (self.density, self.mean, self.variance))

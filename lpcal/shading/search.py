@@ -57,7 +57,7 @@ class Costs:
     @property
     def v(self) -> Array:
         """Directions (P, 3) to the viewer."""
-        return np.asarray(-self.seen.rays_C / np.linalg.norm(self.seen.rays_C, axis=1, keepdims=True))
+        return np.asarray(-self.seen.rays_C / lambert.length(self.seen.rays_C)[..., None])
 
     @property
     def least(self) -> float:
@@ -177,7 +177,7 @@ def propose(costs: Costs, grid: Grid, b: Array) -> Array:
     rng = np.random.default_rng(1)
     of = costs.at(wanted)
     x, u = np.repeat(b[:, None], PARTICLES, axis=1), np.repeat(now[:, None], PARTICLES, axis=1)
-    x[wanted] = _starts(of, b[wanted], float(np.linalg.norm(b, axis=1).max()), rng)
+    x[wanted] = _starts(of, b[wanted], float(lambert.length(b).max()), rng)
     u[wanted] = of.of(x[wanted])
     beliefs = _Beliefs(x, u, np.zeros((*u.shape, 4)), _neighbours(grid))
     colour = (grid.rows[wanted] + grid.columns[wanted]) % 2
@@ -249,7 +249,7 @@ class _Beliefs:
         which = rng.integers(0, PARTICLES, (len(here), PARTICLES // 2))
         wide = field.TURN / 2 * rng.random(which.shape)
         own = np.take_along_axis(self.x[here], which[..., None], axis=1)
-        turned = own + (np.linalg.norm(own, axis=2) * wide)[..., None] * rng.normal(size=own.shape)
+        turned = own + (lambert.length(own) * wide)[..., None] * rng.normal(size=own.shape)
         new = np.concatenate([theirs, turned], axis=1)
         x = np.concatenate([self.x[here], new], axis=1)
         u = np.concatenate([self.u[here], costs.of(new)], axis=1)

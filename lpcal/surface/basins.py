@@ -222,7 +222,7 @@ def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
         B = table.at(u, pixels)[0]
-        found = normals.estimate(seen, B, normals.candidates(seen, np.linalg.norm(B, axis=2)), normals.variances(seen))
+        found = normals.estimate(seen, B, normals.candidates(seen, lambert.length(B)), normals.variances(seen))
         known = np.isfinite(found.b[:, 0])
         if not known.any():
             break

@@ -24,7 +24,7 @@ import numpy as np
 
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.kernels.library import kernel
+from lpcal.kernels.library import LANES, kernel
 from lpcal.records.calibration import Light
 from lpcal.shading import field
 from lpcal.shading.normals import Estimate
@@ -39,8 +39,6 @@ STEPS = 6
 """Places between two patches at which it is asked whether a surface stands there."""
 BLOCK = 128
 """Patches whose light is summed together: a call of the kernel then costs next to nothing of its own."""
-LANES = 4
-"""Lights that the kernel sums together (kernels/relief.c)."""
 OFF = 0.025
 """Share of the depth that is skipped at both ends of an occlusion ray, so that a patch does not hide itself."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
@@ -108,7 +106,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     own = Patches(x_C, n_C, joined.total, joined.means(found.diffuse(seen).T).T)
     relief = Relief.of(seen, depth)
     albedo = np.zeros(seen.mask.shape)
-    albedo[seen.mask] = np.nan_to_num(np.linalg.norm(found.b, axis=1))
+    albedo[seen.mask] = np.nan_to_num(lambert.length(found.b))
     by_unseen, unseen = thrown_by_sides(own.x_C, own.n, relief, albedo, lights)
     at_patches = _received(own, own, relief)
     beyond = None
@@ -162,14 +160,16 @@ class _Joined:
         return np.stack([np.bincount(self.of_pixel, self.area * column) for column in values.T], axis=-1) / self.total[:, None]
 
     def spread(self, values: Array) -> Array:
-        """Values (P,) of the patches' values (Q,)."""
-        blank = np.zeros(self.seen.mask.shape, np.float32)
-        blank[self.seen.mask] = values[self.of_pixel]
-        return np.asarray(raster.blurred(blank, self.size / 2, "constant")[self.seen.mask] / np.maximum(self.inside, 1e-6))
+        """Values (..., P) of the patches' values (..., Q)."""
+        many, reach = values.shape[:-1], self.size / 2
+        blank = np.zeros((*many, *self.seen.mask.shape), np.float32)
+        blank[..., self.seen.mask] = values[..., self.of_pixel]
+        smooth = raster.blurred(blank, (*(0.0,) * len(many), reach, reach), "constant")
+        return np.asarray(smooth[..., self.seen.mask] / np.maximum(self.inside, 1e-6))
 
     def at_pixels(self, values: Array) -> Array:
         """Light vectors (L, P, 3) of those of the patches (L, Q, 3)."""
-        return np.stack(bands.shared(lambda of_light: np.stack([self.spread(one) for one in of_light.T], axis=-1), values))
+        return np.stack(bands.shared(lambda of_light: self.spread(of_light.T).T, values))
 
 
 @dataclass(frozen=True)
@@ -198,7 +198,7 @@ def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence 
     itself says next to nothing, since b takes up most of what is reflected onto it; together with its neighbours in other lights it does,
     which is what `lit` holds. What is found are posterior means: where both say little the place of the least cost would jump.
     """
-    albedo = np.linalg.norm(b, axis=1)
+    albedo = lambert.length(b)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
     light, pixel = np.nonzero(dark & seen.usable)
     worth, some = len(pixel) / NEIGHBOURS, slice(None, None, max(1, len(pixel) // MANY_PIXELS))
@@ -235,7 +235,7 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
 
 def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
     """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
-    dark = hidden | (np.einsum("kpi,pi->kp", lit.d, n) < -GRAZING)
+    dark = hidden | (lambert.dot(lit.d, n) < -GRAZING)
     found = np.zeros_like(dark)
     for k, one in enumerate(dark):
         found[k] = raster.shrunk(np.asarray(seen.map(one, False), bool), RIM_PX)[seen.mask]
@@ -244,10 +244,10 @@ def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
 
 def _areas(seen: Sight, depth: Array, n: Array) -> Array:
     """Area (P,) of the surface that each pixel sees."""
-    length = np.linalg.norm(seen.rays_C, axis=1)
+    length = lambert.length(seen.rays_C)
     towards = np.maximum(-lambert.dot(n, seen.rays_C) / length, GRAZING)
     _, columns = np.nonzero(seen.mask)
-    step = np.linalg.norm(np.diff(seen.rays_C, axis=0), axis=1)[np.diff(columns) == 1]
+    step = lambert.length(np.diff(seen.rays_C, axis=0))[np.diff(columns) == 1]
     pixel = float(np.median(step)) if step.size else 1e-3
     return np.asarray((depth * pixel) ** 2 / (length * towards))
 

@@ -112,7 +112,7 @@ def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
     for one in np.unique(label):
         inside = label == one
         u[inside] += np.median(state.u[inside]) - np.median(u[inside])
-    b = np.linalg.norm(state.field.b, axis=1)[:, None] * n
+    b = lambert.length(state.field.b)[:, None] * n
     return replace(state, u=u, normals=n, field=replace(state.field, b=b)), sigma_rad
 
 
@@ -163,7 +163,7 @@ class _Whole:
     @staticmethod
     def of(scene: Scene, state: State) -> _Whole:
         """By a state of the rounds."""
-        level = np.log(np.maximum(np.linalg.norm(state.field.b, axis=1), 1e-12))
+        level = np.log(np.maximum(lambert.length(state.field.b), 1e-12))
         middle, room = {"level": float(np.median(level)), "u": float(np.median(state.u))}, None
         if scene.room is not None:
             room = np.log(np.maximum(scene.room, DARKEST * float(np.median(scene.room)) + 1e-12))
@@ -221,7 +221,7 @@ def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, 
         "thrown": np.minimum(np.nan_to_num(normals.thrown_share(lit, found)), MOST_SHARE),
         "gloss": np.minimum(np.nan_to_num(normals.gloss_share(lit, found)), MOST_SHARE),
         "unseen": nothing if lit.unseen is None else lit.unseen,
-        "bend": np.linalg.norm(n - of_depth, axis=1),
+        "bend": lambert.length(n - of_depth),
         "own distance": np.clip((state.own.optimum[at] - state.u[at]) * 10, -3, 3),
         "depth": state.u[at] - whole.middle["u"],
         "room": nothing if room is None else room - whole.middle["room"],
@@ -261,7 +261,7 @@ def _open(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
 
 def _round_the_ray(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
     """Waves of the samples' shading round each ray, and of what the state leaves of it, over the pixel's albedo."""
-    scale = np.maximum(lit.E * np.linalg.norm(b, axis=1), 1e-300)
+    scale = np.maximum(lit.E * lambert.length(b), 1e-300)
     left = seen.signal - np.maximum(lambert.dot(lit.direct, b), 0.0)
     if lit.thrown is not None:
         left = left - np.maximum(lambert.dot(lit.thrown, b), 0.0)

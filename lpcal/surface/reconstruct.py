@@ -293,7 +293,7 @@ def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, fo
     sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
     drawn = np.exp(-((clues.bend_deg / AGREE_DEG) ** 2))[:, None]
     n = lambert.unit(state.normals + drawn * of_depth)[0]
-    towards = -np.einsum("pi,pi->p", n, seen.rays_C) / np.linalg.norm(seen.rays_C, axis=1)
+    towards = -lambert.dot(n, seen.rays_C) / lambert.length(seen.rays_C)
     plane = seen.shape_C(np.ones_like(depth))[:, :2]
     depth_sigma = uncertainty.depth_sigma(grid, sigma_deg, towards, plane, depth if seen.central else np.ones_like(depth), label)
 

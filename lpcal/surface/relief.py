@@ -170,7 +170,7 @@ def _unseen(at: Indices, y_C: Array, relief: Relief) -> tuple[Indices, Array]:
 
 def _shading(y_C: Array, way: Array, relief: Relief, lights: Sequence[Light]) -> Array:
     """What the lights give to the unseen sides (L, N) at y_C (N, 3) that `way` (N, 3) meets."""
-    ray = y_C / np.linalg.norm(y_C, axis=1, keepdims=True)
+    ray = y_C / lambert.length(y_C)[..., None]
     m = -way
     m = lambert.unit(m - lambert.dot(m, ray)[:, None] * ray)[0]
     before_C = y_C - TOLERANCE * y_C[:, 2:] * way

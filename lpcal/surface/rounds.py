@@ -318,8 +318,8 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     """
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
-    albedo = np.linalg.norm(before.field.b, axis=1)
-    expected = albedo * lit.E * np.maximum(np.einsum("kpi,pi->kp", lit.d, before.normals), GRAZING)
+    albedo = lambert.length(before.field.b)
+    expected = albedo * lit.E * np.maximum(lambert.dot(lit.d, before.normals), GRAZING)
     dark = ~(seen.signal > SHADED * expected)
     by_object, by_any = np.zeros_like(dark), np.zeros_like(dark)
 
@@ -361,7 +361,7 @@ def _held(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Lit, bou
     """The light with what other views say that surfaces reflect, and what the planes about the object do."""
     assert scene.held is not None
     thrown, reflectance = scene.held.thrown, scene.held.reflectance
-    per_unit = reflectance / float(np.median(np.linalg.norm(before.field.b, axis=1)))
+    per_unit = reflectance / float(np.median(lambert.length(before.field.b)))
     if scene.around is not None:
         thrown = thrown + per_unit * bounce.from_around(scene.seen, depth, before.normals, scene.lights, scene.around)
     return replace(lit, thrown=thrown, unseen=np.zeros(scene.seen.pixels)), bounce.Reflectance(reflectance, per_unit, 0.0, 0.5)

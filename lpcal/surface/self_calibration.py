@@ -179,7 +179,7 @@ def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict
     if len(known) < 2 * FEWEST_PIXELS:
         return {}
     some = known[np.unique(np.linspace(0, len(known) - 1, min(MANY_PIXELS, len(known))).astype(int))]
-    side = b[some] / np.maximum(np.linalg.norm(b[some], axis=1, keepdims=True), 1e-300)
+    side = b[some] / np.maximum(lambert.length(b[some])[..., None], 1e-300)
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
     if any(half.sum() < FEWEST_PIXELS for half in halves):
         return {}

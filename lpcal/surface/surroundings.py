@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lpcal.geometry import raster
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import mask, planes
@@ -151,7 +151,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
         if inside.any():
             part = _of_plane(rays_C, blank, plane.q, inside, block)
             d, E = light_vectors(lights, part.x_C)
-            unseen.append(replace(part, signal=albedo[k] * (E * np.maximum(np.einsum("kpi,pi->kp", d, part.n), 0.0))))
+            unseen.append(replace(part, signal=albedo[k] * (E * np.maximum(lambert.dot(d, part.n), 0.0))))
     slopes = np.stack([seen.rays_C @ plane.q for plane in found])
     depth = 1 / np.maximum(slopes[of_plane, np.arange(seen.pixels)], planes.BEHIND)
     body = replace(seen, mask=(of_plane >= 0).reshape(seen.mask.shape), rays_C=seen.rays_C[of_plane >= 0])

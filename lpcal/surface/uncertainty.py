@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.geometry import raster
+from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
@@ -88,11 +88,11 @@ def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
     """What the samples' variances make of normals (P, 3), degrees an axis, NaN where they are filled in; and chi2 a degree of freedom."""
     filled = ~np.isfinite(found.b[:, 0])
     b = np.where(filled[:, None], normals, found.b)
-    albedo = np.maximum(np.linalg.norm(b, axis=1), 1e-12)
+    albedo = np.maximum(lambert.length(b), 1e-12)
     across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
     covariance = np.nan_to_num(across @ np.nan_to_num(found.covariance) @ across) / albedo[:, None, None] ** 2
     common = np.maximum(found.used / INDEPENDENT, 1.0)
-    noise = np.degrees(np.sqrt(common * np.maximum(np.trace(covariance, axis1=1, axis2=2) / 2, 0)))
+    noise = np.degrees(np.sqrt(common * np.maximum(lambert.trace(covariance) / 2, 0)))
     freedom = found.used - 3
     misfit = np.where(freedom > 0, found.chi2 / np.maximum(freedom, 1), 1.0)
     return np.where(filled, np.nan, noise), misfit
@@ -112,7 +112,7 @@ def clues_of(
     expected_deg: Array | None = None,
 ) -> Clues:
     """The clues of each pixel, those that come from its samples given."""
-    bend = np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(normals - of_depth, axis=1) / 2, 0, 1)))
+    bend = np.degrees(2 * np.arcsin(np.clip(lambert.length(normals - of_depth) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
     bend_round = np.sqrt(np.maximum(raster.boxed(square, 5)[mask], 0) / np.maximum(raster.boxed(inside, 5)[mask], 1e-3))

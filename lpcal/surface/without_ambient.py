@@ -242,7 +242,7 @@ def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None,
     """
     d, E = light_vectors(lights, seen.points_C(depth))
     found = room_samples.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
-    b, length = found.b, np.maximum(np.linalg.norm(found.b, axis=1), 1e-20)
+    b, length = found.b, np.maximum(lambert.length(found.b), 1e-20)
     known = np.maximum(found.information, NEXT_TO_NOTHING)
     rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], 1 + (found.A / length / light.room.level - 1) / known
     own2 = room_samples.SPREAD**2 * (1 - known) / known
@@ -286,7 +286,7 @@ class _Trial:
 
     def room(self, c: Array, b: Array) -> Array:
         """A (P,)."""
-        return np.asarray(np.maximum(c[0] * np.linalg.norm(b, axis=1) + b @ c[1:], 0.0))
+        return np.asarray(np.maximum(c[0] * lambert.length(b) + b @ c[1:], 0.0))
 
     def settled(self, c: Array, b: Array | None = None, rounds: int = 3) -> tuple[Array, Mask]:
         """b (P, 3) that goes with c, found in rounds from b or from the beginning, and where there is an answer."""
@@ -314,7 +314,7 @@ def _fit(trial: _Trial) -> Array | None:
     from scipy import optimize
 
     begin = trial.begin()
-    unit = float(np.median(np.median(trial.seen.signal, axis=0) / np.linalg.norm(begin, axis=1)))
+    unit = float(np.median(np.median(trial.seen.signal, axis=0) / lambert.length(begin)))
     tried = [trial.misfit(np.array([one, 0, 0, 0]), begin) for one in unit * LEVELS]
     first = max(float(unit * LEVELS[int(np.argmin(tried))]), 0.01 * unit)
 

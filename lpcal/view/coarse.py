@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
@@ -249,6 +250,6 @@ def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:
     across = np.gradient(fall, axis=3) / np.gradient(rays[..., 0], axis=1)
     down = np.gradient(fall, axis=2) / np.gradient(rays[..., 1], axis=0)
     slope = np.hypot(across, down) / x_C[..., 2]
-    far = np.stack([np.linalg.norm(x_C - (light.source_C if light.source_C is not None else 0.0), axis=-1) for light in lights])
+    far = np.stack([lambert.length(x_C - (light.source_C if light.source_C is not None else 0.0)) for light in lights])
     std = np.array([max(np.nan_to_num(light.direction_std_rad, nan=0.0, posinf=0.0), LEAST_DIRECTION_STD_RAD) for light in lights])
     return np.asarray(np.minimum(slope * far * std[:, None, None, None], 1.0))
