@@ -1,4 +1,4 @@
-"""What installed packages add to lpcal by entry points (formats of motion capture and of other systems, kinds of lobe), and their versions."""
+"""What installed packages add to lpcal by entry points: formats of motion capture and of other systems, kinds of lobe; their versions."""
 
 from __future__ import annotations
 
