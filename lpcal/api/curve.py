@@ -21,6 +21,8 @@ from lpcal.view.sight import light_vectors, rays_at
 
 PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""
+LIGHTS = 24
+"""Lights of which as many are looked at, spread over all: more show no curve that these do not."""
 LIT = 0.25
 """Mean over the lights, less the room's, of the brightest pixels' mean, over which a pixel counts as lit."""
 BY_CLAIM = "the images' own tag"
@@ -121,8 +123,10 @@ def _not_linear(raw: RawCapture, curve: Curve) -> DisagreementError:
 
 def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed: Gamma) -> Curve | None:
     """The curve that explains a capture's numbers best; None where too few lights or pixels show it."""
-    lights = [light for name in raw.lights for light in calibration.lights if light.name == name]
-    channels = raw.images if raw.images.ndim == 4 else raw.images[..., None]
+    some = np.unique(np.linspace(0, len(raw.lights) - 1, min(LIGHTS, len(raw.lights))).astype(int))
+    lights = [light for k in some for light in calibration.lights if light.name == raw.lights[k]]
+    images = raw.images if len(some) == len(raw.lights) else raw.images[some]
+    channels = images if images.ndim == 4 else images[..., None]
     mean = channels.mean(axis=(0, 3))
     if raw.ambient is not None:
         mean = mean - raw.ambient.reshape(len(raw.ambient), *mean.shape, -1).mean(axis=(0, 3))
@@ -137,7 +141,7 @@ def curve_of(raw: RawCapture, sensor: Sensor, calibration: Calibration, claimed:
 
     def light(curve: Gamma) -> Array:
         dark = decode(np.array([sensor.black_level]), curve)
-        linear = (decode(stored, curve) - dark) / raw.exposure_s[:, None, None]
+        linear = (decode(stored, curve) - dark) / raw.exposure_s[some, None, None]
         if room is not None:
             linear = linear - np.mean((decode(room, curve) - dark) / raw.ambient_exposure_s[:, None, None], axis=0)
         return np.clip(linear.mean(axis=2), 0, None)

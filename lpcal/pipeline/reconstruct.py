@@ -43,11 +43,13 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
-from lpcal.view.bands import cores
+from lpcal.view.bands import cores, shared
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
 """What --mask takes besides a file."""
+type Hashes = dict[Path, str]
+"""sha256 of files."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,9 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     saying.append(("panel.yaml", wishes.panel))
     mask = read_mask(Path(wishes.mask), raw.size[::-1]) if wishes.mask not in MASK_WORDS else wishes.mask
     placement, said = placed(raw.place, calibration, wishes.recorded, task.capture)
-    digest = made_from_of(task, calibration_path, wishes)
+    with cores(wishes.jobs):
+        hashes = hashes_of(task, calibration_path)
+    digest = made_from_of(task, wishes, hashes)
     calibration = calibration.of_images(raw.size)
     hints = wishes.hints
     made = partial(
@@ -161,7 +165,7 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         surface = made(mask=mask, method=wishes.method or ("near" if wishes.near else "distant"), integrator=wishes.integrator)
     surface = replace(surface, warnings=(*surface.warnings, *said))
     solved = time.perf_counter()
-    document = summary_document(surface, task, calibration_path, wishes, {"reading": read - begun, "solving": solved - read})
+    document = summary_document(surface, task, hashes, wishes, {"reading": read - begun, "solving": solved - read})
     both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
     with cores(wishes.jobs):
         distant = made(mask=surface.mask, method="distant") if document["flatness"] and both_ways and raw.full is None else None
@@ -181,7 +185,7 @@ def of_rig(wishes: Wishes, workspace: Workspace | None, task: Task, calibration_
     return replace(wishes, panel=stated_in_panel(workspace), recorded=recorded_of(workspace))
 
 
-def summary_document(surface: Surface, task: Task, calibration_path: Path, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
+def summary_document(surface: Surface, task: Task, hashes: Hashes, wishes: Wishes, times_s: dict[str, float]) -> dict[str, Any]:
     """What summary.json holds."""
     return summary_of(surface) | {
         "flatness": flatness(surface),
@@ -192,7 +196,7 @@ def summary_document(surface: Surface, task: Task, calibration_path: Path, wishe
             word: value for word, value in asdict(replace(wishes, panel=StatedSensor())).items() if word not in {"jobs", "recorded"}
         },
         "capture": place_of(task.capture, task.target),
-        "inputs": hashes(task, calibration_path),
+        "inputs": {_name_in(task.capture, path): one for path, one in hashes.items()},
     }
 
 
@@ -206,20 +210,19 @@ def peak_memory_mb() -> int | None:
     return round(held / (1024 * 1024 if sys.platform == "darwin" else 1024))
 
 
-def hashes(task: Task, calibration_path: Path) -> dict[str, str]:
-    """sha256 of the calibration and of every file of the capture, by name."""
-    files = {path.relative_to(task.capture).as_posix(): sha256(path) for path in files_of(task.capture)}
-    return {calibration_path.name: sha256(calibration_path)} | files
-
-
-def made_from_of(task: Task, calibration_path: Path, wishes: Wishes) -> str:
-    """A digest of all that a surface is made from: lpcal's version, the files' contents, and all that is wished."""
+def hashes_of(task: Task, calibration_path: Path) -> Hashes:
+    """sha256 of the calibration and of every file of the capture, which cores share."""
     files = [calibration_path, *files_of(task.capture)]
-    files += [] if wishes.mask in MASK_WORDS else [Path(wishes.mask)]
+    return dict(zip(files, shared(sha256, files), strict=True))
+
+
+def made_from_of(task: Task, wishes: Wishes, hashes: Hashes) -> str:
+    """A digest of all that a surface is made from: lpcal's version, the files' contents, and all that is wished."""
+    hashes = hashes if wishes.mask in MASK_WORDS else hashes | {Path(wishes.mask): sha256(Path(wishes.mask))}
     said = [
         __version__,
         task.name,
-        [[_name_in(task.capture, path), sha256(path)] for path in files],
+        [[_name_in(task.capture, path), one] for path, one in hashes.items()],
         plain(asdict(replace(wishes, mask="", jobs=None, recorded=NO_RIG)) | {"recorded": None}),
         *made_from(stated_place_of(task.capture), wishes.recorded),
     ]
@@ -237,7 +240,7 @@ def standing(task: Task, calibration_path: Path, wishes: Wishes) -> dict[str, An
     try:
         document = json.loads((task.target / SUMMARY).read_text(encoding="utf-8"))
         sizes = {name: (task.target / name).stat().st_size for name in document["files"]}
-        same = sizes == document["files"] and document["made_from"] == made_from_of(task, calibration_path, wishes)
+        same = sizes == document["files"] and document["made_from"] == made_from_of(task, wishes, hashes_of(task, calibration_path))
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return document if same and isinstance(document, dict) else None

@@ -178,7 +178,11 @@ def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict
     known = np.flatnonzero(np.isfinite(b[:, 0]))
     if len(known) < 2 * FEWEST_PIXELS:
         return {}
-    some = known[np.unique(np.linspace(0, len(known) - 1, min(MANY_PIXELS, len(known))).astype(int))]
+    several = (4 * FEWEST_PIXELS, MANY_PIXELS)  # all pairs of a hundred lights at thousands of pixels take a second
+    few, some = (known[np.unique(np.linspace(0, len(known) - 1, min(most, len(known))).astype(int))] for most in several)
+    screened = _misses(signal[:, few], vectors(light, few), b[few], usable[:, few], np.ones(len(few), bool))
+    if np.array_equal(np.argmin(screened, axis=1), np.arange(len(screened))):
+        return {}  # each fits its own best, where exchanged ones miss by NEEDED_FALL more
     side = b[some] / np.maximum(lambert.length(b[some])[..., None], 1e-300)
     halves = [above for axis in range(2) for above in (side[:, axis] > np.median(side[:, axis]), side[:, axis] <= np.median(side[:, axis]))]
     if any(half.sum() < FEWEST_PIXELS for half in halves):

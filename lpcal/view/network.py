@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.view import bands
 
 FURTHEST = 6.0
 """Standard deviations of its channel at which a value is cut off: none that the network has not seen."""
@@ -90,7 +91,9 @@ class Network:
         x = np.stack([np.asarray(channels[name], np.float32) for name in self.channels])
         counted = np.ones(x.shape[1:], bool) if inside is None else inside
         mirror = self.mirrored[:, None, None] * x[:, :, ::-1]
-        return self._once(x, counted), self._once(mirror, counted[:, ::-1])[..., ::-1]
+        both = (x, counted), (mirror, counted[:, ::-1])
+        own, mirrored = bands.shared(lambda one: self._once(*one), both)
+        return own, mirrored[..., ::-1]
 
     def _once(self, x: Image, inside: Mask) -> Image:
         x = np.clip((x - self.middle[:, None, None]) / self.spread[:, None, None], -FURTHEST, FURTHEST)
