@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from lpcal import __version__
 from lpcal.formats.calibration_yaml import lobe_document
@@ -111,6 +110,8 @@ def spot_of(light: Light) -> tuple[tuple[float, float] | None, float]:
     angle = np.linspace(0, WIDEST * 0.999, 181)
     wanted = round_lobe(light, angle)
     weight = np.sqrt(np.sin(angle) + 1e-3)
+
+    from scipy.optimize import least_squares
 
     def cone(unknowns: Array) -> Array:
         inner, outer = unknowns[0] * unknowns[1], unknowns[1]

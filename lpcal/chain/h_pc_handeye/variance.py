@@ -29,8 +29,6 @@ import itertools
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.optimize import minimize
 
 from lpcal.chain.h_pc_handeye.likelihood import SCALE_SIGMA, HandEyeEstimate, Observed, PoseUnknown, Sigmas, Views
 from lpcal.errors import DegenerateError
@@ -239,6 +237,9 @@ def _variances(J: Array, F: Array, e: Array) -> Array:
     ----------
     J, F, e : (R, 12), (R, 36), (R,) in units of the white noise; the columns of F are by feature, then component
     """
+    from scipy.linalg import solve_triangular
+    from scipy.optimize import minimize
+
     Q = np.linalg.qr(J)[0]
     F, e = F - Q @ (Q.T @ F), e - Q @ (Q.T @ e)
     square, mixed, own, freedom = F.T @ F, F.T @ e, float(e @ e), len(e) - J.shape[1]
