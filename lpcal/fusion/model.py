@@ -86,7 +86,7 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
     for k, view in enumerate(views):
         share = None if not np.isfinite(places.shares[k]) else places.shares[k]
         if k in kept:
-            said.append(replace(_fit(aligned, kept.index(k), share), pieces=_pieces(view, places.pieces[k])))
+            said.append(replace(_fit(aligned, kept.index(k), share, view), pieces=_pieces(view, places.pieces[k])))
         else:
             said.append(ViewInModel(view.name, False, places.why.get(k, "nothing of it fits the others"), share))
     warnings = [f"{view.name} is left out: {view.why}" for view in said if not view.used]
@@ -140,12 +140,13 @@ def _pieces(view: PlacedView, pieces: Sequence[Piece]) -> tuple[PieceInModel, ..
     return tuple(found)
 
 
-def _fit(aligned: Aligned, place: int, share: float | None) -> ViewInModel:
-    """How a view that was used fits."""
+def _fit(aligned: Aligned, place: int, share: float | None, first: PlacedView) -> ViewInModel:
+    """How a view that was used fits; `first` is the view as it came, before it was solved again."""
     one = aligned.placed[place]
     before = one.view.placement.H_AC
     pixel = np.column_stack([one.column, one.row]).astype(float)
-    delta = one.bending.at(one.field, pixel, one.view.component[one.row, one.column])
+    grown = np.exp(one.bending.at(one.field, pixel, one.view.component[one.row, one.column]))
+    change_m = one.view.depth[one.row, one.column] * grown - first.depth[one.row, one.column]
     rms = [fit.rms_m for key, fit in aligned.pairs.items() if place in key and fit.agree]
     return ViewInModel(
         one.view.name,
@@ -154,7 +155,7 @@ def _fit(aligned: Aligned, place: int, share: float | None) -> ViewInModel:
         share,
         moved_m=float(np.linalg.norm(one.H_AC[:3, 3] - before[:3, 3])),
         turned_rad=float(se3.angle_rad(one.H_AC[:3, :3] @ before[:3, :3].T)),
-        distance_change_m=float(np.median(delta)) * one.view.distance_m,
+        distance_change_m=float(np.nanmedian(change_m)),
         residual_m=float(np.median(rms)) if rms else None,
         H_AC=one.H_AC,
     )

@@ -16,7 +16,7 @@ from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.model_files import read_model, write_model
 from lpcal.fusion import align, tiles, vertices, volume
 from lpcal.fusion.consensus import outvoted
-from lpcal.fusion.model import shared_covariance
+from lpcal.fusion.model import _fit, shared_covariance
 from lpcal.fusion.partners import everyone
 from lpcal.fusion.vertices import held_together, rested
 from lpcal.fusion.views import fitted, view_of
@@ -69,6 +69,21 @@ def test_sigmas_are_those_of_the_errors_over_many_rigs() -> None:
         together.append(float(np.mean((Q @ (Q.T @ off_m)) ** 2)) / model.figures.shared_sigma_m**2)
     assert 0.5 < np.mean(squares) < 2, squares
     assert 0.4 < np.mean(together) < 2, together
+
+
+def test_a_change_of_distance_counts_what_solving_again_changed() -> None:
+    """Solved again 2 % farther, a view stands farther by that against the depth as it came; where its field takes it off, as before."""
+    views = [view_of(one, one.placement) for one in scene().surfaces[:3]]
+    found = align.align(views, shared_covariance(views))
+    before_m = _fit(found, 0, None, views[0]).distance_change_m
+    one = found.placed[0]
+    again = replace(one, view=replace(one.view, depth=one.view.depth * 1.02))
+    back = replace(again, field=np.concatenate([one.field[:1] - np.log(1.02), one.field[1:]]))
+    farther_m, same_m = (
+        _fit(replace(found, placed=(new, *found.placed[1:])), 0, None, views[0]).distance_change_m for new in (again, back)
+    )
+    assert farther_m - before_m == pytest.approx(0.02 * one.view.distance_m, rel=0.02)
+    assert same_m == pytest.approx(before_m, abs=1e-6)
 
 
 def test_pairs_of_views_do_not_count_as_if_each_were_new() -> None:
