@@ -86,10 +86,11 @@ class Seen:
     """(H, W) bool."""
 
     @staticmethod
-    def of(scene: Path) -> Seen:
-        """From its folder; without an ambient image the room's light is estimated and taken away."""
+    def of(scene: Path, some: slice = slice(None)) -> Seen:
+        """From its folder, by some of its lights; without an ambient image the room's light is estimated and taken away."""
         calibration = read_calibration(scene / "calibration.yaml")
-        raw = read_capture(scene / "capture", [light.name for light in calibration.lights], name=scene.name, use=None)
+        names = [light.name for light in calibration.lights]
+        raw = read_capture(scene / "capture", names, name=scene.name, use=names[some])
         radiance = to_radiance(raw, settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor)
         lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
         maps = sight.grey(radiance, lights)

@@ -29,8 +29,8 @@ HOLE = 0.005
 """Share of the object's area under which a hole in it is filled, in coarse pixels and in full size."""
 SMALLEST_PIECE = 0.08
 """Share of the object's largest piece under which a piece is dropped from it."""
-LIKELY = (0.01, 0.99)
-"""Odds beyond which a coarse pixel counts no more for the outline."""
+LIKELY = (5e-5, 1 - 5e-5)
+"""Odds beyond which it makes no difference how sure a coarse pixel is."""
 CARRIED = 5
 """Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
 OPEN = 0.1
@@ -52,6 +52,13 @@ class Judged:
     """(rows, columns) what is not."""
     mask: Mask
     """(rows, columns) the object, without crumbs and small holes."""
+    least: float
+    """Odds above which a pixel is not behind."""
+
+    @property
+    def log_odds(self) -> Array:
+        """(rows, columns) natural logarithms of the odds over the least ones, within bounds."""
+        return logit(self.odds) - logit(self.least)
 
 
 def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network: Network | None = None) -> Judged:
@@ -66,8 +73,8 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
         shown, _ = raster.labelled(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
-    behind = odds <= (0.5 if likeliest > 0.5 else max(likeliest / 2, UNLIKELY))
-    return Judged(odds, behind, object_in(~behind, view.points))
+    least = 0.5 if likeliest > 0.5 else max(likeliest / 2, UNLIKELY)
+    return Judged(odds, odds <= least, object_in(odds > least, view.points), least)
 
 
 def log_odds_by(network: Network, channels: Mapping[str, Array]) -> Array:
@@ -77,7 +84,7 @@ def log_odds_by(network: Network, channels: Mapping[str, Array]) -> Array:
 
 def all_of(judgement: Judged, lit: Mask) -> Judged:
     """All that is lit (rows, columns) as the object, where nothing in the picture is likely to be it."""
-    return replace(judgement, odds=np.where(lit, LIKELY[1], LIKELY[0]), behind=~lit, mask=lit)
+    return replace(judgement, odds=np.where(lit, LIKELY[1], LIKELY[0]), behind=~lit, mask=lit, least=0.5)
 
 
 def rim_of(shape: tuple[int, ...]) -> Mask:
@@ -87,8 +94,8 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
     return rim
 
 
-def logit(odds: Array) -> Array:
-    """Log odds (N,), within bounds."""
+def logit(odds: Array | float) -> Array:
+    """Log odds (...) of odds, within bounds."""
     sure = np.clip(odds, *LIKELY)
     return np.asarray(np.log(sure / (1 - sure)))
 

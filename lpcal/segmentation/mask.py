@@ -181,9 +181,8 @@ def _by_layers(
     u_free = view.swept.u[np.argmin(np.median(view.swept.cost[:, mask.ravel()], axis=1))]
     kinds = background.kinds_of(labels, found.planes, image.rays_C, behind, float(np.exp(u_free)))
     doubt = background.doubt_of(judged, labels)
-    log_odds = background.logit(judged.odds.ravel()).reshape(image.shape)
-    apart = outline.Apart(mask, labels, found, image, table, float(u_free), log_odds)
-    fine = hints.of(tidy(outline.drawn(apart, maps, rays_C, room)))
+    fine = outline.carried(mask, image.factor, maps, rays_C) if alone else outline.drawn(apart_of(view, judged), maps, rays_C, room)
+    fine = hints.of(tidy(fine))
     why = _in_words(doubt, kinds[doubt.rival], image.factor)
     layer = _layer(fine, labels, behind, kinds, image.factor)
     whole = Found(fine, how, walls, layer=layer, of_plane=of_plane, factor=image.factor)
@@ -200,6 +199,13 @@ def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, s
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
     swept, levels = flats.sweep(image, table, distance_m), outline.levels_of(image.maps, room, image.factor)
     return View(image, table, swept, distance_m, *levels, allowed, points)
+
+
+def apart_of(view: View, judged: background.Judged) -> outline.Apart:
+    """What the outline is drawn by: the odds, with all at the distance at which matter of any normal suits the object best."""
+    of_object = judged.mask.ravel() if judged.mask.any() else np.ones(judged.mask.size, bool)
+    u = view.swept.u[np.argmin(np.median(view.swept.cost[:, of_object], axis=1))]
+    return outline.Apart(view.image, view.table, float(u), judged.log_odds)
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:

@@ -1,1 +1,1 @@
-"""Normals, albedo and gloss from samples in a light that is given: pixel by pixel, of all pixels together, and by search."""
+"""Normals, albedo and gloss from samples in a light that is given: pixel by pixel, and of all pixels together."""

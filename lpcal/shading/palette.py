@@ -90,18 +90,6 @@ class Palette:
         albedo = np.exp(self.middle + np.clip(mean, level - 1, level + 1))
         return Pull(albedo, chance / (SIGMA**2 + variance) / albedo**2)
 
-    def costs(self) -> Array:
-        """Minus twice the logarithm (BINS,) of the chance of each bin's albedo, from that of the likeliest."""
-        chance = self.density + RARE / (2 * SPAN)
-        return np.asarray(-2 * np.log(chance / chance.max()))
-
-    def colours(self, most: int) -> Array:
-        """Logarithms (C,) of the albedos at which it is densest, the likeliest first, so many at most."""
-        inner = self.density[1:-1]
-        top = np.flatnonzero((inner >= self.density[:-2]) & (inner > self.density[2:]) & (inner > RARE / (2 * SPAN))) + 1
-        top = top[np.argsort(-self.density[top], kind="stable")][:most]
-        return np.asarray(self.middle + (top + 0.5) / BINS * 2 * SPAN - SPAN)
-
 
 def width(rounds: int) -> float:
     """The window's width, after a number of rounds with one."""

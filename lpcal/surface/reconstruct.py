@@ -76,6 +76,8 @@ class Options:
     """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
     ambient_known: bool = True
     """Whether the ambient light has been taken away; else it is estimated."""
+    ambient_seen: bool = True
+    """Whether what was taken away is an image, which shows shapes of its own; else it is an estimate."""
     linear: bool = True
     """Whether the signals may be taken as linear; else powers of lights that were not measured are held, not estimated."""
     most_samples: int | None = None
@@ -122,7 +124,7 @@ def reconstruct(
     focus_C = None if near else (calibration.focus_C if calibration.focus_C is not None else np.array([0.0, 0.0, begin]))
     if not options.ambient_known and not self_calibration.unmeasured(lights):
         given = None if _is_wanted(radiance, options) else _object(None, radiance, options)
-        known = replace(options, ambient_known=True)
+        known = replace(options, ambient_known=True, ambient_seen=False)
 
         def solve(lamps: Radiance, object_mask: Mask | None) -> Surface:
             return reconstruct(lamps, calibration, replace(known, mask=object_mask), progress, kept)
@@ -173,7 +175,7 @@ def _background(
     """What is found of the object and of the planes about it, where lights are near `about_m`; None where neither is asked for."""
     if not (wanted := _is_wanted(radiance, options)) and about_m is None:
         return None
-    room, drawn = sight.room(radiance), wanted or not options.automatic_mask
+    room, drawn = sight.room(radiance) if options.ambient_seen else None, wanted or not options.automatic_mask
     return mask.automatic(maps, rays_C, lights, about_m, options.hints, room, drawn=drawn)
 
 

@@ -19,11 +19,11 @@ from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.shading import field, normals, palette, search
+from lpcal.shading import field, normals, palette
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
-from lpcal.surface import basins, bounce, distance, minima
+from lpcal.surface import basins, bounce, distance
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -46,11 +46,9 @@ SHADED = 0.6
 SHAPED_ROUND = basins.ROUNDS
 """The first that may be the last: the window of the palette has narrowed by then."""
 CARRIED_ROUNDS = 4
-"""Rounds of the field at full size, from estimates of single pixels."""
+"""Rounds of the field at full size, from that of the blocks."""
 FULL_ROUNDS = 3
-"""Most rounds at full size after those of the blocks, and after a search."""
-SEARCHES, SEARCHED = 3, 0.01
-"""Number of searches for other minima at most; share of pixels that one must change for another, as that changes interreflected light."""
+"""Most rounds at full size after those of the blocks."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +145,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
         settled = _until_settled(scene, once(scene, begin, None, 0), 1, progress)
-        return _swept(scene, _searched(scene, settled, progress) if scene.near else settled)
+        return _swept(scene, settled)
     held = None if scene.held is None else scene.held.in_blocks(blocks)
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
@@ -155,30 +153,8 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
         progress(f"{what} in coarse pixels", done, total)
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    settled = _swept(coarse, _searched(coarse, settled, in_blocks))
+    settled = _swept(coarse, settled)
     return _swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
-
-
-def _searched(scene: Scene, state: State, progress: Progress) -> State:
-    """The state with regions whose normals another minimum of the energies explains better, settled anew.
-
-    A gloss fitted to a field that has just changed can stray, one fitted to the wrong field can be what is wrong: both are tried.
-    """
-    for _ in range(SEARCHES):
-        if (albedos := _palette(state, ROUNDS)) is None:
-            break
-        hidden = hidden_lights(scene, np.exp(state.u), state, state.lit)[1]
-        costs, before = search.Costs(scene.seen, state.lit, hidden, state.field.gloss, albedos), state.field
-        if (found := minima.another_minimum(scene.grid, costs, state.own, state.u, before)) is None:
-            break
-        other = replace(state, field=found, normals=lambert.unit(found.b)[0])
-        held = _until_settled(scene, other, ROUNDS - FULL_ROUNDS, progress, gloss_known=True)
-        ends = [held, once(scene, held.u, held)]
-        by = [replace(costs, lit=one.lit, shine=one.field.gloss) for one in ends]
-        state = ends[np.argmin([search.energy(of, scene.grid, one.field.b).sum() for of, one in zip(by, ends, strict=True)])]
-        if np.mean(np.any(found.b != before.b, axis=1)) < SEARCHED:
-            break
-    return state
 
 
 def _swept(scene: Scene, state: State) -> State:
@@ -205,14 +181,12 @@ def _swept(scene: Scene, state: State) -> State:
     return replace(again, weight=state.weight, moved=state.moved)
 
 
-def _until_settled(
-    scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False, gloss_known: bool = False
-) -> State:
+def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
     """The state after rounds from the one of number `first` on, until one changes next to nothing."""
     rounds = ROUNDS if scene.near else 1
     for k in range(first, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
-        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known, gloss_known=gloss_known)
+        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known)
         state = replace(state, moved=np.abs(state.u - before.u))
         if k >= SHAPED_ROUND and _settled(scene, state):
             break
@@ -222,24 +196,15 @@ def _until_settled(
 
 def _carried(blocks: Blocks, state: State) -> State:
     """The state of the blocks at their pixels."""
-    lit = blocks.lit(state.lit)
-    seen, before = blocks.seen, blocks.estimate(state.found)
-    usable = normals.candidates(seen, lit.E) & before.inliers
-    start, b = normals.estimate(seen, lit, usable, normals.variances(seen)).b, blocks.between(state.field.b)
-    known, albedos = np.isfinite(start[:, 0]), _palette(state, ROUNDS)
-    if albedos is not None:
-        cost = search.Costs(seen, lit, None, state.field.gloss, albedos).of(np.stack([np.where(known[:, None], start, b), b], axis=1))
-        known &= cost[:, 0] < cost[:, 1]
-    b = np.where(known[:, None], start, b)
     tilt_rad = None if state.field.tilt_rad is None else state.field.tilt_rad[blocks.of_pixel]
-    whole = Field(b, blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
+    whole = Field(blocks.between(state.field.b), blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
     return State(
         blocks.front(state.u, state.normals),
         blocks.edges(state.weight),
         lambert.unit(whole.b)[0],
-        before,
+        blocks.estimate(state.found),
         blocks.own(state.own),
-        lit,
+        blocks.lit(state.lit),
         whole,
         state.reflects,
     )
@@ -253,7 +218,7 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False, gloss_known: bool = False) -> State:
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
     """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
 
     Raises
@@ -284,7 +249,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         usable,
         hidden,
         before,
-        glossy if (k >= SHAPE_ROUND or not scene.near) and not (thrown_known or gloss_known) else None,
+        glossy if (k >= SHAPE_ROUND or not scene.near) and not thrown_known else None,
         CARRIED_ROUNDS if thrown_known else None,
         albedos,
     )

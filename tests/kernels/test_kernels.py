@@ -22,9 +22,8 @@ from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
 from lpcal.segmentation import cut, flats, layers, planes, room_samples, samples
-from lpcal.shading import field, gloss, normals, search
+from lpcal.shading import field, gloss, normals
 from lpcal.shading.normals import Estimate
-from lpcal.shading.palette import Palette
 from lpcal.surface import bounce, distance
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
@@ -135,32 +134,6 @@ def links(rng: np.random.Generator) -> Array:
     b[::50] = 0.0
     system = field._System.at(grid, b, rng.normal(size=(len(b), 3, 3)))
     return np.concatenate([np.minimum(each.ravel(), 1e6) for each in (system.link, system.block)])
-
-
-def costs_of(rng: np.random.Generator) -> tuple[list[search.Costs], Array]:
-    """What candidates cost in light with and without gloss, light of other surfaces and hidden lights; and a b (P, 3) of each pixel."""
-    signal, B, usable, variance = shading(rng, pixels=200)
-    d, E = lambert.unit(B)
-    b, v = rng.normal(size=(200, 3)), lambert.unit(rng.normal(size=(200, 3)))[0]
-    seen = Sight(np.ones((10, 20), bool), -v, signal, np.sqrt(variance), usable, True)
-    albedos = Palette.of(b, rng.random(200), np.zeros(200), 0.1)
-    more = Lit(d, E, 0.1 * rng.normal(size=d.shape))
-    cases = [(Lit(d, E), None, None), (more, rng.random(signal.shape) < 0.2, None), (more, None, gloss.Gloss(0.3, 0.2, 0.5))]
-    return [search.Costs(seen, *case, albedos) for case in cases], b
-
-
-def candidates(rng: np.random.Generator) -> Array:
-    costs, b = costs_of(rng)
-    return np.concatenate([one.of(b[:, None] + 0.3 * rng.normal(size=(200, 40, 3))).ravel() for one in costs])
-
-
-def directions(rng: np.random.Generator) -> Array:
-    costs, _ = costs_of(rng)
-    return np.concatenate([one.over_directions(search._hemisphere(40), 5.0)[0].ravel() for one in costs])
-
-
-def messages(rng: np.random.Generator) -> Array:
-    return search._messages(rng.normal(size=(300, 9, 3)), rng.normal(size=(300, 4, 3)), 5 * rng.random((300, 4)))
 
 
 def lobe(rng: np.random.Generator) -> Array:
@@ -475,9 +448,6 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     agreeing: (1e-7, {"agreeing", "lobe", "weighted"}),
     evidence: (1e-10, {"evidence", "lobe"}),
     links: (1e-12, {"links"}),
-    candidates: (1e-9, {"candidates"}),
-    directions: (1e-9, {"directions"}),
-    messages: (1e-12, {"messages"}),
     coupled: (1e-9, {"coupled"}),
     cubic: (1e-13, {"cubic"}),
     between: (1e-12, {"lattice"}),
