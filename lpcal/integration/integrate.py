@@ -31,8 +31,6 @@ from lpcal.view.sight import Indices
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
 AGAIN = GRADUATION[2::2]
 """Where the depth is known already."""
-ROUGHLY, FINELY = 1e-4, 1e-6
-"""Precision of the solves, of all but the last and of the last."""
 NORMAL_ERROR_RAD = 0.035
 UNEVEN = 0.2
 """Standard deviation of a step, as a share of the difference between the steps that the two normals of an edge predict."""
@@ -110,9 +108,9 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
         return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
     u = start
     weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
-    for k, strength in enumerate(strengths):
+    for strength in strengths:
         A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
-        u = multigrid.solve(A, right, u, precision=FINELY if k == len(strengths) - 1 else ROUGHLY)
+        u = multigrid.solve(A, right, u)
         weight = _weight(grid, u, step, sigma)
     return u, weight
 
@@ -126,7 +124,7 @@ def _integrated(
     u, weight = np.array(start, float), np.empty_like(by_pixel[0])
     work, singles = grid.pyramid.work_space(7)
     given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
-    robustly = (ROUGHLY, FINELY, OUTLIER, SPREAD, NEXT_TO_NOTHING)
+    robustly = (multigrid.PRECISION, OUTLIER, SPREAD, NEXT_TO_NOTHING)
     way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, lambert.SINGULAR)
     levels = (len(sizes), sizes, parents, stretches)
     run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, work, singles, band, *way)
@@ -141,7 +139,7 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
     wander from it by as much as the solve's precision lets them, and are put there.
     """
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
-    u = multigrid.solve(A, right, start, precision=FINELY)
+    u = multigrid.solve(A, right, start)
     if own.curvature.max() > NEXT_TO_NOTHING:
         return u
     return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))

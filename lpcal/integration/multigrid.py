@@ -27,8 +27,9 @@ LARGEST = 4 * COARSEST
 SMOOTHING = (1.39, 0.562)
 """Shares of the two Jacobi steps that smooth: reciprocal roots of the polynomial that is least over the matrix's upper eigenvalues, .5 to 2
 relative to its diagonal (Chebyshev). Two equal steps of .7 take a sixth more cycles."""
-MOST = 200
-"""Steps of the conjugate gradients at most."""
+PRECISION, MOST = 1e-8, 1000
+"""Relative residual that a solve ends at, and steps of the conjugate gradients at most, which systems of many breaks take. The slope and
+the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves them to where the solve began, and to rounding."""
 OVER_CORRECTION = 1.6
 """Factor of what a coarser level says: sums over pixels see steps between them too steep."""
 
@@ -146,7 +147,7 @@ class Matrix:
         return sparse.csr_array((np.concatenate([diagonal, -self.weight, -self.weight]), places), shape=(count, count))
 
 
-def solve(A: Matrix, right: Array, start: Array, *, precision: float = 1e-6, most: int = MOST) -> Array:
+def solve(A: Matrix, right: Array, start: Array, *, precision: float = PRECISION, most: int = MOST) -> Array:
     """x (P,) with ``A x = right``, from `start`, to a residual of `precision` times that of the start's mean everywhere."""
     enough = precision * float(np.linalg.norm(right - start.mean() * A.hold) + 1e-300)
     if run := kernel("multigrid"):

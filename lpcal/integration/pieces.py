@@ -43,7 +43,7 @@ def fill(grid: Grid, values: Array, known: Mask) -> Array:
     for channel in range(values.shape[1]):
         right = np.bincount(here, values[there, channel], len(unknown))
         start = np.full(len(unknown), values[known, channel].mean())
-        found[unknown, channel] = multigrid.solve(A, right, start, precision=1e-4)
+        found[unknown, channel] = multigrid.solve(A, right, start)
     return found
 
 

@@ -365,7 +365,7 @@ static void weighed(const Edges *edges, Shape shape, const double *x, double rob
    to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: integration/integrate.py (integrate). */
 KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *step,
                              const double *sigma, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
-                             const double *strength, double roughly, double finely, double robust, double spread, double least, double *x,
+                             const double *strength, double precision, double robust, double spread, double least, double *x,
                              double *weight, double *work, float *singles, int64_t band, int64_t most, double first, double second,
                              double over, double rounding) {
     Grid grid;
@@ -401,7 +401,7 @@ KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t
         double mean = dot(n, ones, grid.guess) / (double)n;
         for (int64_t i = 0; i < n; i++) ones[i] = right[i] - mean * hold[i];
         set_up(&grid, hold);
-        improved(&grid, right, (k + 1 < count ? roughly : finely) * sqrt(dot(n, ones, ones)) + 1e-300);
+        improved(&grid, right, precision * sqrt(dot(n, ones, ones)) + 1e-300);
         weighed(&edges, shape, grid.guess, robust, spread, least);
     }
     memcpy(x, grid.guess, (size_t)n * sizeof *x);

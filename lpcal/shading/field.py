@@ -27,6 +27,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import pieces
 from lpcal.integration.integrate import Grid
+from lpcal.integration.multigrid import MOST, PRECISION
 from lpcal.kernels.library import kernel
 from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
@@ -59,8 +60,6 @@ slowly."""
 ANY_RAD = 0.12
 """Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for one pixel, and
 lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
-SOLVED, MOST_STEPS = 1e-3, 60
-"""Residual at which the conjugate gradients stop, and how many steps they take at most."""
 
 
 @dataclass(frozen=True)
@@ -289,7 +288,7 @@ class _System:
             stretches, (across, down) = self.grid.pyramid.levels[0].stretches, self.grid.pyramid.levels[0].by_pixel(self.link)
             x, work = np.array(begin, float), np.zeros(3 * (len(right) + 2) + 18 * len(right) + 12)
             given = (np.ascontiguousarray(one, float) for one in (block, across, down, right))
-            run(len(right), len(stretches), stretches, *given, x, work, SOLVED * float(np.linalg.norm(right)), MOST_STEPS, small)
+            run(len(right), len(stretches), stretches, *given, x, work, PRECISION * float(np.linalg.norm(right)), MOST, small)
             return x
         from scipy.sparse import linalg
 
@@ -297,7 +296,7 @@ class _System:
         shape = (begin.size, begin.size)
         A = linalg.LinearOperator(shape, matvec=lambda x: self.times(x.reshape(-1, 3)).ravel(), dtype=float)
         M = linalg.LinearOperator(shape, matvec=lambda x: np.einsum("pij,pj->pi", inverse, x.reshape(-1, 3)).ravel(), dtype=float)
-        found, _ = linalg.cg(A, right.ravel(), x0=begin.ravel(), M=M, rtol=SOLVED, maxiter=MOST_STEPS)
+        found, _ = linalg.cg(A, right.ravel(), x0=begin.ravel(), M=M, rtol=PRECISION, maxiter=MOST)
         return np.asarray(found.reshape(-1, 3))
 
 

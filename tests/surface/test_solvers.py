@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 
 from lpcal.geometry import lambert
 from lpcal.integration import multigrid, pieces
-from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
+from lpcal.integration.integrate import Grid, Own, integrate, settle, steps, system
 from lpcal.integration.multigrid import Matrix
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
@@ -183,3 +183,25 @@ def test_intensities_that_nobody_measured_are_found_from_the_object() -> None:
     assert self_calibration.unmeasured(lights)
     assert self_calibration.intensities(seen, lights) == pytest.approx(true, rel=0.01)
     assert self_calibration.intensities(seen, lights[:4]) is None
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_depths_of_much_that_is_broken_do_not_hang_on_rounding(seed: int) -> None:
+    """Weights follow from depths, and depths from weights: what a solve leaves of its error chooses which edges break."""
+    rng, size = np.random.default_rng(seed), 72
+    mask = np.ones((size, size), bool)
+    row, column = np.nonzero(mask)
+    rays = np.stack([(column - size / 2) / 300, (row - size / 2) / 300, np.ones(len(row))], axis=1)
+    true = np.log(0.35) + rng.choice([0.0, 0.1], (size // 12) ** 2)[row // 12 * (size // 12) + column // 12]
+    n = lambert.unit(np.array([0.0, 0.0, -1.0]) + rng.normal(0, 0.05, (len(row), 3)))[0]
+    own = Own(np.where(rng.uniform(size=len(row)) < 0.3, 2500.0, 1e-6), true + rng.normal(0, 0.02, len(row)))
+    grid = Grid.of(mask)
+    step, sigma = steps(grid, n, rays, central=True)
+    begin, found = np.full(len(row), np.log(0.36)), []
+    for off in (0.0, 1e-12):
+        u, weight = integrate(grid, step, sigma, own, begin + off * rng.standard_normal(len(row)), graduated=True)
+        found.append(settle(grid, step, sigma, own, u, weight))
+    assert np.mean(weight < pieces.BREAK_WEIGHT) > 0.01
+    assert np.abs(found[1] - found[0]).max() < 1e-6
+    A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    assert np.abs(found[1] - spsolve(A.sparse().tocsc(), right)).max() < 1e-6
