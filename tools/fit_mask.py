@@ -31,6 +31,7 @@ from lpcal.segmentation import background, clues, flats, layers, mask, room_ligh
 from lpcal.segmentation.clues import View
 from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view import network, sight
+from lpcal.view.agreed import COARSE_PIXELS
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 
 FOLDS = 4
@@ -101,7 +102,7 @@ class Seen:
 
     def view(self) -> tuple[View, np.ndarray]:
         """The coarse view, and which of its pixels (P,) are lit."""
-        image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, mask.COARSE_PIXELS))
+        image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, COARSE_PIXELS))
         table = LightTable.of(image, self.lights, self.distance_m)
         lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
         return mask.view_of(image, table, self.distance_m, mask.NO_HINTS, self.true.shape, self.room), lit

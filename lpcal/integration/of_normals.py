@@ -113,8 +113,6 @@ ONE_SIDED_ROUNDS, ROUNDS = 12, 40
 """Rounds of the two phases, the second at most."""
 ONE_SIDED_K, K = 8.0, 16.0
 """Steepness of the weights in the two phases: gaps of an eighth and a sixteenth of a square pixel begin to count."""
-STEEPEST_EXPONENT = 50.0
-"""Exponent at most, for rounding's sake."""
 PRECISION = 1e-3
 """Relative residual at which a solve ends, and relative change of the cost at which the rounds do."""
 
@@ -165,6 +163,6 @@ def _weights(grid: Grid, gap_a: Array, gap_b: Array, k: float, count: int) -> tu
         a, b = grid.a[edges], grid.b[edges]
         ahead, behind = np.zeros(count), np.zeros(count)
         ahead[a], behind[b] = gap_a[edges], gap_b[edges]
-        leaning = 1 / (1 + np.exp(-np.clip(k * (behind - ahead), -STEEPEST_EXPONENT, STEEPEST_EXPONENT)))
+        leaning = (1 + np.tanh(k * (behind - ahead) / 2)) / 2
         w_a[edges], w_b[edges] = leaning[a], 1 - leaning[b]
     return w_a, w_b

@@ -13,13 +13,11 @@ from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
-from lpcal.view.agreed import FEWEST_PIXELS, NEXT_TO_NOTHING, RIM_PX
+from lpcal.view.agreed import FEWEST_PIXELS, NEXT_TO_NOTHING, RIM_PX, SMALLEST_SHARE
 from lpcal.view.sight import Indices
 
 BREAK_WEIGHT = 0.02
 """Weight of an edge under which it is a break: its step is off by two and a half times the C of its weights (integration.integrate)."""
-SMALLEST_SHARE = 0.02
-"""Share of the pixels under which what breaks off is no piece of its own."""
 SLIVER_PX = 2 * RIM_PX
 """Width of a strip between two breaks that is no piece: each of its pixels lies at a rim."""
 NEARLY = 0.2

@@ -19,7 +19,7 @@ from lpcal.view.coarse import Coarse, LightTable
 COST = 60.0
 """Cost of matter of any normal at most: a few wild pixels are like others."""
 SPARED = 30.0
-"""Cost at most by which one explanation is better than another."""
+"""Cost at most by which one explanation, or layer, is better than another: beyond, they are all alike."""
 ABOVE = 20.0
 """Cost at most by which a depth is worse than a pixel's best."""
 DEPTHS = (-0.8, -0.5, -0.3, -0.15, 0.0, 0.15, 0.3, 0.5, 0.8, 1.2)

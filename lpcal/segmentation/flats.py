@@ -40,7 +40,7 @@ STEEPEST = 0.05
 EXPLAINED = 20.0
 """Cost by which a plane may exceed matter of any normal, at a pixel that it explains."""
 SMALLEST = 0.006
-"""Share of the image under which a plane is not looked for."""
+"""Share of the image under which a plane is not looked for, or dropped."""
 MOST = 8
 """Planes at most."""
 PAINT = 0.1

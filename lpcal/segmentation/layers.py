@@ -20,7 +20,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
-from lpcal.segmentation.clues import View
+from lpcal.segmentation.clues import SPARED, View
 from lpcal.view import bands
 from lpcal.view.agreed import UNLIKELY
 from lpcal.view.coarse import LightTable
@@ -50,10 +50,6 @@ BRIGHTEST = 75
 """Percentile of the object's brightest shading that stands for its matter in full light; at first the median of all that is lit does."""
 FEWEST = 30
 """Pixels from which an appearance is learnt."""
-KEPT = 0.006
-"""Share of the image under which a plane is dropped."""
-CEILING = 30.0
-"""Cost over a pixel's cheapest layer beyond which layers are all alike."""
 
 
 @dataclass(frozen=True)
@@ -143,7 +139,7 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     total = np.stack([*found, nothing + layers.nothing, other])
     blind = at.usable.sum(axis=0) < 3
     total[:, blind], total[-2, blind] = NOTHING_PRICE, 0.0  # brighter than the camera holds: none of the object
-    return np.asarray(np.minimum(total, total.min(axis=0) + CEILING))
+    return np.asarray(np.minimum(total, total.min(axis=0) + SPARED))
 
 
 def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
@@ -171,7 +167,7 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
-    kept = [k for k in range(count) if np.sum(flat == k + 1) >= KEPT * flat.size]
+    kept = [k for k in range(count) if np.sum(flat == k + 1) >= flats.SMALLEST * flat.size]
 
     def again(k: int) -> tuple[Array, Appearance | None]:
         own = (flat == k + 1) & lit

@@ -19,19 +19,14 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.clues import View
 from lpcal.segmentation.samples import LIT_SIGMAS
+from lpcal.view.agreed import COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
-COARSE_PIXELS = 5200
-"""Pixels of the scale at which planes and layers are found: the picture of a 4:3 camera is then some 80 across."""
 MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
 MOST_LIGHTS = 16
 """Lights that the mask is found by, spread over all: more do not improve it."""
-FIT_SIGMAS = 3.0
-"""Misfit under which a plane explains the rim of an image whose room light is not known."""
-SMALLEST_SHARE = 0.02
-"""Pieces under this share of the largest are dropped."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02

@@ -22,13 +22,14 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import flats, layers, room_samples
+from lpcal.segmentation.clues import SPARED
 from lpcal.segmentation.samples import LIT_SIGMAS
-from lpcal.view.agreed import FEWEST_PIXELS
+from lpcal.view.agreed import COARSE_PIXELS, FEWEST_PIXELS
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.sight import Grey, second, strength
 
-FEW_PIXELS, PIXELS = 1300, 5200
-"""Coarse pixels at which levels are tried, and at which the room's light is mapped."""
+FEW_PIXELS = COARSE_PIXELS // 4
+"""Coarse pixels at which levels are tried: half as many along a side as its map has."""
 LEVELS = (0.005, 0.015, 0.045, 0.13, 0.4, 1.2)
 """Levels tried, in units of a lamp's irradiance at the working distance: from one that no camera sees to a lit room."""
 RARE_ROUNDS = 2
@@ -93,7 +94,7 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
 
     level, level_std = _level(explained, few.shape, unit)
     room = RoomPrior(share, unit * level)
-    image = coarse_of(maps, rays_C, factor_of(maps, PIXELS))
+    image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
     A = _explained(image, room, LightTable.of(image, lights, distance_m), distance_m, drawn=True).A
     return RoomLight(room, level_std, _spread(A, image, share, maps))
 
@@ -132,7 +133,7 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
     for _ in range(RARE_ROUNDS):
         part = np.bincount(np.argmin(every, axis=0), minlength=len(every)) / every.shape[1]
         every = np.stack([*costs, cost]) - 2 * np.log(np.maximum(part, 1 / every.shape[1]))[:, None]
-    bounded = np.minimum(every, every.min(axis=0) + layers.CEILING).reshape(-1, *image.shape)
+    bounded = np.minimum(every, every.min(axis=0) + SPARED).reshape(-1, *image.shape)
     labels = (layers.cheapest(bounded, *layers.boundary(strength(image.maps))) if drawn else np.argmin(bounded, axis=0)).ravel()
     size = lambert.length(free.b)
     return Explained(every.min(axis=0), each[labels, everywhere], labels == len(every) - 1, labels == 0, size)

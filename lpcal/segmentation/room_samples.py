@@ -18,6 +18,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import samples
+from lpcal.view.agreed import OUTLIER2, SHADOW
 from lpcal.view.coarse import RoomPrior
 from lpcal.view.sight import second
 
@@ -64,11 +65,11 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
     for step in range(STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
         shading = np.where(usable, lamps / np.maximum(E, 1e-12), 0.0)
-        dark = shading < samples.SHADOW * _second(shading, usable)
+        dark = shading < SHADOW * _second(shading, usable)
         spread2 = spread2 + (DEEP * lamps.max(axis=0)) ** 2
         weight = usable / spread2
         if step:
-            weight /= (1 + (lamps - np.where(dark, 0.0, lambert.predicted(B, b))) ** 2 / spread2 / samples.WIDTH2) ** 2
+            weight /= (1 + (lamps - np.where(dark, 0.0, lambert.predicted(B, b))) ** 2 / spread2 / OUTLIER2) ** 2
         b, A, information = _solved(signal, weight, np.where(dark[..., None], 0.0, B), n, lambert.length(b), room)
         length = lambert.length(b)[..., None]
         n = np.where(length > 0, b / np.maximum(length, 1e-20), n)
@@ -88,7 +89,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
 
     def consider(one: Array, ambient: Array, allowed: Mask) -> None:
         each, square = _costs(signal, sigma, usable, doubt, one * m, share * ambient)
-        agree = usable & (square < samples.WIDTH2) & (m > 0)
+        agree = usable & (square < OUTLIER2) & (m > 0)
         total = np.sum(np.where(usable, each, 0.0), axis=0) + _prior(ambient, one, room)
         cost = np.where(allowed & (one > 0) & (agree.sum(axis=0) >= 2), total, np.inf)
         better = cost < least
@@ -112,7 +113,7 @@ def _given(
 ) -> tuple[npt.NDArray[np.generic] | float, ...]:
     """What the kernels are given: samples (L, P), their light, the room's, and the constants."""
     constants = [samples.MODEL**2, BRIGHTER, samples.DARKER, samples.OUTLIER, samples.DARK, samples.HALF_DARK, samples.DARK_SHARE]
-    constants += [samples.SHADOW, samples.WIDTH2, DEEP, SPREAD, LEVEL_TIE]
+    constants += [SHADOW, OUTLIER2, DEEP, SPREAD, LEVEL_TIE]
     signal, sigma, light, share = (np.ascontiguousarray(one, float) for one in (signal, sigma, light, room.share))
     doubts = np.ascontiguousarray(doubt, np.float32)
     return signal, sigma, np.ascontiguousarray(usable), light, doubts, share, room.level, np.array(constants)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
+from lpcal.view.agreed import OUTLIER2, SHADOW
 from lpcal.view.sight import second
 
 LIT_SIGMAS = 6.0
@@ -31,14 +32,10 @@ DARK, HALF_DARK = 5.0, 12.0
 """Costs of a sample in shadow, twice the logarithm of how rare that is: with next to nothing left, and with more than DARK_SHARE left."""
 DARK_SHARE = 0.2
 """Share of the predicted signal under which a sample is dark: shadows get light from elsewhere only."""
-SHADOW = 0.15
-"""Share of a pixel's second largest shading under which a sample is not asked for the normal."""
 THROWN = 0.04
 """Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
 ROUNDS = 3
 """Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
-WIDTH2 = 9.0
-"""Square of the residual, in sigmas, at which a sample's weight for the normal has fallen to a quarter."""
 MOST_LIGHTS = 32
 """Lights that the kernels have room for."""
 
@@ -76,7 +73,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
     b = lambert.weighted(B, signal, weight)[0]
     for _ in range(ROUNDS - 1):
         square = square_residual(signal, lambert.predicted(B, b), spread2)
-        b = lambert.weighted(B, signal, weight / (1 + square / WIDTH2) ** 2)[0]
+        b = lambert.weighted(B, signal, weight / (1 + square / OUTLIER2) ** 2)[0]
     b = np.nan_to_num(b)
     predicted = lambert.predicted(B, b)
     cost = price(signal, predicted, square_residual(signal, predicted, spread2))
@@ -98,7 +95,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
     def consider(one: Array, allowed: Mask) -> None:
         predicted = one * m
         square = square_residual(signal, predicted, spread2)
-        agree = usable & (square < WIDTH2) & (m > 0)
+        agree = usable & (square < OUTLIER2) & (m > 0)
         cost = np.where(allowed & (agree.sum(axis=0) >= 2), np.sum(np.where(usable, price(signal, predicted, square), 0.0), axis=0), np.inf)
         better = cost < least
         least[better], albedo[better], lit[:, better] = cost[better], one[better], agree[:, better]
@@ -115,7 +112,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
 
 def _given(signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array) -> tuple[npt.NDArray[np.generic], ...]:
     """What the kernels are given: samples (L, P), their light, and the constants."""
-    constants = np.array([MODEL**2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, WIDTH2, lambert.SINGULAR])
+    constants = np.array([MODEL**2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, OUTLIER2, lambert.SINGULAR])
     signal, sigma, light = (np.ascontiguousarray(one, float) for one in (signal, sigma, light))
     return signal, sigma, np.ascontiguousarray(usable), light, np.ascontiguousarray(doubt, np.float32), constants
 

@@ -7,8 +7,8 @@ Symbols: normal n, light d, viewer v, half vector h between d and v, roughness a
 The Lambertian part takes up most of a wide lobe, so what b leaves says too little of it: residuals and lobe are both projected on what no b
 explains (variable projection, Golub and Pereyra 1973), pixel by pixel and with robust weights. Matter of reflectance R whose albedo is b
 in the signals' unit mirrors the share ``F0 = ks R / (pi b)`` of the light that meets it squarely. Common matter has F0 near .045, which is
-the prior; strength and roughness are means over a grid of both, together with the odds that there is no gloss. The normals are those of
-the field (shading.field), which fits it again in every round.
+the prior; strength and roughness are means over a grid of both, together with the odds that there is no gloss, which are even before. The
+normals are those of the field (shading.field), which fits it again in every round.
 
 Sources: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX); Akenine-Moeller et al.
 2018, Real-Time Rendering, 9.5 (F0 of common matter).
@@ -35,8 +35,6 @@ MIRRORED = tuple(np.geomspace(0.01, 1.0, 21))
 COMMON_F0, COMMON_SPREAD = 0.045, 0.5
 """F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08. Metals are RARE: they
 have any F0 with equal odds."""
-MATTE = 0.5
-"""Share of objects taken to have no gloss."""
 CLEAR = 0.95
 """Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
 
@@ -113,11 +111,11 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     found = bands.shared(of, ROUGHNESSES)
     cost = np.stack([each for _, each in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
-    prior = (1 - MATTE) * ((1 - RARE) * common / common.sum() + RARE / len(F0)) / len(ROUGHNESSES)
+    prior = ((1 - RARE) * common / common.sum() + RARE / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
     most = max(float(evidence.max()), 0.0)
     odds = prior * np.exp(evidence - most)
-    glossy = float(odds.sum() / (odds.sum() + MATTE * np.exp(-most)))
+    glossy = float(odds.sum() / (odds.sum() + np.exp(-most)))
     if glossy < UNLIKELY:
         return None
     odds = np.where(odds > NEXT_TO_NOTHING * odds.max(), odds, 0.0)

@@ -22,12 +22,11 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
-from lpcal.view.agreed import GRAZING, OUTLIER, OUTLIER2
+from lpcal.view.agreed import GRAZING, OUTLIER, OUTLIER2, SHADOW
 from lpcal.view.sight import LIGHTS_NEEDED, Indices, Lit, Sight, vectors
 
 MODEL = 0.015
 """What the model lacks, a standard deviation as a share of a sample."""
-SHADOW = 0.15
 ROUNDS = 3
 FEW_LIGHTS = 8
 TRIMMED = 0.3

@@ -34,7 +34,7 @@ from lpcal.segmentation import background, mask, planes, room_light, room_sample
 from lpcal.segmentation.room_light import FEW_PIXELS, SHARED, USUAL_STD, RoomLight
 from lpcal.shading import normals
 from lpcal.view import sight
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, NEXT_TO_NOTHING, OUTLIER2
+from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, NEXT_TO_NOTHING, OUTLIER, OUTLIER2
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -203,7 +203,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
     first = np.append(found.planes[0].q, light.room.level)
     x = cauchy_fit.fitted(lambda x: Equations.differenced(cost, x), first, np.abs(first).clip(np.abs(first[:3]).max()), WALL_STEPS)
     m = planes.predicted(x[:3], some.rays_C, lights) + x[3] / h
-    if x[3] <= 0 or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > mask.FIT_SIGMAS:
+    if x[3] <= 0 or np.sqrt(np.median(planes.misfit(some, m, shaded=False)[0])) > OUTLIER:
         return None
     alike = max(some.pixels * SHARED / (float(own.mean()) * FEW_PIXELS), 1.0)
     variance = alike * np.linalg.pinv(Equations.differenced(cost, x).curvature)[3, 3]
