@@ -55,6 +55,8 @@ OVERLAP = 0.5
 """Weight of 1 - IoU (soft) in the loss, beside the mean logistic loss a pixel of the object's area."""
 NOISIER = 2.0
 """Noise of the images, in their own, that is added for a scene's second set of labels."""
+MANY = 8
+"""Lights of which every second are enough for a surface."""
 WRONG = 0.9
 """IoU under which a mask is wrong."""
 FEWEST = 60
@@ -106,6 +108,11 @@ class Seen:
         table = LightTable.of(image, self.lights, self.distance_m)
         lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
         return mask.view_of(image, table, self.distance_m, mask.NO_HINTS, self.true.shape, self.room), lit
+
+
+def by_some(lights: int) -> list[slice]:
+    """All lights, and every second or third of many: of captures by few lights there are never enough."""
+    return [slice(None), *([slice(0, None, 2)] if lights >= MANY else []), *([slice(1, None, 3)] if lights >= 3 * MANY / 2 else [])]
 
 
 def example(scene: Path, folds: Path | None) -> list[Example]:

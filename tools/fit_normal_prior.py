@@ -1,7 +1,8 @@
 """Fit the network that expects normals: ``python tools/fit_normal_prior.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE] [--out FILE]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (`mask`, `normals`). Each is reconstructed with its automatic
-mask; what the rounds have settled, as surface.normal_prior sees it, stands beside the true normals. Writes the weights that
+mask, of many lights once more by every second or third; what the rounds have settled, as surface.normal_prior sees it, stands beside the
+true normals. Writes the weights that
 lpcal.surface reads, or FILE. Printed: for scenes left out of a first fit, the last LEFT_OUT, the mean angle of normals before and after.
 ``--keep`` writes what was taken from the scenes, or reads it where the file is there; ``--held-out`` writes the first fit, by which
 tools/fit_normal_sigma.py is to be run on those scenes. Needs PyTorch (``uv run --with torch``); with OMP_NUM_THREADS=1 where other work
@@ -22,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fit_mask import by_some
 from lpcal.api import surfaces
 from lpcal.api.engines import engine_of
 from lpcal.errors import LpcalError
@@ -59,6 +61,8 @@ class Example:
     """A scene's channels with its true normals."""
 
     name: str
+    whole: bool
+    """Whether by all of its lights."""
     channels: dict[str, np.ndarray]
     """(rows, columns) each."""
     true: np.ndarray
@@ -72,8 +76,14 @@ class Example:
         return normal_prior.unit(np.stack([self.channels[f"normal {axis}"] for axis in "xyz"]))
 
 
-def example(scene: Path) -> list[Example]:
-    """What the network sees of a scene; nothing where it has no surface."""
+def examples_of(scene: Path) -> list[Example]:
+    """What the network sees of a scene by all its lights and by some."""
+    calibration = read_calibration(scene / "calibration.yaml")
+    return [one for some in by_some(len(calibration.lights)) for one in example(scene, some)]
+
+
+def example(scene: Path, some: slice = slice(None)) -> list[Example]:
+    """What the network sees of a scene by some of its lights; nothing where it has no surface."""
     with np.load(scene / "truth/surface.npz") as stored:
         truth = np.where(stored["mask"][..., None], stored["normals"], np.nan).astype(float)
     seen: list[Example] = []
@@ -88,13 +98,16 @@ def example(scene: Path) -> list[Example]:
         found, of = normal_prior.clues(part, state), normal_prior.maps(named, part.seen.mask, side)
         mean = np.stack([of[axis] for axis in "xyz"])
         weight = np.where((of["known"] > 0.5) & (np.linalg.norm(mean, axis=0) > HALF), of["known"] * of["share"], 0.0)
-        seen.append(Example(scene.name, {k: v.astype(np.float32) for k, v in found.items()}, normal_prior.unit(mean), weight))
+        seen.append(
+            Example(scene.name, some == slice(None), {k: v.astype(np.float32) for k, v in found.items()}, normal_prior.unit(mean), weight)
+        )
         return plain(whole, state)
 
     normal_prior.expected = heard
     try:
         calibration = read_calibration(scene / "calibration.yaml")
-        surfaces.reconstruct(read_capture(scene / "capture", [light.name for light in calibration.lights], use=None), calibration)
+        names = [light.name for light in calibration.lights]
+        surfaces.reconstruct(read_capture(scene / "capture", names, use=names[some]), calibration)
     except LpcalError as error:
         print(f"{scene.name}: {error}")
     finally:
@@ -141,7 +154,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
     inside = [one.channels["share"] > 0.5 for one in train]
     some = [np.stack([one.channels[name][at] for name in names])[:, ::7] for one, at in zip(train, inside, strict=True)]
     middle, spread = np.concatenate(some, axis=1).mean(axis=1), np.concatenate(some, axis=1).std(axis=1) + 1e-3
-    x_of = {one.name: channels_of(one, names, middle, spread) for one in train}
+    x_of = [channels_of(one, names, middle, spread) for one in train]
     mirrored = np.where(np.isin([*names, "down", "aside"], normal_prior.MIRRORED), -1, 1)
     net, each = Unet(len(names), WIDTHS, 4), len(train) // BATCH
     with torch.no_grad():
@@ -150,7 +163,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=EPOCHS * each, pct_start=0.15)
     for _ in range(EPOCHS):
         for batch in rng.permutation(len(train))[: each * BATCH].reshape(each, BATCH):
-            drawn = [placed(train[k], x_of[train[k].name], mirrored, rng) for k in batch]
+            drawn = [placed(train[k], x_of[k], mirrored, rng) for k in batch]
             x, begin, true, weight = (np.stack(part) for part in zip(*drawn, strict=True))
             counted = (x != 0).any(axis=1, keepdims=True)
             noise = OFFSET * rng.standard_normal((*x.shape[:2], 1, 1)) + NOISE * rng.standard_normal(x.shape)
@@ -182,7 +195,7 @@ def report(examples: Sequence[Example], out: Path, held_out: Path | None) -> Non
     first = fitted([one for one in examples if one.name not in left])
     if held_out is not None:
         np.savez_compressed(held_out, **first)
-    net, some = Network.of(first), [one for one in examples if one.name in left]
+    net, some = Network.of(first), [one for one in examples if one.name in left and one.whole]
     for what, judge in (("as they were", None), ("as expected", net)):
         x = np.array([angles_deg(one, judge) for one in some])
         figures = f"mean {x.mean():.2f}, worst tenth {np.percentile(x, 90):.2f}, over 6: {np.sum(x > 6)}"
@@ -204,7 +217,7 @@ def main() -> None:
         examples = pickle.loads(given.keep.read_bytes())
     else:
         with engine_of(given.on, given.jobs, Path()).start() as pool:
-            examples = list(chain.from_iterable(pool.map(example, given.scenes)))
+            examples = list(chain.from_iterable(pool.map(examples_of, given.scenes)))
         if given.keep is not None:
             given.keep.write_bytes(pickle.dumps(examples))
     report(examples, given.out, given.held_out)

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from scipy import optimize
 
-from fit_mask import WRONG, Seen, iou, line_of, of_scenes
+from fit_mask import WRONG, Seen, by_some, iou, line_of, of_scenes
 from lpcal.geometry import raster
 from lpcal.geometry.raster import block_means
 from lpcal.segmentation import background, flats, layers, mask, outline
@@ -103,9 +103,7 @@ def example(scene: Path, lights: slice, judge: Network | None) -> Example:
 def left_out(scene: Path, folds: Path | None) -> list[Example]:
     """A scene by all its lights, and by every second or third of many, judged by the network that was not fitted to it."""
     judges = {} if folds is None else pickle.loads(folds.read_bytes())
-    count = len(Seen.of(scene).lights)
-    some = [slice(None)] + ([slice(0, None, 2)] if count >= 8 else []) + ([slice(1, None, 3)] if count >= 12 else [])
-    return [example(scene, lights, judges.get(scene.name)) for lights in some]
+    return [example(scene, some, judges.get(scene.name)) for some in by_some(len(Seen.of(scene).lights))]
 
 
 def beyond_a_line(share: np.ndarray, part: float, rng: np.random.Generator) -> np.ndarray:

@@ -122,9 +122,9 @@ def channels(apart: Apart, here: Grey, room: Image | None, factor: int) -> tuple
     weight = 1 / (1 + np.exp(-odds))
     weight /= max(weight.sum(), 1e-12)
 
-    def over_object(values: Array) -> Array:
+    def over_object(values: Array | Image) -> Array:
         """Values (rows, columns) over their mean on the object."""
-        return values - np.sum(weight * values)
+        return np.asarray(values - np.sum(weight * values), float)
 
     nothing, faintest = np.zeros(odds.shape), float(np.log(FAINTEST))
     found = {
@@ -177,4 +177,4 @@ def resampled(values: npt.NDArray[np.floating], by: float, shape: tuple[int, ...
 
 def enlarged(mask: Mask, by: float, shape: tuple[int, ...]) -> Mask:
     """A mask of pixels `by` times as large, at a shape."""
-    return np.asarray(resampled(mask, by, shape) > 0.5)
+    return np.asarray(resampled(mask.astype(np.float32), by, shape) > 0.5)
