@@ -57,6 +57,8 @@ JUNK, ACROSS = 0.5, 6.0
 FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
 """Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
 slowly."""
+STILL = 5e-4
+"""Change of the field in a round, as a share of it, under which the round is the last: a few pixels at the rim go to and fro for ever."""
 ANY_RAD = 0.12
 """Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for one pixel, and
 lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
@@ -112,7 +114,7 @@ def solve(
     albedo = lambert.length(b)
     own_samples = np.zeros((seen.pixels, 3, 3))
     for k in range(rounds):
-        so_far, middle, last = (b, shine), np.median(albedo), k > 1 or before is not None
+        so_far, middle, last = b, np.median(albedo), k > 1 or before is not None
         if glossy is not None and last:
             state = states(few, few_lit, b[some], few_hidden, None, 1.0)
             counted = np.where(state.chance > 0.5, 1.0, 0.0) * few.usable
@@ -123,9 +125,8 @@ def solve(
         b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
         towards, albedo = lambert.dot(b, v), lambert.length(b)
         b = b + np.maximum(GRAZING * albedo - towards, 0.0)[:, None] * v
-        same = shine == so_far[1] and np.median(albedo) == middle and np.array_equal(b, so_far[0])
-        if last and warmth == 1.0 and same:
-            break  # every further round would be this one again
+        if last and warmth == 1.0 and np.linalg.norm(b - so_far) <= STILL * np.linalg.norm(b):
+            break
 
     return Field(b, _by_pixels(seen, lit, b, v, hidden, shine), shine, _tilt_rad(b, own_samples))
 

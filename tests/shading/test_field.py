@@ -69,14 +69,16 @@ def test_rounds_end_where_the_rest_would_change_nothing(shine: tuple[float, floa
     monkeypatch.setattr(field, "_gathered", counted)
     early = found(seen, lit, glossy=0.5)[0]
     taken = count[0]
-    monkeypatch.setattr(np, "array_equal", lambda *_: False)
+    monkeypatch.setattr(field, "STILL", -1.0)
     late = found(seen, lit, glossy=0.5)[0]
     assert count[0] - taken == field.FIRST_ROUNDS + field.GLOSS_ROUNDS
     assert taken <= field.FIRST_ROUNDS + field.GLOSS_ROUNDS
-    assert early.b.tobytes() == late.b.tobytes()
-    assert early.gloss == late.gloss
+    np.testing.assert_allclose(early.b, late.b, atol=5e-2 * np.median(np.linalg.norm(late.b, axis=1)))
+    assert (early.gloss is None) == (late.gloss is None) == (shine is None)
+    if early.gloss is not None and late.gloss is not None:
+        assert [early.gloss.ks, early.gloss.roughness] == pytest.approx([late.gloss.ks, late.gloss.roughness], rel=1e-3)
     if shine is None:
-        assert taken < 8
+        assert taken < 12
 
 
 @pytest.mark.parametrize("left", [(0, 1), (0, 3), (2, 4)])
