@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from lit_scene import Scene, calibration, draw, room_light, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.geometry.arrays import Array
+from lpcal.geometry.arrays import Array, Image
 from lpcal.records.calibration import Light
 from lpcal.records.observations import RawCapture
 from lpcal.segmentation import mask as mask_of
@@ -200,3 +201,17 @@ def test_a_place_that_no_lamp_reaches_tells_the_level_where_nothing_else_does() 
     assert bright_std < std
     assert dark > 0.01
     assert dark_std > bright_std
+
+
+def test_an_estimate_of_the_rooms_light_is_no_picture_for_the_mask(monkeypatch: pytest.MonkeyPatch) -> None:
+    given: list[Image | None] = []
+    plain = mask_of.automatic
+
+    def heard(*first: Any, **more: Any) -> Found:
+        given.append(more["room"] if "room" in more else first[5] if len(first) > 5 else None)
+        return plain(*first, **more)
+
+    monkeypatch.setattr(mask_of, "automatic", heard)
+    reconstruct(to_radiance(untold(LIT), Sensor()), calibration(), Options(ambient_known=False))
+    assert len(given) > 2
+    assert all(one is None for one in given)
