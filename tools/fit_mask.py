@@ -55,6 +55,8 @@ OVERLAP = 0.5
 """Weight of 1 - IoU (soft) in the loss, beside the mean logistic loss a pixel of the object's area."""
 NOISIER = 2.0
 """Noise of the images, in their own, that is added for a scene's second set of labels."""
+TRIES = 20
+"""Places in the background that are tried for what shows where a part of the object was."""
 MANY = 8
 """Lights of which every second are enough for a surface."""
 WRONG = 0.9
@@ -141,27 +143,36 @@ def crop(true: np.ndarray, rng: np.random.Generator) -> tuple[slice, slice]:
     return sides[0], sides[1]
 
 
+def ellipse(share: np.ndarray, row: int, column: int, area: float, rng: np.random.Generator) -> np.ndarray:
+    """The part (rows, columns) of an object in an ellipse of some form about a place."""
+    rows, columns = np.indices(share.shape)
+    longer, turn = np.exp(rng.uniform(-0.7, 0.7)), rng.uniform(0, np.pi)
+    along = np.cos(turn) * (rows - row) + np.sin(turn) * (columns - column)
+    across = np.cos(turn) * (columns - column) - np.sin(turn) * (rows - row)
+    return np.asarray((along**2 * longer + across**2 / longer < area / np.pi) & (share > 0.5))
+
+
+def elsewhere(share: np.ndarray, part: np.ndarray, most: float, rng: np.random.Generator) -> np.ndarray | None:
+    """Rows and columns (N, 2) of a part (rows, columns) moved to where the object's share is under `most`; None where there is no room."""
+    at = np.argwhere(part)
+    for _ in range(TRIES if len(at) else 0):
+        there = at + rng.integers(-np.array(share.shape), share.shape)
+        if (there >= 0).all() and (there < share.shape).all() and (share[tuple(there.T)] < most).all():
+            return np.asarray(there)
+    return None
+
+
 def pierced(x: np.ndarray, share: np.ndarray, names: Sequence[str], rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """The same with a hole in the object that shows what its background shows elsewhere; as it is where there is no room for one."""
-    rows, columns = np.indices(share.shape)
     places = np.argwhere(share > 0.9)
     if not len(places):
         return x, share
     (row, column), area = places[rng.integers(len(places))], (share > 0.5).sum() * np.exp(rng.uniform(*np.log(HOLES)))
-    longer, turn = np.exp(rng.uniform(-0.7, 0.7)), rng.uniform(0, np.pi)
-    along, across = (
-        np.cos(turn) * (rows - row) + np.sin(turn) * (columns - column),
-        np.cos(turn) * (columns - column) - np.sin(turn) * (rows - row),
-    )
-    hole = (along**2 * longer + across**2 / longer < area / np.pi) & (share > 0.5)
-    at = np.argwhere(hole)
-    for _ in range(20):
-        there = at + rng.integers(-np.array(share.shape), share.shape)
-        if (there >= 0).all() and (there < share.shape).all() and (share[tuple(there.T)] < 0.05).all():
-            x, share = x.copy(), share.copy()
-            x[:, hole], share[hole] = x[:, there[:, 0], there[:, 1]], 0.0
-            x[names.index("size"), hole], x[names.index("frame"), hole] = np.sqrt(hole.mean()), 0.0
-            break
+    hole = ellipse(share, row, column, area, rng)
+    if (there := elsewhere(share, hole, 0.05, rng)) is not None:
+        x, share = x.copy(), share.copy()
+        x[:, hole], share[hole] = x[:, there[:, 0], there[:, 1]], 0.0
+        x[names.index("size"), hole], x[names.index("frame"), hole] = np.sqrt(hole.mean()), 0.0
     return x, share
 
 

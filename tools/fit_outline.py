@@ -2,9 +2,10 @@
 
 SCENES are folders as tools/fit_mask.py reads them, and FILE is what it has written of networks that were not fitted to them; scenes that
 are not in it are judged as lpcal does. Those of many lights are seen once more by every second or third of them. Writes the weights that
-lpcal.segmentation.outline reads. Printed: for scenes left out of a first fit, the last LEFT_OUT, how good the masks are, coarse and in
-full size; and DOUBTED and DOUBT_POWER of lpcal.segmentation.mask by all. Scenes whose coarse mask is so wrong that there is no outline to
-draw are not fitted to. Needs PyTorch (``uv run --with torch``); with OMP_NUM_THREADS=1 where other work shares the machine.
+lpcal.segmentation.outline reads. Printed: how good the masks in full size are by the network as it stands, and DOUBTED and DOUBT_POWER of
+lpcal.segmentation.mask by these; for scenes left out of a first fit, the last LEFT_OUT, the masks in coarse pixels and at its scale. Scenes
+whose coarse mask is so wrong that there is no outline to draw are not fitted to. Needs PyTorch (``uv run --with torch``); with
+OMP_NUM_THREADS=1 where other work shares the machine.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from scipy import optimize
 
-from fit_mask import WRONG, Seen, by_some, iou, line_of, of_scenes
+from fit_mask import WRONG, Seen, by_some, ellipse, elsewhere, iou, line_of, of_scenes
 from lpcal.geometry import raster
 from lpcal.geometry.raster import block_means
 from lpcal.segmentation import background, flats, layers, mask, outline
@@ -49,8 +50,6 @@ CUT_OFF, HOLES = (0.02, 0.4), (0.002, 0.1)
 """Shares of the object that are cut off, or that a hole is, evenly by logarithm."""
 DARKER = (3.0, 5.0)
 """By how much the logarithm of the brightness of a side is less that no light reaches."""
-TRIES = 20
-"""Places in the background that are tried for what shows where a part of the object was."""
 SMOOTH_PX = 1.5
 """Standard deviation, in pixels, over which coarse odds change: they are those of pixels two or three times as large."""
 MIXED = (0.02, 0.98)
@@ -76,6 +75,8 @@ class Example:
     """(rows, columns) share of a pixel that is the object."""
     coarse: float
     """IoU of the coarse mask."""
+    full: float
+    """IoU of the mask in full size, its outline drawn by the network as it stands."""
     expected_wrong: float
 
 
@@ -96,6 +97,7 @@ def example(scene: Path, lights: slice, judge: Network | None) -> Example:
         {name: value.astype(np.float16) for name, value in channels.items()},
         block_means(seen.true.astype(float), factor)[window],
         iou(judged.mask, block_means(seen.true.astype(float), image.factor) > 0.5),
+        iou(mask.tidy(outline.drawn(apart, seen.maps, seen.rays_C, seen.room)), seen.true),
         background.doubt_of(judged, labels).share if judged.mask.any() else 1.0,
     )
 
@@ -116,30 +118,23 @@ def beyond_a_line(share: np.ndarray, part: float, rng: np.random.Generator) -> n
 
 def hole(share: np.ndarray, part: float, rng: np.random.Generator) -> np.ndarray:
     """An ellipse (rows, columns) in the object that is a part of it."""
-    rows, columns = np.indices(share.shape)
     inside = np.argwhere(share > 0.5)
     if not len(inside):
         return np.zeros(share.shape, bool)
-    (row, column), longer, turn = inside[rng.integers(len(inside))], np.exp(rng.uniform(-0.7, 0.7)), rng.uniform(0, np.pi)
-    along = np.cos(turn) * (rows - row) + np.sin(turn) * (columns - column)
-    across = np.cos(turn) * (columns - column) - np.sin(turn) * (rows - row)
-    return np.asarray((along**2 * longer + across**2 / longer < part * len(inside) / np.pi) & (share > 0.5))
+    row, column = inside[rng.integers(len(inside))]
+    return ellipse(share, row, column, part * len(inside), rng)
 
 
 def replaced(
     x: np.ndarray, share: np.ndarray, part: np.ndarray, names: Sequence[str], rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
     """The same with a part of the object that shows what its background shows elsewhere; as it is where there is no room for one."""
-    at = np.argwhere(part)
-    for _ in range(TRIES if len(at) else 0):
-        there = at + rng.integers(-np.array(share.shape), share.shape)
-        if (there >= 0).all() and (there < share.shape).all() and (share[tuple(there.T)] < MIXED[0]).all():
-            x, share = x.copy(), share.copy()
-            x[:, part], share[part] = x[:, there[:, 0], there[:, 1]], 0.0
-            odds = x[names.index("odds")]
-            near = raster.grown(part, round(2 * SMOOTH_PX))
-            odds[near] = raster.blurred(odds.astype(float), SMOOTH_PX)[near] + rng.uniform(-2, 2)
-            break
+    if (there := elsewhere(share, part, MIXED[0], rng)) is not None:
+        x, share = x.copy(), share.copy()
+        x[:, part], share[part] = x[:, there[:, 0], there[:, 1]], 0.0
+        odds = x[names.index("odds")]
+        near = raster.grown(part, round(2 * SMOOTH_PX))
+        odds[near] = raster.blurred(odds.astype(float), SMOOTH_PX)[near] + rng.uniform(-2, 2)
     return x, share
 
 
@@ -267,7 +262,8 @@ def report(examples: Sequence[Example]) -> None:
     print(line_of("   at the network's scale", fine))
     np.savez_compressed(outline.FITTED, **fitted(usable))
     whole = [one for one in examples if one.whole]
-    expected, bad = np.array([one.expected_wrong for one in whole]), np.array([one.coarse < WRONG for one in whole])
+    print(line_of(f"{len(whole)} scenes, in full size, by the network as it stood", [one.full for one in whole]))
+    expected, bad = np.array([one.expected_wrong for one in whole]), np.array([one.full < WRONG for one in whole])
     at, power = doubted(expected, bad)
     print(f"DOUBTED, DOUBT_POWER = {at:.2f}, {power:.1f}")
     for share in (0.04, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2):

@@ -103,13 +103,6 @@ class Pixels:
     """(Q,) number of the coarse pixel."""
 
 
-def costs(layers: Layers, at: Pixels, table: LightTable, u_free: Array) -> Array:
-    """Cost (2 + planes + 1, Q): the object's matter, each plane, nothing, other matter; `u_free` (Q,) is where matter is taken to be."""
-    B, doubt = table.at(u_free, at.coarse)
-    free = samples.free(at.signal, at.sigma, at.usable, B, doubt)[1]
-    return with_planes(layers, at, table, free, lambert.length(B))
-
-
 def shine(at: Pixels, E: Array) -> Array:
     """Log (Q,) of the brightest shading by irradiances E (L, Q)."""
     return np.asarray(np.log(np.maximum(np.max(np.where(at.usable, at.signal, 0.0) / np.maximum(E, 1e-12), axis=0), 1e-12)))

@@ -86,11 +86,11 @@ def scale_of(coarse: int) -> int:
     return max(1, coarse // 2)
 
 
-def log_odds(apart: Apart, here: Grey, room: Image | None, factor: int, network: Network | None = None) -> Array:
+def log_odds(apart: Apart, here: Grey, room: Image | None, factor: int) -> Array:
     """Log odds (h, w) that pixels of `factor` are the object, by maps of them (L, h, w): the mean of a picture's and its mirror image's."""
     found, window = channels(apart, here, room, factor)
     said = np.full(here.signal.shape[1:], -SURE)
-    said[window] = np.mean((network or Network.read(FITTED)).answers(found), axis=0)[0]
+    said[window] = np.mean(Network.read(FITTED).answers(found), axis=0)[0]
     near = raster.away(resampled(apart.log_odds, apart.image.factor / factor, said.shape) > 0) <= MARGIN
     return np.where(near, said, -SURE)
 

@@ -67,7 +67,7 @@ def test_windows_lie_about_the_outline_and_mirrors_turn_what_leans() -> None:
     rng = np.random.default_rng(3)
     x, share = scene(rng)
     share[25, 30:80] = 0.5
-    one = Example("scene", True, dict(zip(NAMES, x, strict=True)), share, 1.0, 0.0)
+    one = Example("scene", True, dict(zip(NAMES, x, strict=True)), share, 1.0, 1.0, 0.0)
     leaning = []
     for _ in range(40):
         found, of_object, there = drawn(one, x, NAMES, rng)
