@@ -309,7 +309,8 @@ def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings,
     carries: Carries = "board" if found.board_carried else "camera"
     findings.know(misplaced_m=agreed.scatter_m, views_off=tuple(off), carries=carries)
     size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, carries)
-    findings.warnings += [size] if size else []
+    behind = congruence.behind_warning(H_CB[agreed.inliers])
+    findings.warnings += [words for words in (size, behind) if words]
     if carries == "camera":
         roles = congruence.swapped_roles_warning(agreed.H_PC, agreed.H_OB)
         findings.warnings += [roles] if roles else []

@@ -54,6 +54,26 @@ def scaled(H: Array, by: float) -> Array:
     return H
 
 
+def conjugate(H: Array) -> Array:
+    return se3.transform(np.swapaxes(H[:, :3, :3], 1, 2), H[:, :3, 3])
+
+
+def in_other_axes(H: Array, axes: list[list[int]]) -> Array:
+    """The positions alone in other axes."""
+    return se3.transform(H[:, :3, :3], H[:, :3, 3] @ np.array(axes).T)
+
+
+def exchanged_everywhere(H: Array) -> Array:
+    """Components y and z exchanged, of positions and of quaternions."""
+    q = se3.quaternion(H[:, :3, :3])
+    return se3.transform(se3.rotation_from_quaternion(q[:, [0, 2, 1, 3]]), H[:, [0, 2, 1], 3])
+
+
+def opengl(H_CB: Array) -> Array:
+    """Of a camera whose y looks up and z backwards."""
+    return np.diag([1.0, -1.0, -1.0, 1.0]) @ H_CB
+
+
 def turned_about_one_axis(session: Session, reach: float) -> Session:
     """The session with the panel turned about its z alone."""
     count = len(session.boards.images)
@@ -112,6 +132,48 @@ REFUSED = {
     ),
     "mirrored y (poses)": Refused(
         lambda f: moving_rig(f, moving(), H_OP=MIRROR @ moving().stream.H_OP @ MIRROR), 6, "left-handed", "right-handed frame"
+    ),
+    "mocap's rotations inverted, its positions not": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=conjugate(moving().stream.H_OP)),
+        6,
+        "the rotations of the mocap poses are inverted",
+        "turn over the signs of qx, qy and qz",
+    ),
+    "positions with y and z exchanged": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=in_other_axes(moving().stream.H_OP, [[1, 0, 0], [0, 0, 1], [0, 1, 0]])),
+        6,
+        "the rotations' x, y, z are the positions' x, z, y",
+        "into the same axes",
+    ),
+    "positions with y up, rotations with z up": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=in_other_axes(moving().stream.H_OP, [[1, 0, 0], [0, 0, 1], [0, -1, 0]])),
+        6,
+        "the rotations' x, y, z are the positions' x, -z, y",
+        "into the same axes",
+    ),
+    "y and z exchanged everywhere": Refused(
+        lambda f: moving_rig(f, moving(), H_OP=exchanged_everywhere(moving().stream.H_OP)),
+        6,
+        "two axes of the poses are exchanged",
+        "right-handed frame",
+    ),
+    "board poses wxyz for xyzw": Refused(
+        lambda f: moving_rig(f, moving(), H_CB=reordered(moving().boards.H_CB)),
+        6,
+        "the board poses' quaternions are in another order: they are w, x, y, z",
+        "name the columns of the board poses",
+    ),
+    "board poses' rotations inverted": Refused(
+        lambda f: moving_rig(f, moving(), H_CB=conjugate(moving().boards.H_CB)),
+        6,
+        "the rotations of the board poses are inverted",
+        "transpose the matrices",
+    ),
+    "board poses in mm": Refused(
+        lambda f: moving_rig(f, moving(), H_CB=scaled(moving().boards.H_CB, 1000.0)),
+        6,
+        "the lengths of the board poses are in mm",
+        "name their columns x_mm",
     ),
     "mm for m": Refused(lambda f: moving_rig(f, moving(), scale=1000.0), 6, "in mm, not in metres", "mocap.units: mm"),
     "board square 25.4 x too large": Refused(
@@ -240,6 +302,10 @@ def both_inverted(folder: Path) -> Session:
 WARNED = {
     "a board 1 % off": (lambda f: image_rig(f, static(60, 3), scaled(static(60, 3).H_OP, 1.01)), "the mocap measures the board as 10"),
     "both streams inverted": (both_inverted, "both streams are inverted"),
+    "board poses of OpenGL's camera": (
+        lambda f: moving_rig(f, moving(), H_CB=opengl(moving().boards.H_CB)),
+        "the board lies behind the camera",
+    ),
     "rotations under 8 degrees": (
         lambda f: image_rig(f, static(40, turn_deg=6.0), static(40, turn_deg=6.0).H_OP),
         "turned little about a second axis",

@@ -6,7 +6,8 @@ boards of all views coincide is named::
 
     inverted H_PO for H_OP       H_OP <- inv(H_OP)             quaternion order     components of R turned round by one
     mirrored                     M H_OP M, or the origin alone units, board's size  the ratio of the pitches
-    pairing shifted              view k with pose k + s
+    pairing shifted              view k with pose k + s        rotations inverted   R <- R^T, the origin kept
+    axes exchanged               x <- P x of the origin alone, or of all
 
 Both streams inverted fit as well as the right ones: then H_PC and H_OB have changed roles, which only their size betrays.
 Source: screw congruence, Chen, A screw motion approach to uniqueness analysis of head-eye geometry (1991); the table was measured.
@@ -14,13 +15,13 @@ Source: screw congruence, Chen, A screw motion approach to uniqueness analysis o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from lpcal.chain.h_pc_handeye.cures import cures
 from lpcal.errors import DisagreementError
-from lpcal.geometry import park, se3
+from lpcal.geometry import park
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Carries
 from lpcal.records.digits import fine
@@ -40,22 +41,6 @@ FAR_M = 1.0
 ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
-SHIFTS = (1, -1, 2, -2, 3, -3)
-ANGLES: dict[str, Callable[[Array], Array]] = {
-    "abc_deg": lambda v: se3.rotation_about_axes(v, "zyx"),
-    "xyz_deg": lambda v: se3.rotation_about_axes(v, "xyz"),
-    "zyz_deg": lambda v: se3.rotation_about_axes(v, "zyz"),
-    "rpy_deg": lambda v: se3.rotation_about_axes(v[:, ::-1], "zyx"),
-    "rotation_vector_deg": se3.rotation,
-}
-"""Rotations (N, 3, 3) of three numbers (N, 3) in radians, by what ``mocap.rotation`` calls them."""
-MEANT = {
-    "abc_deg": "angles about z, y', x''",
-    "xyz_deg": "angles about x, y', z''",
-    "zyz_deg": "angles about z, y', z''",
-    "rpy_deg": "roll, pitch, yaw",
-    "rotation_vector_deg": "a rotation vector",
-}
 UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm", 1 / 25.4: "1/inches"}
 
 
@@ -68,7 +53,7 @@ class Diagnosis:
     misplaced: float
     """Misplacement of the board over its distance, as the data stand."""
     cured: float
-    """The same after the cure."""
+    """The same after the cure, over its distance as the data stand."""
     reach_m: float
     """Distance of the camera from the body's origin after the cure."""
 
@@ -107,7 +92,7 @@ def diagnose(H_OP: Array, H_CB: Array, *, from_images: bool = True) -> Diagnosis
         return None
     some = np.linspace(0, len(H_OP) - 1, min(len(H_OP), MOST_VIEWS)).astype(int)
     best: Diagnosis | None = None
-    for found, todo, poses, boards in _cures(H_OP[some], H_CB[some], in_order=len(some) == len(H_OP), from_images=from_images):
+    for found, todo, poses, boards in cures(H_OP[some], H_CB[some], in_order=len(some) == len(H_OP), from_images=from_images):
         scaled = poses.copy()
         scale = _scale(poses, boards)
         if not np.isfinite(scale):
@@ -117,10 +102,12 @@ def diagnose(H_OP: Array, H_CB: Array, *, from_images: bool = True) -> Diagnosis
         plain = abs(np.log(scale)) < SCALE_TOLERANCE
         if found is None and plain:
             continue
-        words = found if plain else _with_scale(found, scale)
+        words = found if plain else _with_scale(found, scale, from_images=from_images)
         if cured < min(MENDS * before, FITS):
             reach = float(np.linalg.norm(agreed.H_PC[:3, 3]))
-            named = Diagnosis(words or "", todo if plain and todo else _scale_todo(scale, todo), before, cured, reach)
+            of_boards = not plain and not from_images and scale < 1
+            mends = todo if plain and todo else _scale_todo(scale, todo, from_images=from_images)
+            named = Diagnosis(words or "", mends, before, cured * (scale if of_boards else 1.0), reach)
             best = named if named.better_than(best) else best
     return best
 
@@ -181,6 +168,18 @@ def swapped_roles_warning(H_PC: Array, H_OB: Array) -> str | None:
     )
 
 
+def behind_warning(H_CB: Array) -> str | None:
+    """In words, where most boards of poses H_CB (N, 4, 4) lie behind the camera."""
+    behind = int(np.sum(H_CB[:, 2, 3] < 0))
+    if 2 * behind <= len(H_CB):
+        return None
+    return (
+        f"in {behind} of {len(H_CB)} board poses the board lies behind the camera: they are inverted (mocap.board_poses.direction), or of "
+        "a camera whose y looks up and z backwards (OpenGL, Blender, ARKit), and so is what is found of it; lpcal's has x right, y down, "
+        "z forward"
+    )
+
+
 def _scale(H_OP: Array, H_CB: Array) -> float:
     """Size of the board by the mocap over its stated size; NaN where there is no sense in it."""
     agreed = park.consensus_of_rotations(H_OP, H_CB)
@@ -191,62 +190,13 @@ def _scale(H_OP: Array, H_CB: Array) -> float:
     return scale if scale > 1e-5 else float("nan")
 
 
-def _cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> Iterator[tuple[str | None, str, Array, Array]]:
-    """What might have gone wrong, what to do, and the data with it undone."""
-    yield None, "", H_OP, H_CB
-    todo = "write mocap.direction: H_PO (or H_OP, if it says H_PO); or mocap.carries: board, if the camera stands still in the room"
-    yield "the mocap poses are inverted: they take room to body", todo, se3.inv(H_OP), H_CB
-    if not from_images:
-        todo = "write mocap.board_poses.direction: H_BC (or H_CB, if it says H_BC); or mocap.carries: board, if the camera stands still"
-        yield "the board poses are inverted", todo, H_OP, se3.inv(H_CB)
-    q = se3.quaternion(H_OP[:, :3, :3])
-    for order, place, other in (("w, x, y, z", [1, 2, 3, 0], "wxyz"), ("x, y, z, w", [3, 0, 1, 2], "xyzw")):
-        H = H_OP.copy()
-        H[:, :3, :3] = se3.rotation_from_quaternion(q[:, place])
-        words = f"the quaternions are in another order: they are {order}"
-        yield words, f"write mocap.quaternion: {other}", H, H_CB
-        yield f"{words}, and the poses are inverted", f"write mocap.quaternion: {other} and mocap.direction: H_PO", se3.inv(H), H_CB
-    yield from _other_angles(H_OP, H_CB)
-    todo = "export the recording again in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
-    for axis in range(3):
-        mirror = np.eye(4)
-        mirror[axis, axis] = -1
-        H = H_OP.copy()
-        H[:, axis, 3] *= -1
-        yield f"the positions are mirrored along {'xyz'[axis]}: the recording is left-handed", todo, H, H_CB
-    mirror = np.diag([1.0, -1.0, 1.0, 1.0])
-    yield "the poses are mirrored: the recording is left-handed", todo, mirror @ H_OP @ mirror, H_CB
-    for shift in SHIFTS if in_order else ():
-        poses, boards = (H_OP[shift:], H_CB[:-shift]) if shift > 0 else (H_OP[:shift], H_CB[-shift:])
-        if len(poses) >= 6:
-            words = f"the pairing is shifted by {abs(shift)}: view k belongs to the pose of view k{shift:+d}"
-            yield words, "correct the images' names or times: mocap.poses or mocap.images", poses, boards
-
-
-def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, Array]]:
-    """Three numbers of a rotation read as one thing that are another; where poses hold no such numbers, none of it corrects anything."""
-    R = H_OP[:, :3, :3]
-    zyx = se3.angles_about_zyx(R)
-    for read, v in (("abc_deg", zyx), ("rpy_deg", zyx[:, ::-1]), ("rotation_vector", se3.rotation_vector(R))):
-        for name, meant in ANGLES.items():
-            if name != read and (read, name) != ("rpy_deg", "abc_deg"):
-                H = H_OP.copy()
-                H[:, :3, :3] = meant(v)
-                words = f"the rotations' three numbers are of another order or kind than {read.split('_deg')[0]}: {MEANT[name]}"
-                yield words, f"write mocap.rotation: {name}{_other_way(read, name)}", H, H_CB
-
-
-def _other_way(read: str, name: str) -> str:
-    """What to add where the same corrects the other mistake, and where a rotation vector, in radians, turned out to hold angles."""
-    if (read, name) == ("abc_deg", "rpy_deg"):
-        return " (or abc_deg, if it says rpy)"
-    return " (the numbers in degrees)" if read == "rotation_vector" else ""
-
-
-def _with_scale(found: str | None, scale: float) -> str:
-    unit = next((name for size, name in UNITS.items() if abs(scale / size - 1) < 0.1), None)
+def _with_scale(found: str | None, scale: float, *, from_images: bool) -> str:
+    unit = _unit(scale)
     if unit and not unit.startswith("1/"):
-        words = f"the mocap's lengths are in {unit}, not in metres, or the board's square is stated {scale:.0f} times too small"
+        words = f"the mocap's lengths are in {unit}, not in metres"
+        words += f", or the board's square is stated {scale:.0f} times too small" if from_images else ""
+    elif unit and not from_images:
+        words = f"the lengths of the board poses are in {unit.removeprefix('1/')}, not in metres"
     else:
         words = (
             f"the board's size is stated {1 / scale:.4g} times what the mocap measures"
@@ -256,7 +206,14 @@ def _with_scale(found: str | None, scale: float) -> str:
     return words if found is None else f"{found}; and {words}"
 
 
-def _scale_todo(scale: float, todo: str) -> str:
-    unit = next((name for size, name in UNITS.items() if abs(scale / size - 1) < 0.1), None)
+def _scale_todo(scale: float, todo: str, *, from_images: bool) -> str:
+    unit = _unit(scale) or ""
     key = f"write mocap.units: {unit}" if unit in {"mm", "cm"} else "correct board.square, or mocap.units"
+    if unit.startswith("1/") and not from_images:
+        name = unit.removeprefix("1/")
+        key = f"name their columns x_{name}, y_{name}, z_{name}" if name in {"mm", "cm"} else "turn them into metres"
     return f"{todo}; {key}" if todo else key
+
+
+def _unit(scale: float) -> str | None:
+    return next((name for size, name in UNITS.items() if abs(scale / size - 1) < 0.1), None)

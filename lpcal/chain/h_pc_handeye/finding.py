@@ -107,11 +107,12 @@ def finding_of(
 def _weakest(found: HandEyeEstimate, views: Views, covariance: Array, factor: float, carries: Carries) -> tuple[list[str], str | None]:
     """Warnings; and, where the body carries the camera, in which direction it is known worst, in words."""
     size = congruence.board_size_warning(found.scale, found.scale_std * np.sqrt(factor), found.H_PC, carries)
+    behind = congruence.behind_warning(views.H_CB)
     if carries == "board":
-        return ([size] if size else []), None
+        return [each for each in (size, behind) if each is not None], None
     roles = congruence.swapped_roles_warning(found.H_PC, found.H_OB)
     advised = advise(views.H_OP, found.in_mocap_metres(views.H_CB), found.H_PC, found.H_OB, covariance[:6, :6])
-    return [each for each in (size, roles, advised.warning()) if each is not None], advised.words()
+    return [each for each in (size, behind, roles, advised.warning()) if each is not None], advised.words()
 
 
 def _refuse_a_step(state: SolveState) -> None:
