@@ -202,9 +202,8 @@ def _ntsc(rate: float) -> str:
 def _stream(stream: PoseStream, track: PoseTrack, findings: _Findings) -> None:
     name = f"{stream.body}: " if stream.body else ""
     length = float(np.ptp(stream.t_s))
-    findings.say(
-        "mocap", f"{name}{len(stream.t_s)} poses in {length:.1f} s, {stream.rate_hz:.1f} Hz; the body lost in {stream.lost} samples"
-    )
+    rate = f", {stream.rate_hz:.1f} Hz" if len(stream.t_s) > 1 else ""
+    findings.say("mocap", f"{name}{len(stream.t_s)} poses in {length:.1f} s{rate}; the body lost in {stream.lost} samples")
     for why, count in track.dropped.items():
         if count:
             findings.say("", f"{count} samples {why}: left out")

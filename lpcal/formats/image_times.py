@@ -1,7 +1,7 @@
 """``mocap.images``: csv files of ``file,time_s``, image paths relative to the csv, times on the camera's clock.
 
 Further columns are left alone. ``time_ns``, ``time_us`` and ``time_ms`` say their unit; a ``time_s`` that would be the year 30,000 and
-later is taken in the unit that makes it a time of our century.
+later is taken in the unit that makes it a time of our century. Dates and times of the day are read as well.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from lpcal.formats.named_files import did_you_mean, resolve_named
 from lpcal.formats.number_table import COMMENTS, is_number, seconds
 from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text, with_commas
+from lpcal.formats.time_stamps import with_seconds
 
 FILES = ("file", "image", "filename", "name")
 TIMES = {
@@ -57,10 +58,10 @@ def read_image_times(path: Path) -> list[tuple[Path, float]]:
         raise InputError(f"columns {','.join(names)}", where=f"{path}:{lines[0][0]}", needed="file,time_s", todo="name the columns so")
     found: dict[Path, int] = {}
     stamps: list[str] = []
-    for number, cells in lines[1:]:
+    texts, _ = with_seconds([cells[time] if len(cells) > time else "" for _, cells in lines[1:]], 0)
+    for (number, cells), stamp in zip(lines[1:], texts, strict=True):
         where = f"{path}:{number}"
-        if len(cells) <= max(file, time) or not is_number(cells[time]) or not np.isfinite(float(cells[time])):
-            stamp = cells[time] if len(cells) > time else ""
+        if len(cells) <= max(file, time) or not is_number(stamp) or not np.isfinite(float(stamp)):
             raise InputError(f"{names[time]} {stamp!r}", where=where, needed="seconds", todo="is the file cut off?")
         image = resolve_named(path.parent, cells[file])
         if image is None or not image.is_file():
@@ -71,7 +72,7 @@ def read_image_times(path: Path) -> list[tuple[Path, float]]:
                 f"{cells[file]} stands in line {found[image]} already", where=where, needed="each image once", todo="remove one of them"
             )
         found[image] = number
-        stamps.append(cells[time])
+        stamps.append(stamp)
     if not found:
         raise InputError("no rows", where=str(path), needed=LAYOUT)
     return list(zip(found, seconds(stamps, TIMES[names[time]]).tolist(), strict=True))

@@ -90,7 +90,7 @@ def _table(path: Path, head: bytes, body: str | None, quaternion: str | None, un
         return "Motive csv", mocap_motive.read_motive(text, path, body, quaternion, units)
     if mocap_vicon.is_vicon(text):
         return "Vicon csv", mocap_vicon.read_vicon(text, path, body, units)
-    return "csv of poses", mocap_generic.read_generic(text, path, quaternion, units)
+    return "csv of poses", mocap_generic.read_generic(text, path, quaternion, units, body)
 
 
 def _by(added: MocapFormat, path: Path, body: str | None, direction: str) -> PoseStream | MarkerStream:
@@ -117,6 +117,8 @@ OTHER_SYSTEMS = {
     "; FBX": "an FBX scene; export rigid bodies as csv or markers as C3D",
     "{": "a JSON document; write t_s, x_m, y_m, z_m, qx, qy, qz, qw as csv",
     "<?xml": "an XML document; export csv, tsv or C3D",
+    "<!DOCTYPE": "a web page, not the file; download it again",
+    "<html": "a web page, not the file; download it again",
 }
 """How other systems' texts begin, and what to export instead."""
 OTHER_FILES = {

@@ -2,7 +2,9 @@
 
 Without names the eight columns are ``t, x, y, z, qx, qy, qz, qw`` (seconds, metres). With names the columns may stand in any order:
 ``t|time|timestamp[_s|_ns]``, ``x|px|tx|p_x..``, ``qx|q_x..qw``; a unit may follow, ``x_mm`` or ``x [mm]``.
-Names of ROS messages (``field.pose.position.x``) are known too; stamps too large for seconds are milli-, micro- or nanoseconds.
+Names of ROS messages (``field.pose.position.x``) are known too; stamps too large for seconds are milli-, micro- or nanoseconds, and dates
+and times of the day are read. Several bodies stand under a column that names them (``body``), or in columns that begin with their names
+(``Wand_x, Wand_qx, ...``).
 """
 
 from __future__ import annotations
@@ -13,27 +15,35 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import InputError
+from lpcal.formats.body_choice import choose_body
 from lpcal.formats.number_table import COMMENTS, UNITS_S, is_number, read_numbers, unit_of_stamps
 from lpcal.formats.pose_table import PoseTable
+from lpcal.formats.time_stamps import with_seconds
 from lpcal.geometry.arrays import Array
 
 PLAIN = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"]
 LAYOUT = "t_s, x_m, y_m, z_m, qx, qy, qz, qw"
 
 
-def read_generic(text: str, path: Path, quaternion: str | None = None, units: str | None = None) -> PoseTable:
-    """The poses of a csv, its cells divided by commas or by blanks; it knows no bodies.
+def read_generic(text: str, path: Path, quaternion: str | None = None, units: str | None = None, body: str | None = None) -> PoseTable:
+    """The poses of a csv, its cells divided by commas or by blanks; `body` counts where the file tells bodies apart.
 
     Raises
     ------
     InputError
-        Its columns cannot be identified, or a row cannot be read.
+        Its columns cannot be identified, two are of one name, several bodies and none named, or a row cannot be read.
+    DisagreementError
+        The file tells bodies apart and holds none of that name.
     """
     lines = [line if "," in line else ",".join(line.split()) for line in text.split("\n")]
     start, cells = _first_row(lines, path)
     named = not is_number(cells[0])
-    where = f"{path}:{start + 1}"
+    where, name = f"{path}:{start + 1}", ""
+    first = start + 1 + named
+    rows = lines[first - 1 :]
     if named:
+        cells, name = _columns_of_body(cells, body, path)
+        rows, name = _rows_of_body(rows, cells, body, path) or (rows, name)
         places, unit_of_time, unit_of_length = _named(cells, where)
     elif len(cells) >= len(PLAIN):
         _refuse_unlike(cells, where)
@@ -42,13 +52,13 @@ def read_generic(text: str, path: Path, quaternion: str | None = None, units: st
         raise InputError(f"{len(cells)} columns without names", where=where, needed=LAYOUT, todo="add a row of names")
     if quaternion == "wxyz" and not named:
         places = [*places[:4], *(places[i] for i in (5, 6, 7, 4))]
-    first = start + 1 + named
-    numbers = read_numbers("\n".join(lines[first - 1 :]), first, path, delimiter=",", columns=places)
+    rows, notes = with_seconds(rows, places[0])
+    numbers = read_numbers("\n".join(rows), first, path, delimiter=",", columns=places)
     unit = unit_of_time if unit_of_time not in {None, "s"} else unit_of_stamps(float(np.nanmax(np.abs(numbers[:, 0]), initial=0)))
-    t_s = _whole_ns(lines[first - 1 :], ",", places[0], len(numbers)) if unit == "ns" else None
+    t_s = _whole_ns(rows, ",", places[0], len(numbers)) if unit == "ns" else None
     t_s = numbers[:, 0] * UNITS_S[str(unit)] if t_s is None else t_s
-    notes = (f"times are {unit}",) if unit != "s" else ()
-    return PoseTable("", t_s, numbers[:, 1:4], None, numbers[:, 4:8], units or unit_of_length or "m", first_line=first, notes=notes)
+    notes = (*notes, f"times are {unit}") if unit != "s" else notes
+    return PoseTable(name, t_s, numbers[:, 1:4], None, numbers[:, 4:8], units or unit_of_length or "m", first_line=first, notes=notes)
 
 
 def _first_row(lines: list[str], path: Path) -> tuple[int, list[str]]:
@@ -61,6 +71,47 @@ def _first_row(lines: list[str], path: Path) -> tuple[int, list[str]]:
             continue
         return place, cells
     raise InputError("no rows of numbers", where=str(path), needed=f"a csv of {LAYOUT}", todo="export it again")
+
+
+BODIES = {"body", "body_name", "rigid_body", "rigidbody", "rigid_body_name", "subject", "object", "object_name", "tracker", "name"}
+"""Names of a column that tells bodies apart."""
+OF_A_BODY = re.compile(r"(.+?)[\s._:/-]+(q?[xyz]|qw)((?:_|\s*[\[(]\s*)(?:m|cm|mm)\s*[\])]?)?$", re.IGNORECASE)
+"""A column that begins with its body's name: ``Wand_qx``, ``Wand: x [mm]``."""
+
+
+def _columns_of_body(cells: list[str], body: str | None, path: Path) -> tuple[list[str], str]:
+    """The names of the columns with one body's as if it were alone and none for the others', and its name.
+
+    They stay as they are where one body's columns have no name before them, or no body has all of position and quaternion.
+    """
+    if set(PLAIN) <= {_key(_split(cell)[0]) for cell in cells}:
+        return cells, ""
+    of: dict[str, list[int]] = {}
+    parts = [OF_A_BODY.fullmatch(cell.strip()) for cell in cells]
+    for place, match in enumerate(parts):
+        if match:
+            of.setdefault(match[1], []).append(place)
+    whole = [name for name, places in of.items() if {str(parts[k][2]).lower() for k in places} >= set(PLAIN[1:])]  # type: ignore[index]
+    if not whole:
+        return cells, ""
+    chosen = choose_body(whole, body, path)
+    return [
+        cell if match is None else match[2] + (match[3] or "") if match[1] == chosen else ""
+        for cell, match in zip(cells, parts, strict=True)
+    ], chosen
+
+
+def _rows_of_body(rows: list[str], cells: list[str], body: str | None, path: Path) -> tuple[list[str], str] | None:
+    """The rows of one body, with empty lines for the others', and its name; None where no column tells bodies apart."""
+    place = next((place for place, cell in enumerate(cells) if _split(cell)[0] in BODIES), None)
+    if place is None:
+        return None
+    names = [parts[place].strip() if place < len(parts := row.split(",")) else "" for row in rows]
+    found = sorted({name for name in names if name and not is_number(name)})
+    if not found:
+        return None
+    chosen = choose_body(found, body, path)
+    return [row if name == chosen else "" for row, name in zip(rows, names, strict=True)], chosen
 
 
 def _refuse_unlike(cells: list[str], where: str) -> None:
@@ -88,14 +139,39 @@ def _named(cells: list[str], where: str) -> tuple[list[int], str | None, str | N
     for place, cell in enumerate(cells):
         name, unit = _split(cell)
         key = _key(name)
+        if key in found and cell.strip().lower() == cells[found[key]].strip().lower():
+            both = f"{cell.strip()} in columns {found[key] + 1} and {place + 1}"
+            raise InputError(both, where=where, needed="each name once", todo="put the body's name before each column's, or keep one body")
         if key and (key not in found or (key == "t" and "stamp" in name and "stamp" not in _split(cells[found["t"]])[0])):
             found[key] = place
             units[key] = unit
     lacking = [key for key in PLAIN if key not in found]
     if lacking:
-        raise InputError(f"no column for {', '.join(lacking)}", where=where, needed=LAYOUT, todo="name the columns so")
+        raise InputError(f"no column for {', '.join(lacking)}", where=where, needed=LAYOUT, todo=_other_names(cells))
     time = units["t"] if units["t"] in UNITS_S else None
     return [found[key] for key in PLAIN], time, units["x"] if units["x"] in {"m", "cm", "mm"} else None
+
+
+OTHER_TURNS = {
+    (
+        "roll",
+        "pitch",
+        "yaw",
+    ): "turn the angles into quaternions (scipy: Rotation.from_euler), in the order in which the system defines them",
+    ("rx", "ry", "rz"): "turn the rotations into quaternions (scipy: Rotation.from_rotvec, or from_euler if they are angles)",
+    ("q0", "q1", "q2", "q3"): "name the quaternion's columns qx, qy, qz and qw: which of the four is w the names do not say",
+    ("q1", "q2", "q3", "q4"): "name the quaternion's columns qx, qy, qz and qw: which of the four is w the names do not say",
+}
+"""Names of rotations that are no quaternion, or of unknown order, and what to do."""
+
+
+def _other_names(cells: list[str]) -> str:
+    """What to do where columns lack, by the names that are there."""
+    names = {_split(re.sub(r"[\s_\[(]*(deg|rad|degrees|radians)[\])]?$", "", cell.strip().lower()))[0] for cell in cells}
+    turned = next((todo for triple, todo in OTHER_TURNS.items() if names >= set(triple)), None)
+    if turned is None and not any(_key(name) == "t" for name in names) and names & {"frame", "frames", "index", "sample"}:
+        return "add a column t_s: the frame's number over the rate in Hz"
+    return turned or "name the columns so"
 
 
 def _split(cell: str) -> tuple[str, str]:

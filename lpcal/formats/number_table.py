@@ -16,6 +16,10 @@ MOST_HZ = 1e6
 """Hz of the fastest recording that is believed."""
 COMMENTS = ("#", "//", "%")
 """What a line begins with that holds no numbers."""
+NOTHING = re.compile(
+    r"(?i)(?<![^,;\t\n])[ ]*(?:null|none|n/?a|#n/?a|-+|nil|missing|-?1\.#(?:ind|inf|qnan)\d*|-?nan\((?:ind|snan)\))[ ]*(?![^,;\t\n])"
+)
+"""What programs write into a cell that holds no number: databases, Excel, pandas, R, old Windows."""
 BLANK_ROW = re.compile(r"(?:nan|[\s,;])*")
 
 
@@ -36,6 +40,8 @@ def read_numbers(text: str, first_line: int, path: Path, *, delimiter: str | Non
     try:
         return np.loadtxt(io.StringIO("\n".join(lines)), delimiter=delimiter, usecols=columns, ndmin=2, comments=COMMENTS)
     except ValueError as error:
+        if delimiter is not None and NOTHING.search(text):
+            return read_numbers(NOTHING.sub("nan", text), first_line, path, delimiter=delimiter, columns=columns)
         raise _complaint(text, first_line, path, delimiter, columns) from error
 
 

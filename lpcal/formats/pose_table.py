@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.number_table import UNITS_S, unit_of_stamps
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
@@ -30,6 +30,12 @@ FROZEN_ROWS, FROZEN_S, JUMP_STEPS = 5, 0.1, 5.0
 """A pose held for so many rows and seconds, after which the body stands so many of its usual steps away, was held by the system."""
 SUPERFLUOUS = 1e-6
 """Seconds within which two samples count as one."""
+DAY_S = 86400.0
+SLOW_S, SLOW_ROWS, EVEN = 2.0, 200, 0.2
+"""A recording of so many rows that are evenly spaced, within this share, by so many seconds and more has its times in a finer unit."""
+TWO_STEPS, TWO_M, TWO_SHARE = 10.0, 0.005, 0.1
+"""Two poses of one time, or neighbours in time, that are so many usual steps and metres apart, are of two bodies or recordings; of the
+repeated times it takes this share of all rows, for one stray row is no recording."""
 
 
 @dataclass(frozen=True)
@@ -76,18 +82,23 @@ def timed_poses(table: PoseTable, path: Path, *, inverse: bool = False) -> Timed
         A quaternion that is none (its line is named).
     DegenerateError
         No row holds a pose.
+    DisagreementError
+        Times that are not in seconds, or the poses of two recordings or bodies in one.
     """
     _refuse_beyond(table, path)
     R, whole = _rotations(table, path)
     seen = whole & np.isfinite(table.position).all(axis=1) & np.isfinite(table.t_s)
     t_s, stamped = _seconds(table.t_s)
+    t_s, past = _past_midnight(t_s)
     seen, losses = without_losses(t_s, table.position, R, seen)
     lost = int(np.sum(np.isfinite(table.t_s) & ~seen))
     if not np.any(seen):
         found = f"not one pose of {table.body or 'the body'}"
         raise DegenerateError(f"{found}{': ' * bool(losses)}{', '.join(losses)}", where=str(path), needed="rows with position and rotation")
     keep, notes = in_order(t_s, seen)
-    notes = [*stamped, *losses, *notes]
+    _refuse_slow(t_s[keep], path)
+    _refuse_two(t_s, METRES[table.units] * table.position, seen, keep, path)
+    notes = [*stamped, *past, *losses, *notes]
     H = se3.transform(R[keep], METRES[table.units] * table.position[keep])
     return TimedPoses(t_s[keep], se3.inv(H) if inverse else H, keep, lost, (*table.notes, *notes))
 
@@ -111,6 +122,53 @@ def _seconds(t_s: Array) -> tuple[Array, list[str]]:
     largest = float(np.nanmax(np.abs(t_s), initial=0.0))
     unit = unit_of_stamps(largest)
     return (t_s, []) if unit == "s" else (t_s * UNITS_S[unit], [f"times are {unit}"])
+
+
+def _past_midnight(t_s: Array) -> tuple[Array, list[str]]:
+    """Times of the day that begin anew once, as times that go on."""
+    given = np.flatnonzero(np.isfinite(t_s))
+    falls = np.flatnonzero(np.diff(t_s[given]) < -DAY_S / 2)
+    if len(falls) != 1 or t_s[given].min() < 0 or t_s[given].max() > DAY_S:
+        return t_s, []
+    later = np.arange(len(t_s)) > given[falls[0]]
+    return np.where(later, t_s + DAY_S, t_s), ["times pass midnight"]
+
+
+def _refuse_slow(t_s: Array, path: Path) -> None:
+    """Stop where a recording's rows are so far apart, and so evenly, that their times cannot be seconds."""
+    steps = np.diff(t_s)
+    usual = float(np.median(steps)) if len(t_s) >= SLOW_ROWS else 0.0
+    if usual < SLOW_S or np.mean(np.abs(steps / usual - 1) < EVEN) < 1 - EVEN / 2:
+        return
+    unit = next(name for name, size in (("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)) if usual * size < 1.0)
+    raise DisagreementError(
+        f"{len(t_s)} poses, one every {usual:.4g} s: the times look like {unit} ({1 / (usual * UNITS_S[unit]):.4g} Hz)",
+        where=str(path),
+        needed="times in seconds, or a column that names its unit",
+        todo=f"name the column t_{unit}",
+    )
+
+
+def _refuse_two(t_s: Array, x_m: Array, seen: Mask, keep: npt.NDArray[np.intp], path: Path) -> None:
+    """Stop where the rows are of two bodies, or of two recordings whose times overlap: in order of time the poses leap to and fro."""
+    rows = np.flatnonzero(seen)
+    order = rows[np.argsort(t_s[rows], kind="stable")]
+    if len(keep) < 3 or (len(order) == len(keep) and np.array_equal(rows, order)):
+        return
+    apart = np.linalg.norm(np.diff(x_m[order], axis=0), axis=1)
+    same = np.diff(t_s[order]) < SUPERFLUOUS
+    of_time, of_file = (np.linalg.norm(np.diff(x_m[some], axis=0), axis=1) for some in (keep, rows))
+    twice = float(np.median(apart[same])) if same.sum() > TWO_SHARE * len(order) else 0.0
+    pairs = ((twice, float(np.median(of_time))), (float(np.median(of_time)), float(np.median(of_file))))
+    leaps = max((leap for leap, usual in pairs if leap > max(TWO_M, TWO_STEPS * usual)), default=0.0)
+    if leaps == 0:
+        return
+    raise DisagreementError(
+        f"the poses of one time are {1e3 * leaps:.0f} mm apart: two recordings, or two bodies, in one file",
+        where=str(path),
+        needed="one body's recording, its times in one row",
+        todo="keep one of them, or add a column that names the body",
+    )
 
 
 def without_losses(t_s: Array, position: Array, R: Array, seen: Mask) -> tuple[Mask, list[str]]:

@@ -197,6 +197,12 @@ REFUSED = {
         "the panel hardly turned",
         "turn the panel by 20 degrees",
     ),
+    "a recording of one pose": Refused(
+        lambda f: moving_rig(f, moving(), t_s=moving().stream.t_s[:1], H_OP=moving().stream.H_OP[:1]),
+        4,
+        "no clock offset at which",
+        "recordings of the same minutes",
+    ),
     "three views": Refused(lambda f: image_rig(f, static(3), static(3).H_OP), 4, "3 views", "take more"),
     "a csv cut in mid-line": Refused(cut_in_mid_line, 3, "cells", "is the file cut off? export it again"),
     "a body that is not there": Refused(lambda f: motive_rig(f, "LightPanel"), 6, "no body LightPanel", "Wand, Panel"),

@@ -79,6 +79,8 @@ def offset_candidates(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> list[
     DegenerateError
         Fewer than two views.
     """
+    if len(track.t_s) < 2:
+        return []
     scan = _Scan.of(track, t_camera_s, H_CB)
     lags = _lags(*_range(track, t_camera_s))
     costs = scan.costs(lags, SOME_PAIRS)
