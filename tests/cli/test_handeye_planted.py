@@ -201,7 +201,7 @@ REFUSED = {
         lambda f: moving_rig(f, moving(), t_s=moving().stream.t_s[:1], H_OP=moving().stream.H_OP[:1]),
         4,
         "no clock offset at which",
-        "recordings of the same minutes",
+        "a third of the views",
     ),
     "three views": Refused(lambda f: image_rig(f, static(3), static(3).H_OP), 4, "3 views", "take more"),
     "a csv cut in mid-line": Refused(cut_in_mid_line, 3, "cells", "is the file cut off? export it again"),
