@@ -119,15 +119,14 @@ def _integrated(
     run: Callable[..., None], grid: Grid, step: Array, sigma: Array, own: Own, start: Array, strengths: Sequence[float], *, fresh: bool
 ) -> tuple[Array, Array]:
     """`integrate` by its kernel."""
-    finest, (sizes, parents, stretches, band) = grid.pyramid.levels[0], grid.pyramid.laid_out
+    finest, (sizes, cells, stretches) = grid.pyramid.levels[0], grid.pyramid.laid_out
     by_pixel = [np.stack(finest.by_pixel(one)) for one in (step, sigma)]
     u, weight = np.array(start, float), np.empty_like(by_pixel[0])
-    work, singles = grid.pyramid.work_space(7)
+    work_space = grid.pyramid.work_space(7)
     given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
     robustly = (multigrid.PRECISION, OUTLIER, SPREAD, NEXT_TO_NOTHING)
-    way = (multigrid.MOST, *multigrid.SMOOTHING, multigrid.OVER_CORRECTION, lambert.SINGULAR)
-    levels = (len(sizes), sizes, parents, stretches)
-    run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, work, singles, band, *way)
+    levels, way = (len(sizes), sizes, cells, stretches), (multigrid.MOST, grid.pyramid.way)
+    run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, *work_space, *way)
     first = finest.to_the_right
     return u, np.concatenate([weight[0, grid.a[:first]], weight[1, grid.a[first:]]])
 

@@ -1,9 +1,10 @@
 """Sparse symmetric positive systems on the pixels of a mask, by conjugate gradients with a multigrid preconditioner.
 
-Unknowns sit on pixels, weights between neighbours; a coarse unknown is the sum of those in 2x2 pixels (aggregation, Galerkin products),
-which again are linked to their neighbours alone: the mask's outline and weak links between pixels are known on every level, and no matrix
-is ever stored. Sources: Notay 2010, Electronic Transactions on Numerical Analysis 37 (aggregation multigrid); Braess 1995, Computing 55
-(over-correction).
+Unknowns sit on pixels, weights between neighbours; a coarse unknown is the sum of those in 2x2 pixels that hold together (aggregation,
+Galerkin products), which again are linked to their neighbours alone: the mask's outline and breaks between pixels are known on every level.
+An aggregate over a break would tie two depths together: it took 200 to 350 cycles where these take 35. Sources: Notay 2010, Electronic
+Transactions on Numerical Analysis 37 (aggregation multigrid); Stüben 2001, J. Computational and Applied Mathematics 128 (strength of
+coupling); Braess 1995, Computing 55 (over-correction).
 """
 
 from __future__ import annotations
@@ -17,19 +18,26 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.lambert import SINGULAR
-from lpcal.kernels.library import kernel
+from lpcal.kernels.library import LINKS, kernel
 from lpcal.view.sight import Indices
 
 COARSEST = 200
 """Unknowns from which on a level is not made coarser, but solved directly."""
 LARGEST = 4 * COARSEST
 """Unknowns of a level that cannot be made coarser, as nothing in it touches, beyond which it is not solved directly."""
+FEWEST = COARSEST // 12
+"""Coarse pixels from which on none coarser are made: in each may be several unknowns, which breaks hold apart."""
+STRONG = 0.2
+"""Least weight of an edge that holds an aggregate together, as a share of the largest weight of either of its ends; .06 takes a tenth more
+cycles."""
 SMOOTHING = (1.39, 0.562)
 """Shares of the two Jacobi steps that smooth: reciprocal roots of the polynomial that is least over the matrix's upper eigenvalues, .5 to 2
 relative to its diagonal (Chebyshev). Two equal steps of .7 take a sixth more cycles."""
-PRECISION, MOST = 1e-8, 1000
-"""Relative residual that a solve ends at, and steps of the conjugate gradients at most, which systems of many breaks take. The slope and
-the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves them to where the solve began, and to rounding."""
+PRECISION = 1e-8
+"""Relative residual that a solve ends at. The slope and the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves
+them to where the solve began, and to rounding."""
+MOST = LARGEST
+"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60."""
 OVER_CORRECTION = 1.6
 """Factor of what a coarser level says: sums over pixels see steps between them too steep."""
 
@@ -44,13 +52,13 @@ class PixelLevel:
     """Their right and lower pixels."""
     to_the_right: int
     """How many edges lead to the right."""
-    parent: npt.NDArray[np.int32]
-    """Number of each pixel's own on the next coarser level; at the coarsest 0."""
+    cell: npt.NDArray[np.int32]
+    """Coarse pixel that each pixel lies in, by its number on the next level; at the coarsest 0."""
 
     @property
     def pixels(self) -> int:
         """How many there are."""
-        return len(self.parent)
+        return len(self.cell)
 
     @cached_property
     def stretches(self) -> npt.NDArray[np.int32]:
@@ -79,7 +87,7 @@ class PixelLevel:
 
 @dataclass(frozen=True)
 class Pyramid:
-    """Pixels, and those that 2x2 of them make, down to COARSEST."""
+    """Pixels, and those that 2x2 of them make, down to COARSEST, or where there is more than one level to FEWEST."""
 
     levels: tuple[PixelLevel, ...]
 
@@ -94,30 +102,43 @@ class Pyramid:
             half = np.zeros((rows.max() // 2 + 1, columns.max() // 2 + 1), bool)
             half[rows // 2, columns // 2] = True
             coarse = np.nonzero(half)
-            last = len(rows) <= COARSEST or len(coarse[0]) == len(rows)
+            last = len(rows) <= (FEWEST if found else COARSEST) or len(coarse[0]) == len(rows)
             numbered = np.cumsum(half).reshape(half.shape) - 1
-            parent = np.zeros(len(rows), np.int32) if last else numbered[rows // 2, columns // 2].astype(np.int32)
+            cell = np.zeros(len(rows), np.int32) if last else numbered[rows // 2, columns // 2].astype(np.int32)
             left, right, upper, lower = number[:, :-1], number[:, 1:], number[:-1], number[1:]
             across, down = (left >= 0) & (right >= 0), (upper >= 0) & (lower >= 0)
             a, b = np.concatenate([left[across], upper[down]]), np.concatenate([right[across], lower[down]])
-            found.append(PixelLevel(a, b, int(across.sum()), parent))
+            found.append(PixelLevel(a, b, int(across.sum()), cell))
             if last:
                 return Pyramid(tuple(found))
             rows, columns = coarse
 
     @cached_property
-    def laid_out(self) -> tuple[Indices, npt.NDArray[np.int32], npt.NDArray[np.int32], int]:
-        """The levels one behind the other: sizes, parents, stretches, and how far apart neighbours of the coarsest are numbered."""
-        levels, last = self.levels, self.levels[-1]
-        sizes = np.array([(one.pixels, len(one.stretches)) for one in levels], np.int64)
-        parents, stretches = (np.concatenate([getattr(one, name) for one in levels]) for name in ("parent", "stretches"))
-        return sizes, parents, stretches, int(np.max(last.b - last.a, initial=0)) if last.pixels <= LARGEST else -1
+    def laid_out(self) -> tuple[Indices, npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+        """The levels one behind the other: sizes, cells, stretches."""
+        sizes = np.array([(one.pixels, len(one.stretches)) for one in self.levels], np.int64)
+        cells, stretches = (np.concatenate([getattr(one, name) for one in self.levels]) for name in ("cell", "stretches"))
+        return sizes, cells, stretches
 
-    def work_space(self, more: int = 0) -> tuple[Array, npt.NDArray[np.float32]]:
-        """Zeros in which the kernels solve a matrix, and `more` times the pixels plus two of them."""
-        sizes, *_, band = self.laid_out
-        work = np.zeros((8 + more) * (sizes[0, 0] + 2) + (max(band, 0) + 2) * sizes[-1, 0])
-        return work, np.zeros(9 * np.sum(sizes[:, 0] + 2), np.float32)
+    @cached_property
+    def room(self) -> int:
+        """Unknowns behind the coarse pixels that the kernels have room for on each level."""
+        return self.levels[1].pixels if len(self.levels) > 1 else 0
+
+    @cached_property
+    def way(self) -> Array:
+        """How the kernels solve (7,)."""
+        largest = min(LARGEST, self.levels[0].pixels + self.room)
+        return np.array([*SMOOTHING, OVER_CORRECTION, STRONG, SINGULAR, COARSEST, largest])
+
+    def work_space(self, more: int = 0) -> tuple[Array, npt.NDArray[np.float32], npt.NDArray[np.int32]]:
+        """Room in which the kernels solve a matrix, and `more` times the pixels plus two; what they do not use costs no memory."""
+        pixels, coarser, largest = self.levels[0].pixels, len(self.levels) - 1, int(self.way[-1])
+        parts = sum(one.pixels for one in self.levels) + coarser * self.room
+        doubles = (8 + more) * (pixels + 2) + largest + largest * (largest + 1) // 2
+        whole = parts + coarser + 1 + (1 + 3 * LINKS) * coarser * self.room + 3 * largest + 1 + 3 * (pixels + self.room)
+        table = 4 * LINKS * self.room
+        return np.empty(doubles), np.empty(9 * (parts + 2 * coarser + 2), np.float32), np.empty(whole + table, np.int32)
 
 
 @dataclass(frozen=True)
@@ -151,11 +172,10 @@ def solve(A: Matrix, right: Array, start: Array, *, precision: float = PRECISION
     """x (P,) with ``A x = right``, from `start`, to a residual of `precision` times that of the start's mean everywhere."""
     enough = precision * float(np.linalg.norm(right - start.mean() * A.hold) + 1e-300)
     if run := kernel("multigrid"):
-        sizes, parents, stretches, band = A.pyramid.laid_out
+        sizes, cells, stretches = A.pyramid.laid_out
         across, down = A.pyramid.levels[0].by_pixel(A.weight)
-        x, work, singles = np.array(start, float), *A.pyramid.work_space()
-        given = (np.ascontiguousarray(one, float) for one in (A.hold, across, down, right))
-        run(len(sizes), sizes, parents, stretches, *given, x, work, singles, band, enough, most, *SMOOTHING, OVER_CORRECTION, SINGULAR)
+        x, given = np.array(start, float), (np.ascontiguousarray(one, float) for one in (A.hold, across, down, right))
+        run(len(sizes), sizes, cells, stretches, *given, x, *A.pyramid.work_space(), enough, most, A.pyramid.way)
         return x
     levels = _levels(A)
     coarsest = _factor(levels[-1][0]) if levels[-1][0].shape[0] <= LARGEST else None
@@ -180,12 +200,37 @@ def _levels(A: Matrix) -> list[tuple[Any, Array, Any]]:
     """Matrix, inverse of its diagonal and prolongation from the next coarser level, of each; None is the coarsest's prolongation."""
     from scipy import sparse
 
-    levels, now = [], A.sparse()
-    for fine, coarse in zip(A.pyramid.levels, A.pyramid.levels[1:], strict=False):
-        P = sparse.csr_array((np.ones(fine.pixels), (np.arange(fine.pixels), fine.parent)), shape=(fine.pixels, coarse.pixels))
+    levels, now, home = [], A.sparse(), np.arange(len(A.hold))
+    for fine in A.pyramid.levels[:-1]:
+        if len(home) <= COARSEST:
+            break
+        cell = fine.cell[home]
+        part, count = _held_together(now, cell)
+        P = sparse.csr_array((np.ones(len(home)), (np.arange(len(home)), part)), shape=(len(home), count))
         levels.append((now, 1 / now.diagonal(), P))
         now = (P.T @ (now @ P)).tocsr()
+        home = np.zeros(count, np.int64)
+        home[part] = cell
     return [*levels, (now, 1 / now.diagonal(), None)]
+
+
+def _held_together(A: Any, cell: npt.NDArray[np.int32]) -> tuple[npt.NDArray[np.int32], int]:
+    """A number for each unknown's aggregate, and how many: what strong edges join within a cell."""
+    from scipy import sparse
+    from scipy.sparse.csgraph import connected_components
+
+    edges = A.tocoo()
+    off = edges.row != edges.col
+    a, b, weight = edges.row[off], edges.col[off], -edges.data[off]
+    most = np.zeros(len(cell))
+    np.maximum.at(most, a, weight)
+    within = (cell[a] == cell[b]) & (weight > 0)
+    strong = within & (weight >= STRONG * np.maximum(most[a], most[b]))
+    _, part = connected_components(sparse.coo_array((weight[strong], (a[strong], b[strong])), shape=A.shape), directed=False)
+    lone = (np.bincount(part) == 1)[part]
+    strong |= within & ((lone[a] & (weight >= most[a])) | (lone[b] & (weight >= most[b])))
+    count, part = connected_components(sparse.coo_array((weight[strong], (a[strong], b[strong])), shape=A.shape), directed=False)
+    return part, int(count)
 
 
 def _factor(A: Any) -> Any:

@@ -21,6 +21,8 @@ WIDE = "-avx2"
 """What the name of the library for x86 processors with vectors of four doubles has besides: same sources, same operations, same bytes."""
 LANES = 4
 """Doubles that kernels work on together (kernel.h); arrays that are to have a multiple of so many in a row are filled up with zeros."""
+LINKS = 6
+"""Links that multigrid's levels have room for, an unknown behind the pixels (multigrid.h)."""
 SWITCH = "LPCAL_KERNELS"
 """Environment variable: `numpy` leaves the library alone and lets the twins do all the work."""
 
@@ -43,7 +45,7 @@ SIGNATURES = {
     "free": "i i f f b f s f i f f",
     "gathered": "i i i f f i f f f b i b f f f i i f f",
     "hidden": "i f f i i i f f d d b",
-    "integrated": "i n m m f f f f i i f d d d d f f f s i i d d d d",
+    "integrated": "i n m m f f f f i i f d d d d f f f s m i f",
     "joined": "i i i i i f f f f",
     "joined_singles": "i i i i i f f s s",
     "labelled": "i i b m m m",
@@ -61,7 +63,7 @@ SIGNATURES = {
     "received": "i i i f f f f f f f i i f f i d d d d i i",
     "moved": "i i s n d f f",
     "misfit": "i i f f b f i f f f",
-    "multigrid": "i n m m f f f f f f s i d i d d d d",
+    "multigrid": "i n m m f f f f f f s m d i f",
     "ring": "i i i s f f f i f f",
     "room_free": "i i f f b f s f d f i f f f f",
     "room_planar": "i i f f b f s f d f i f f b f",

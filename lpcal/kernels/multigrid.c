@@ -1,40 +1,10 @@
 /* Conjugate gradients with a multigrid preconditioner on the pixels of a mask. Twin: integration/multigrid.py.
 
-   A level's matrix is that of its pixels' neighbours: pixels are numbered row by row, so the right neighbour of one is the next, and those
-   above and below lie side by side along stretches of a row. Nothing but weights is stored, and every inner loop goes straight through
-   memory. The cycle's numbers are singles: it only says where to look next, the conjugate gradients decide in doubles. Levels from fine to
-   coarse lie one behind the other; vectors have a number more at both ends. */
+   The finest matrix is that of neighbouring pixels (multigrid.h); levels are made by aggregates.c. Nothing but weights is stored, and every
+   inner loop goes straight through memory. The cycle's numbers are singles: it only says where to look next, the conjugate gradients decide
+   in doubles. */
 
-#include "kernel.h"
-
-typedef float real;
-
-typedef struct {
-    int64_t pixels, stretches;
-    const int32_t *parent;  /* of each pixel, on the next coarser level */
-    const int32_t *stretch; /* (stretches, 4): first pixel, how many, the first one above and below them; their own first where none is */
-} Shape;
-
-typedef struct {
-    Shape shape;
-    real *across, *up, *down, *hold, *diagonal, *inverse; /* weights to the next pixel, to those above and below; 1 over the diagonal */
-    real *x, *y, *right;
-} Level;
-
-/* How the equations are solved. */
-typedef struct {
-    double first, second, over, rounding; /* shares of the two steps that smooth, factor of what a coarser level says, raise of its diagonal */
-    int64_t most;                         /* steps of the conjugate gradients */
-} Way;
-
-typedef struct {
-    Level level[64];
-    int64_t last, band;
-    double *factor; /* banded Cholesky factor of the coarsest matrix (pixels, band + 1), the diagonal last */
-    bool direct;    /* whether there is one; else the diagonal stands for the coarsest matrix */
-    Way way;
-    double *across, *up, *down, *diagonal, *image, *residual, *direction, *guess, *scratch; /* of the finest, in doubles */
-} Grid;
+#include "multigrid.h"
 
 /* Sums are always made in the same eight lanes. */
 static double sum_of(const double lane[8]) { return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7])); }
@@ -93,95 +63,12 @@ static void swept(const Level *at, const real *x, const real *right, real *restr
                 to[k] = (given[k] + around) - diagonal[k] * here[k];
             }
     }
-}
-
-/* Weights of edges upwards by those downwards. */
-static void upwards(Shape shape, const real *down, real *up) {
-    memset(up, 0, (size_t)shape.pixels * sizeof *up);
-    for (int64_t s = 0; s < shape.stretches; s++) {
-        const int32_t *at = shape.stretch + 4 * s;
-        if (at[3] != at[0])
-            for (int64_t k = 0; k < at[1]; k++) up[at[3] + k] = down[at[0] + k];
-    }
-}
-
-static void diagonals(const Level *at) {
-    for (int64_t i = 0; i < at->shape.pixels; i++) {
-        at->diagonal[i] = at->hold[i] + ((at->across[i] + at->across[i - 1]) + (at->up[i] + at->down[i]));
-        at->inverse[i] = 1 / at->diagonal[i];
-    }
-}
-
-/* The coarser level's weights: those of edges between its pixels, and what holds these, summed (P' A P). */
-static void joined(const Level *fine, Level *coarse) {
-    size_t bytes = (size_t)coarse->shape.pixels * sizeof(real);
-    memset(coarse->hold, 0, bytes);
-    memset(coarse->across, 0, bytes);
-    memset(coarse->down, 0, bytes);
-    const int32_t *parent = fine->shape.parent;
-    for (int64_t s = 0; s < fine->shape.stretches; s++) {
-        const int32_t *at = fine->shape.stretch + 4 * s;
-        for (int64_t i = at[0]; i < at[0] + at[1]; i++) {
-            int32_t own = parent[i];
-            coarse->hold[own] += fine->hold[i];
-            if (fine->across[i] > 0 && parent[i + 1] != own) coarse->across[own] += fine->across[i];
-            if (at[3] != at[0] && parent[at[3] + i - at[0]] != own) coarse->down[own] += fine->down[i];
-        }
-    }
-    upwards(coarse->shape, coarse->down, coarse->up);
-}
-
-/* The factor of the coarsest matrix; false where it is singular to rounding. */
-static bool factored(const Level *at, double *factor, int64_t band, double rounding) {
-    int64_t n = at->shape.pixels, width = band + 1;
-    memset(factor, 0, (size_t)(n * width) * sizeof(double));
-    for (int64_t i = 0; i < n; i++) {
-        double edges = ((double)at->across[i] + (double)at->across[i - 1]) + ((double)at->up[i] + (double)at->down[i]);
-        factor[i * width + band] = (at->hold[i] + edges) * (1 + rounding);
-        if (i && band) factor[i * width + band - 1] = -at->across[i - 1];
-    }
-    for (int64_t s = 0; s < at->shape.stretches; s++) {
-        const int32_t *stretch = at->shape.stretch + 4 * s;
-        int64_t apart = stretch[3] - stretch[0];
-        for (int64_t k = 0; apart && k < stretch[1]; k++) factor[(stretch[3] + k) * width + band - apart] -= at->down[stretch[0] + k];
-    }
-    for (int64_t i = 0; i < n; i++) {
-        double *row = factor + i * width;
-        int64_t from = i < band ? 0 : i - band;
-        for (int64_t j = from; j <= i; j++) {
-            const double *other = factor + j * width;
-            double sum = row[band - (i - j)];
-            for (int64_t k = j - band > from ? j - band : from; k < j; k++) sum -= row[band - (i - k)] * other[band - (j - k)];
-            if (j < i)
-                row[band - (i - j)] = sum / other[band];
-            else if (!(sum > 0.0))
-                return false;
-            else
-                row[band] = sqrt(sum);
-        }
-    }
-    return true;
-}
-
-static void coarsest(const Grid *grid) {
-    const Level *at = grid->level + grid->last;
-    int64_t n = at->shape.pixels, band = grid->band, width = band + 1;
-    double *x = grid->scratch;
-    if (!grid->direct) {
-        for (int64_t i = 0; i < n; i++) at->x[i] = at->right[i] / at->diagonal[i];
-        return;
-    }
-    for (int64_t i = 0; i < n; i++) {
-        const double *row = grid->factor + i * width;
-        double sum = at->right[i];
-        for (int64_t j = i < band ? 0 : i - band; j < i; j++) sum -= row[band - (i - j)] * x[j];
-        x[i] = sum / row[band];
-    }
-    for (int64_t i = n - 1; i >= 0; i--) {
-        const double *row = grid->factor + i * width;
-        x[i] /= row[band];
-        for (int64_t j = i < band ? 0 : i - band; j < i; j++) x[j] -= row[band - (i - j)] * x[i];
-        at->x[i] = (real)x[i];
+    for (int64_t i = at->shape.pixels; i < at->parts; i++)
+        y[i] = share != 0 ? keep * x[i] + share * at->inverse[i] * right[i] : right[i] - at->diagonal[i] * x[i];
+    for (const Link *link = at->link; link < at->link + at->links; link++) {
+        real to_a = link->weight * x[link->b], to_b = link->weight * x[link->a];
+        y[link->a] += share != 0 ? share * at->inverse[link->a] * to_a : to_a;
+        y[link->b] += share != 0 ? share * at->inverse[link->b] * to_b : to_b;
     }
 }
 
@@ -189,68 +76,22 @@ static void coarsest(const Grid *grid) {
 static void cycle(const Grid *grid, int64_t depth) {
     const Level *at = grid->level + depth;
     if (depth == grid->last) {
-        coarsest(grid);
+        solved_directly(grid);
         return;
     }
     const Level *under = at + 1;
-    const int32_t *parent = at->shape.parent;
-    int64_t n = at->shape.pixels;
+    const int32_t *parent = at->parent;
+    int64_t n = at->parts;
     real first = (real)grid->way.first, second = (real)grid->way.second, over = (real)grid->way.over;
     for (int64_t i = 0; i < n; i++) at->y[i] = first * at->inverse[i] * at->right[i];
     swept(at, at->y, at->right, at->x, second);
     swept(at, at->x, at->right, at->y, 0);
-    memset(under->right, 0, (size_t)under->shape.pixels * sizeof(real));
+    memset(under->right, 0, (size_t)under->parts * sizeof(real));
     for (int64_t i = 0; i < n; i++) under->right[parent[i]] += at->y[i];
     cycle(grid, depth + 1);
     for (int64_t i = 0; i < n; i++) at->x[i] += over * under->x[parent[i]];
     swept(at, at->x, at->right, at->y, second);
     swept(at, at->y, at->right, at->x, first);
-}
-
-/* Divides the work space among the levels: `work` of zeros, eight times the finest's pixels plus two, and (band + 2) times the coarsest's;
-   `singles` likewise, nine times the pixels plus two of all levels. `sizes` (levels, 2) are pixels and stretches of each. */
-static void laid_out(Grid *grid, int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, double *work,
-                     real *singles, int64_t band, Way way) {
-    double **of[8] = {&grid->across, &grid->up, &grid->down, &grid->diagonal, &grid->image, &grid->residual, &grid->direction, &grid->guess};
-    for (int k = 0; k < 8; k++, work += sizes[0] + 2) *of[k] = work + 1;
-    for (int64_t l = 0; l < levels; l++) {
-        int64_t pixels = sizes[2 * l];
-        real *own[9];
-        for (int k = 0; k < 9; k++, singles += pixels + 2) own[k] = singles + 1;
-        Shape shape = {pixels, sizes[2 * l + 1], parents, stretches};
-        grid->level[l] = (Level){shape, own[0], own[1], own[2], own[3], own[4], own[5], own[6], own[7], own[8]};
-        parents += pixels;
-        stretches += 4 * shape.stretches;
-    }
-    grid->last = levels - 1;
-    grid->band = band;
-    grid->scratch = work;
-    grid->factor = work + sizes[2 * levels - 2];
-    grid->way = way;
-}
-
-/* The equations whose weights are in the grid's `across` and `down`, with `hold` on the diagonal besides, on every level. */
-static void set_up(Grid *grid, const double *hold) {
-    Level *finest = grid->level;
-    Shape shape = finest->shape;
-    for (int64_t s = 0; s < shape.stretches; s++) {
-        const int32_t *at = shape.stretch + 4 * s;
-        if (at[3] != at[0])
-            for (int64_t k = 0; k < at[1]; k++) grid->up[at[3] + k] = grid->down[at[0] + k];
-    }
-    for (int64_t i = 0; i < shape.pixels; i++) {
-        grid->diagonal[i] = hold[i] + ((grid->across[i] + grid->across[i - 1]) + (grid->up[i] + grid->down[i]));
-        finest->hold[i] = (real)hold[i];
-        finest->across[i] = (real)grid->across[i];
-        finest->down[i] = (real)grid->down[i];
-    }
-    upwards(shape, finest->down, finest->up);
-    diagonals(finest);
-    for (Level *level = finest + 1; level <= finest + grid->last; level++) {
-        joined(level - 1, level);
-        diagonals(level);
-    }
-    grid->direct = grid->band >= 0 && factored(finest + grid->last, grid->factor, grid->band, grid->way.rounding);
 }
 
 /* From the grid's guess to a residual no longer than `enough`. */
@@ -287,14 +128,14 @@ static void improved(Grid *grid, const double *right, double enough) {
     }
 }
 
-/* x of A x = right, from x, until the residual is no longer than `enough`. `across` and `down` (pixels) are the finest's weights, `band` is how
-   far apart neighbours of the coarsest are numbered at most, -1 where there are too many; the rest as `laid_out` has it. */
-KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *hold,
+/* x of A x = right, from x, until the residual is no longer than `enough`. `across` and `down` (pixels) are the finest's weights; the rest as
+   `laid_out` has it. */
+KERNEL void lpcal_multigrid(int64_t levels, const int64_t *sizes, const int32_t *cells, const int32_t *stretches, const double *hold,
                             const double *across, const double *down, const double *right, double *x, double *work, float *singles,
-                            int64_t band, double enough, int64_t most, double first, double second, double over, double rounding) {
+                            int32_t *whole, double enough, int64_t most, const double *way) {
     Grid grid;
     size_t bytes = (size_t)sizes[0] * sizeof *x;
-    laid_out(&grid, levels, sizes, parents, stretches, work, singles, band, (Way){first, second, over, rounding, most});
+    laid_out(&grid, levels, sizes, cells, stretches, work, singles, whole, most, way);
     memcpy(grid.across, across, bytes);
     memcpy(grid.down, down, bytes);
     memcpy(grid.guess, x, bytes);
@@ -363,16 +204,16 @@ static void weighed(const Edges *edges, Shape shape, const double *x, double rob
 /* Depth x (pixels) whose differences keep steps by their sigmas (0: no edge), robustly, tied to each pixel's optimum by its curvature times
    strengths in turn; and the last weights of the edges, one where they are `fresh`, else by x. All edges are given at their first pixels, those
    to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: integration/integrate.py (integrate). */
-KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *parents, const int32_t *stretches, const double *step,
+KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *cells, const int32_t *stretches, const double *step,
                              const double *sigma, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
                              const double *strength, double precision, double robust, double spread, double least, double *x,
-                             double *weight, double *work, float *singles, int64_t band, int64_t most, double first, double second,
-                             double over, double rounding) {
+                             double *weight, double *work, float *singles, int32_t *whole, int64_t most, const double *way) {
     Grid grid;
     int64_t n = sizes[0], room = n + 2;
     Edges edges = {{step, step + n}, {work, work + room}, {weight, weight + n}, work + 2 * room};
     double *pull[2] = {work + 4 * room + 1, work + 5 * room + 1}, *right = work + 6 * room;
-    laid_out(&grid, levels, sizes, parents, stretches, work + 7 * room, singles, band, (Way){first, second, over, rounding, most});
+    laid_out(&grid, levels, sizes, cells, stretches, work + 7 * room, singles, whole, most, way);
+    pull[0][-1] = 0.0;
     Shape shape = grid.level->shape;
     for (int way = 0; way < 2; way++)
         for (int64_t i = 0; i < n; i++) {

@@ -12,6 +12,7 @@ from lpcal.geometry import lambert
 from lpcal.integration import multigrid, pieces
 from lpcal.integration.integrate import Grid, Own, integrate, settle, steps, system
 from lpcal.integration.multigrid import Matrix
+from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
 from lpcal.surface import self_calibration
@@ -55,6 +56,21 @@ def test_multigrid_solves_what_a_direct_solver_does() -> None:
     assert np.allclose(A.times(exact), right, atol=1e-6)
     found = multigrid.solve(A, right, start, precision=1e-10, most=400)
     assert np.linalg.norm(found - exact) < 1e-5 * np.linalg.norm(exact)
+
+
+@pytest.mark.parametrize("by", ["compiled", "numpy"])
+def test_breaks_cost_no_cycles(by: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Aggregates that lie over a break tie both of its sides together: that takes 100 cycles and more, and these 20."""
+    if by == "numpy":
+        monkeypatch.setenv(SWITCH, "numpy")
+    row, column = np.indices((120, 120))
+    side = (column > 60 + 12 * np.sin(row / 9)).astype(int) + 2 * (row > 60 + 12 * np.sin(column / 7))
+    grid = Grid.of(np.ones((120, 120), bool))
+    weight = np.where(side[grid.rows[grid.a], grid.columns[grid.a]] == side[grid.rows[grid.b], grid.columns[grid.b]], 1.0, 1e-7)
+    right = np.random.default_rng(5).normal(size=len(grid.rows))
+    A = Matrix(grid.pyramid, np.full(len(right), 1e-6), weight)
+    found = multigrid.solve(A, right, np.zeros(len(right)), most=40)
+    assert np.linalg.norm(right - A.times(found)) < 2 * multigrid.PRECISION * np.linalg.norm(right)
 
 
 def sphere_cap(mask: np.ndarray, focal: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
