@@ -193,20 +193,29 @@ def _worst(values: Sequence[float] | Array) -> float:
 
 
 def _surface(surface: SurfaceReport) -> Verdict:
-    pieces, metric = surface.summary.components, surface.summary.metric
-    spread = [100 * piece.scale_std for piece in pieces if metric and np.isfinite(piece.scale_std)]
+    """The line of a surface: its level is that of most of its pixels, and no better than fair where a smaller piece is less sure."""
+    summary = surface.summary
+    pieces = summary.components
+    known = [piece for piece in pieces if summary.metric and np.isfinite(piece.scale_std)]
+    levels = [_level((100 * piece.scale_std, "surface_percent")) for piece in known]
     pixels = sum(piece.pixels for piece in pieces)
     found = f"{grouped(pixels)} pixels in {plural(len(pieces), 'piece')}" if pieces else "a surface"
-    measured = (max(spread, default=float("nan")), "surface_percent")
-    if spread and np.isfinite(depth := pieces[0].mean_depth_m):
-        found += f", {with_sigma(1000 * depth, 10 * spread[0] * depth, 'mm')} away ({fixed(spread[0], 1, '%')})"
-    level = _level(measured)
-    unsure = [
-        piece
-        for piece in pieces[1:]
-        if metric and np.isfinite(piece.scale_std) and _level((100 * piece.scale_std, "surface_percent")) == level
-    ]
-    if level not in {"good", "none"} and unsure:
+    if not known:
+        return Verdict("surface", surface.name, "none", found)
+    if known[0] is pieces[0] and np.isfinite(depth := pieces[0].mean_depth_m):
+        spread = 100 * pieces[0].scale_std
+        found += f", {with_sigma(1000 * depth, 10 * spread * depth, 'mm')} away ({fixed(spread, 1, '%')})"
+    level = _of_most(levels, [piece.pixels for piece in known])
+    unsure = [piece for piece, one in zip(known, levels, strict=True) if one != "good" and piece is not pieces[0]]
+    if unsure:
+        level = "fair" if level == "good" else level
         worst = max(unsure, key=lambda piece: piece.scale_std)
         found += f"; its piece {worst.label} of {grouped(worst.pixels)} pixels is known to {fixed(100 * worst.scale_std, 1, '%')} only"
-    return Verdict("surface", surface.name, level, found, _gate(measured))
+    return Verdict("surface", surface.name, level, found, _gate((0.0, "surface_percent")))
+
+
+def _of_most(levels: Sequence[Tone], pixels: Sequence[int]) -> Tone:
+    """The best level that pieces with half of all pixels reach."""
+    order = sorted(zip(levels, pixels, strict=True), key=lambda one: LEVELS.index(one[0]))
+    reached = np.cumsum([count for _, count in order])
+    return order[int(np.searchsorted(reached, reached[-1] / 2))][0]

@@ -223,6 +223,17 @@ def test_a_piece_that_fails_the_gate_is_named() -> None:
     odd = replace(whole, summary=replace(whole.summary, components=(*whole.summary.components, small)))
     line = next(one for one in verdicts(report_of({}, odd)) if one.title == "bust")
     assert "its piece 3 of 1007 pixels is known to 8.5 % only" in plain(line.found).replace("\N{NARROW NO-BREAK SPACE}", "")
+    assert line.tone == "fair", "most of the surface is sure"
+
+
+def test_a_surface_fails_the_gate_where_most_of_it_does() -> None:
+    whole = surface()
+    first = whole.summary.components[0]
+    large = replace(first, label=2, pixels=first.pixels, scale_std=0.085)
+    pieces = (replace(first, scale_std=0.07, pixels=first.pixels + 1), large)
+    odd = replace(whole, summary=replace(whole.summary, components=pieces))
+    line = next(one for one in verdicts(report_of({}, odd)) if one.title == "bust")
+    assert line.tone == "poor"
 
 
 def luminance(colour: str) -> float:
