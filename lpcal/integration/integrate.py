@@ -107,11 +107,11 @@ def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, 
     if run := kernel("integrated"):
         return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
     u = start
-    weight = np.ones(len(grid.a)) if graduated else _weight(grid, u, step, sigma)
+    weight = np.ones(len(grid.a)) if graduated else weights_of(grid, u, step, sigma)
     for strength in strengths:
         A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
         u = multigrid.solve(A, right, u)
-        weight = _weight(grid, u, step, sigma)
+        weight = weights_of(grid, u, step, sigma)
     return u, weight
 
 
@@ -144,7 +144,7 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
     return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))
 
 
-def _weight(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
+def weights_of(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     """Weight of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
     scale = max(OUTLIER, SPREAD * float(np.median(np.abs(residual))))

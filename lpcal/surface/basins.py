@@ -180,14 +180,28 @@ def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     some = some[:: max(1, len(some) // MANY_PIXELS)]
     few, begin = seen.at(some), u[some]
     cost = np.array([_cost_of(few, lights, begin + shift, None if thrown is None else thrown[:, some]) for shift in PIECE_SWEEP])
-    away = float(np.median(begin)) + PIECE_SWEEP - main
-    energy = INDEPENDENT * cost / 2 / max(float(cost.min()) / len(lights), 1.0) + np.log1p((away / WORKING) ** 2)
+    energy = _energy(cost, float(np.median(begin)) + PIECE_SWEEP - main, len(lights))
     least = np.flatnonzero(np.r_[True, energy[1:] < energy[:-1]] & np.r_[energy[:-1] <= energy[1:], True])
     least = least[np.argsort(energy[least], kind="stable")]
     odds = np.exp(energy[least[0]] - energy[least])
     at = np.array([_vertex(energy, int(k)) for k in least])
     weight = np.exp(energy[least[0]] - energy) * (np.abs(PIECE_SWEEP[:, None] - at).argmin(axis=1) == 0)
     return PieceEnds(at, odds / odds.sum(), float(np.sqrt(np.average((PIECE_SWEEP - at[0]) ** 2, weights=weight))))
+
+
+def against(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, shift: float, main: float) -> float:
+    """By how much more energy (`of_piece`) a piece `inside` (P,) has when its log depths u (P,) are changed by `shift`."""
+    some = np.flatnonzero(inside)
+    some = some[:: max(1, len(some) // MANY_PIXELS)]
+    few, parts, moves = seen.at(some), None if thrown is None else thrown[:, some], np.array([0.0, shift])
+    cost = np.array([_cost_of(few, lights, u[some] + move, parts) for move in moves])
+    here, there = _energy(cost, float(np.median(u[some])) + moves - main, len(lights))
+    return float(there - here)
+
+
+def _energy(cost: Array, away: Array, lights: int) -> Array:
+    """Minus the log odds, but for a constant, of distances of some cost, `away` from where an object is expected, in log depth."""
+    return np.asarray(INDEPENDENT * cost / 2 / max(float(cost.min()) / lights, 1.0) + np.log1p((away / WORKING) ** 2))
 
 
 def _vertex(energy: Array, k: int) -> float:

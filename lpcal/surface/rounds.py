@@ -23,7 +23,7 @@ from lpcal.shading import field, normals, palette
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
 from lpcal.shading.palette import Palette
-from lpcal.surface import basins, bounce, distance
+from lpcal.surface import basins, bounce, distance, seams
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -145,7 +145,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
         settled = _until_settled(scene, once(scene, begin, None, 0), 1, progress)
-        return _swept(scene, settled)
+        return _pieces_placed(scene, settled)
     held = None if scene.held is None else scene.held.in_blocks(blocks)
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
@@ -153,32 +153,33 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
         progress(f"{what} in coarse pixels", done, total)
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    settled = _swept(coarse, settled)
-    return _swept(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
+    settled = _pieces_placed(coarse, settled)
+    return _pieces_placed(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
 
 
-def _swept(scene: Scene, state: State) -> State:
-    """The state with its smaller pieces at the distances that their light supports, and one more round of normals where one has moved.
+def _pieces_placed(scene: Scene, state: State) -> State:
+    """The state with its smaller pieces where they belong, and one more round of normals where one has moved.
 
-    Rounds move a piece by what its pixels say of its neighbourhood, less where other parts' light is in doubt: a small one stays where it
-    broke off.
+    Seams that are not real are closed (surface.seams). The pieces of the others go to the distances that their light supports: rounds move
+    a piece by what its pixels say of its neighbourhood, less where other parts' light is in doubt, so a small one stays where it broke off.
     """
     label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
     if not scene.near or scene.distance_m is not None or scene.held is not None or label.max() == 1:
         return state
-    u, moved = state.u.copy(), []
-    for one in range(2, int(label.max()) + 1):
-        inside = label == one
-        ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, inside, float(np.median(u[label == 1])))
+    u, weight, joined = seams.closed(scene.seen, scene.grid, scene.lights, state, label)
+    moved = []
+    for one in np.unique(joined)[1:]:
+        inside = joined == one
+        ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, inside, float(np.median(u[joined == 1])))
         if abs(ends.shift[0]) > basins.APART:
             u[inside] += ends.shift[0]
             moved.append(inside)
-    if not moved:
+    if not moved and np.array_equal(joined, label):
         return state
-    again = once(scene, u, state)
+    again = once(scene, u, replace(state, weight=weight), breaks_known=True)
     for inside in moved:  # the round's own distance is what the sweep overrules
         again.u[inside] += np.median(u[inside]) - np.median(again.u[inside])
-    return replace(again, weight=state.weight, moved=state.moved)
+    return replace(again, moved=state.moved)
 
 
 def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
@@ -218,8 +219,10 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False, breaks_known: bool = False) -> State:
     """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
+
+    It breaks where the state before does, where these `breaks_known`.
 
     Raises
     ------
@@ -263,8 +266,11 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
     else:
         own = Own(np.full(seen.pixels, NEXT_TO_NOTHING), u)
-    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
-    weight = pieces.without_slivers(grid, weight, seen.mask)
+    if breaks_known and before is not None:
+        weight = before.weight
+    else:
+        u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
+        weight = pieces.without_slivers(grid, weight, seen.mask)
     if scene.near and shaped is None and scene.held is None:
         own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
     u = settle(grid, step, sigma, own, u, weight)
