@@ -26,7 +26,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
 from lpcal.records.surface import Alternative, Component, Surface
-from lpcal.surface.basins import INDEPENDENT, Basins, odds_of
+from lpcal.surface.basins import APART, INDEPENDENT, Basins, odds_of
 from lpcal.view.agreed import OUTLIER, RARE, STATED_STD, UNLIKELY
 
 REACH_M = 2.0
@@ -35,8 +35,6 @@ STEP_M = 5e-4
 """Steps of the search along the beam: less than a pixel's width on the object."""
 NODES = 1201
 """Nodes of the grid of scales."""
-COARSE_STD = 0.02
-"""Relative standard deviation of a distance that rounds in coarse pixels come to, within its basin."""
 SLOPE = 0.5
 """Tangent of the usual angle between the object's surface and the beam's cross-section: by it an error across the beam acts along it."""
 
@@ -120,7 +118,7 @@ def weighed(found: Basins | None, read: Reading | None, camera: Camera | None) -
     for end in found.ends:
         depth = np.full(found.mask.shape, np.nan)
         depth[found.mask] = np.exp(end.u)
-        said.append(word(read, DepthMap(depth, camera, found.factor), COARSE_STD).log_evidence)
+        said.append(word(read, DepthMap(depth, camera, found.factor), APART).log_evidence)
     less = 2 * unit * (max(said) - np.array(said))
     ends = [replace(end, cost=float(end.cost + more)) for end, more in zip(found.ends, less, strict=True)]
     odds = odds_of(ends, found.lights, found.about_m)

@@ -7,7 +7,7 @@ stand apart. So a seam is closed, the smaller piece put where both sides meet, i
 
 - one shift is enough: there the seam's median edge is whole, while the depth of a step that something hides differs along it;
 - the nearer side's normals do not turn away: ``-n . v > RIM`` at the median pixel of the seam; and
-- the energy of the piece's samples (surface.basins) there is less than CLOSED above that where it stands.
+- by the samples of the piece (surface.basins) this distance is not UNLIKELY, next to that where it stands: breaks without a rim are seldom.
 
 Source: Barrow and Tenenbaum 1978, Recovering Intrinsic Scene Characteristics from Images (the normal of a smooth body at its occluding
 contour is perpendicular to the line of sight).
@@ -26,6 +26,7 @@ from lpcal.integration.integrate import Grid, steps, weights_of
 from lpcal.integration.pieces import BREAK_WEIGHT, SLIVER_PX
 from lpcal.records.calibration import Light
 from lpcal.surface import basins
+from lpcal.view.agreed import UNLIKELY
 from lpcal.view.sight import Indices, Sight
 
 if TYPE_CHECKING:
@@ -34,9 +35,6 @@ if TYPE_CHECKING:
 RIM = 0.5
 """Cosine between a normal and the direction to the camera under which a seam's nearer side turns away: 60 degrees from it, where a ball of
 thirteen pixels across is a pixel from its outline."""
-CLOSED = 2.0
-"""Energy by which the light may speak against closing a seam that no turning away explains, natural logarithm of odds: breaks without a rim
-are seldom real."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def closed(seen: Sight, grid: Grid, lights: tuple[Light, ...], state: State, lab
         met = u - seam.jump * inside
         if np.median(weights_of(grid, met, step, sigma)[seam.edges]) <= BREAK_WEIGHT:
             continue
-        if basins.against(seen, lights, u, state.lit.thrown, inside, -seam.jump, float(np.median(u[label == 1]))) > CLOSED:
+        if basins.against(seen, lights, u, state.lit.thrown, inside, -seam.jump, float(np.median(u[label == 1]))) > -np.log(UNLIKELY):
             continue
         u = met
         weight[_beside(grid, weight, seen.mask, seam.edges)] = 1.0

@@ -77,12 +77,12 @@ def test_where_the_nearer_side_turns_away_the_step_is_real() -> None:
 
 
 def test_the_light_says_that_two_walls_stand_apart() -> None:
-    near, far = (Scene(centre=None, wall_z=z) for z in (0.34, 0.4))
+    near, far = (Scene(centre=None, wall_z=z) for z in (0.34, 0.48))
     left = np.arange(160) < 72
     maps = [sight.grey(to_radiance(draw(one, GIVEN), Sensor()), GIVEN.lights) for one in (near, far)]
-    scaled = maps[1].signal * (0.4 / 0.34) ** 2  # about as bright, as both exposures are set by the brightest pixel
+    scaled = maps[1].signal * (0.48 / 0.34) ** 2  # about as bright, as both exposures are set by the brightest pixel
     both = replace(maps[0], signal=np.where(left, maps[0].signal, scaled))
-    mask, depth = np.zeros((112, 160), bool), np.where(left, 0.34, 0.4) * np.ones((112, 160))
+    mask, depth = np.zeros((112, 160), bool), np.where(left, 0.34, 0.48) * np.ones((112, 160))
     mask[20:-20, 30:-30] = True
     scene, state = of_maps(both, mask, depth)
     label = pieces(scene.grid, state.weight, mask)
