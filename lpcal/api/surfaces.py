@@ -27,7 +27,7 @@ from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, 
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import contradicting, notes_of
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
-from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient
+from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError
@@ -239,6 +239,8 @@ def linear(raw: RawCapture, calibration: Calibration, saying: Statements) -> tup
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
     """The capture made linear, or the part of it that is asked for; notes hold what is said of it."""
     plain = to_radiance(raw, sensor)
+    if raw.ambient is not None:
+        refuse_foreign_ambient(plain)
     found = with_short_exposures(plain, raw, sensor)
     notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor))
     whole = [replace(found, notes=notes, mask=found.mask if use_mask else None)]

@@ -31,6 +31,8 @@ DRIFT_SHARE = 0.05
 """Change that is warned of, as a share of the ambient light or, where that is less, of the lamps' light."""
 BRIGHTER = 0.98
 """Lit images under this share of the ambient one are darker, beyond noise."""
+FAR_DARKER = 0.3
+"""Share of the ambient light that lacks in the shadows of most lights from which its image cannot be one of theirs: a cloud takes less."""
 
 
 def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
@@ -51,7 +53,7 @@ def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tupl
         return ()
     levels = _ambient_levels(raw, sensor)
     level = abs(float(np.mean(levels)))
-    if np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
+    if len(levels) > 1 and np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
         change = 100 * np.ptp(levels) / max(level, 1e-12)
         return (f"the ambient light changed by {change:.0f} % between its {len(levels)} images; their mean was taken away",)
     return tuple(_changes_in_frames(radiance))
@@ -101,13 +103,29 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
     levels = _ambient_levels(raw, sensor)
     if levels and np.ptp(levels) > DRIFT_SHARE * abs(np.mean(levels)):
         return  # the room's own light changed: its mean is no measure
-    darker = [light for light, (change, _) in _room_changes(radiance).items() if change < -SHADOWS_DARKER]
+    _refuse_darker(radiance, SHADOWS_DARKER)
+
+
+def refuse_foreign_ambient(radiance: Radiance) -> None:
+    """Refuse an ambient image that holds far more light than the shadows of most lights: one of another exposure, or with a lamp on.
+
+    Raises
+    ------
+    DisagreementError
+        It does.
+    """
+    _refuse_darker(radiance, FAR_DARKER)
+
+
+def _refuse_darker(radiance: Radiance, by: float) -> None:
+    """Stop where under most lights what they do not reach is darker than in the ambient image by more than a share."""
+    darker = [light for light, (change, _) in _room_changes(radiance).items() if change < -by]
     if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
         raise DisagreementError(
             f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
             where=radiance.name,
             needed="exposure, gain and tone held for all images of a capture, or stated in capture.yaml",
-            todo="switch auto-exposure and automatic gain off and take it again",
+            todo="switch auto-exposure and automatic gain off and take it again, all lights off; or state exposures: {ambient: 40 ms, ...}",
         )
 
 
@@ -142,7 +160,7 @@ def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
         sigma = radiance.sigma[k] if radiance.sigma.ndim == 3 else radiance.sigma[k].mean(axis=-1)
         clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
         clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
-        lit, clear = lamps[k], clear & (lamps[k] < IN_SHADOW * lamps.max(axis=0))
+        lit, clear = lamps[k], clear & (lamps[k] < IN_SHADOW * np.maximum(lamps.max(axis=0), 0.0))
         if clear.sum() > FEWEST_BLOCKS:
             change, further = (float(np.quantile(lit[clear] / room[clear], share)) for share in (DARKEST, 2 * DARKEST))
             if further - change < ALIKE * max(change, 1.0):

@@ -20,6 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lpcal.detect.stored_checks import refuse_mosaic, refuse_over_white, twins
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
@@ -68,18 +69,23 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     ------
     DegenerateError
         All dark (no light lifts any part of the image over its noise), or all saturated.
+    DisagreementError
+        Numbers that contradict the black or the white level, a raw mosaic, or one image under two names.
     """
     saturated = over_white(raw.images, sensor, raw.step)
     if saturated.all():
         raise DegenerateError(
             "every pixel of every image is saturated", where=raw.name, needed="images below the white level", todo="shorten the exposure"
         )
+    refuse_over_white(raw, sensor, saturated)
+    refuse_mosaic(raw)
     piled = piled_level(raw.images, sensor.white_level, raw.step)
     if piled is not None:
         saturated |= over_white(raw.images, replace(sensor, white_level=piled), raw.step)
     signal = _linear(raw, sensor)
     noise = noise_model(signal, saturated, raw.step)
     _refuse_black(raw, sensor, signal)
+    same = twins(raw, noise, signal)
     response = sensor.response(signal.shape)
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
     notes += [] if piled is None else [piled_words(piled)]
@@ -87,7 +93,7 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
     sigma, ambient = _unit_exposure(raw, sensor, signal, noise, response)
     dark = _dark(raw, signal, sigma)
     short = {light: _short(sensor.linear(image), raw.short_exposure_s.get(light), ambient, response) for light, image in raw.short.items()}
-    notes += [f"{light} lights nothing: is it off in its image?" for light in dark]
+    notes += [*(f"{light} lights nothing: is it off in its image?" for light in dark), *same]
     return Radiance(raw.name, raw.lights, signal, sigma, saturated, ambient / response, short, raw.mask, tuple(notes), dark)
 
 

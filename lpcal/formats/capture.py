@@ -18,8 +18,9 @@ from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import full_size
 from lpcal.formats.exif import TakenAt, exposures
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
-from lpcal.formats.images import Numbers, read_image, read_numbers, stacked
+from lpcal.formats.images import Numbers, read_numbers, stacked
 from lpcal.formats.marks import named_by_capture
+from lpcal.formats.mask_files import read_mask
 from lpcal.formats.named_files import (
     RAWS,
     RESERVED,
@@ -34,7 +35,7 @@ from lpcal.formats.named_files import (
 from lpcal.formats.panel_yaml import read_capture_section
 from lpcal.formats.placement_document import stated_place
 from lpcal.formats.zarr_files import is_zarr, read_capture_zarr
-from lpcal.geometry.arrays import Array, Image, Mask
+from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import RawCapture
 from lpcal.records.rig import CaptureSection
 from lpcal.records.sensor import StatedSensor, ToneClaim
@@ -77,7 +78,7 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     stated = {path: _exposure(section, name) for name, path in sources.items()}
     exposure, more = exposures({path: reader.taken[path] for path in sources.values()}, stated)
     known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights), *([flat.stem] if flat else [])}
-    mask = _read_mask(files["mask"], reader.shape) if "mask" in files else None
+    mask = read_mask(files["mask"], reader.shape) if "mask" in files else None
     raw = RawCapture(
         name=name or folder.resolve().name,
         lights=tuple(chosen),
@@ -189,17 +190,6 @@ def read_sweep(folder: Path) -> tuple[Image, Array, float]:
     return images, np.array([value for value in exposure.values() if value is not None]), reader.step
 
 
-def read_mask(path: Path, shape: tuple[int, ...]) -> Mask:
-    """A mask (H, W): whatever is not zero.
-
-    Raises
-    ------
-    DisagreementError
-        It has another size.
-    """
-    return _read_mask(path, shape)
-
-
 class _SameSize:
     """Reads images and holds them to the size and channels of the first."""
 
@@ -245,7 +235,7 @@ def _need_folder(folder: Path, needed: str) -> None:
 
 
 def _refuse_unknown(section: CaptureSection, known: set[str], folder: Path) -> None:
-    """An exposure or gain that is stated for what is no image would be dropped."""
+    """An exposure or gain that is stated for what is no image would be dropped, as would gains without an exposure."""
     unknown = [name for name in {**section.exposures, **section.gains} if name not in known]
     if unknown:
         raise DisagreementError(
@@ -253,6 +243,13 @@ def _refuse_unknown(section: CaptureSection, known: set[str], folder: Path) -> N
             where=str(folder / "capture.yaml"),
             needed="names of lights, short_<light>, ambient",
             todo="correct the name",
+        )
+    if section.gains and section.exposure is None and not set(section.gains) <= set(section.exposures):
+        raise InputError(
+            f"a gain of {', '.join(section.gains)}, and no exposure",
+            where=str(folder / "capture.yaml"),
+            needed="an exposure for gains to count",
+            todo="state exposure: too, such as 20 ms",
         )
 
 
@@ -353,17 +350,6 @@ def _short_exposure(
     if stated is not None or short is None or plain is None:
         return stated
     return exposure[files[light]] * short.relative_to(plain) / plain.time_s
-
-
-def _read_mask(path: Path, shape: tuple[int, ...]) -> Mask:
-    pixels = read_image(path).pixels
-    if pixels.shape[:2] != tuple(shape[:2]):
-        raise DisagreementError(
-            f"the mask is {pixels.shape[1]}x{pixels.shape[0]}, the images {shape[1]}x{shape[0]}",
-            where=str(path),
-            needed="a mask of the images' size",
-        )
-    return np.asarray(pixels.reshape(*pixels.shape[:2], -1).max(axis=2) > 0)
 
 
 def _pattern_of(lights: Sequence[str] | None) -> str | None:

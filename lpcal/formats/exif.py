@@ -17,6 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from lpcal.errors import InputError
+
 EXIF, TIME, F_NUMBER, ISO = 0x8769, 33434, 33437, 34855
 """Where the tags stand, and what they are."""
 GARBLED = (OSError, ValueError, SyntaxError, TypeError, LookupError, AttributeError, ArithmeticError, struct.error)
@@ -82,9 +84,22 @@ def exposures(taken: Mapping[Path, TakenAt | None], stated: Mapping[Path, float 
 
     What is stated counts; where nothing is, what the files say, if all of them do. Where both are there and contradict each other by more
     than cameras round, that is said.
+
+    Raises
+    ------
+    InputError
+        Exposures of some images are stated, and not of the others.
     """
     known = {path: one for path, one in taken.items() if one is not None}
     by_hand = {path: value for path, value in stated.items() if value is not None}
+    unstated = [path for path in taken if path not in by_hand]
+    if by_hand and unstated:
+        raise InputError(
+            f"an exposure of {next(iter(by_hand)).name} is stated, none of {', '.join(path.name for path in unstated[:6])}",
+            where=str(unstated[0].parent / "capture.yaml"),
+            needed="one of every image, or of none",
+            todo="state exposure: for all of them, and exposures: for those that differ",
+        )
     if not known:
         return {path: by_hand.get(path, 1.0) for path in taken}, []
     first = next(iter(known.values()))

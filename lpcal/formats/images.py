@@ -86,6 +86,8 @@ class Numbers:
     """One step of the numbers as a fraction of full scale."""
     claim: ToneClaim | None = None
     taken: TakenAt | None = None
+    alpha: npt.NDArray[Any] | None = None
+    """(H, W) how opaque each pixel is, where the file says it."""
 
     @property
     def image(self) -> StoredImage:
@@ -125,12 +127,13 @@ def read_numbers(path: Path) -> Numbers:
         raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(PICTURES)}, whole", todo="copy it again")
     if data[:2] in {b"II", b"MM"}:
         stored = as_stored(stored, orientation(data))
+    alpha = stored[..., 3] if stored.ndim == 3 and stored.shape[2] == 4 else None
     if stored.ndim == 3:
         stored = stored[:, :, 2::-1] if stored.shape[2] >= 3 else stored[:, :, 0]
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
-    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data))
+    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data), alpha)
 
 
 def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple[int, ...]) -> Image:

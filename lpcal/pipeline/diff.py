@@ -23,9 +23,9 @@ from lpcal.errors import DisagreementError, LpcalError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_files import read_camera_file
 from lpcal.formats.camera_yaml import read_camera, read_camera_solution
-from lpcal.formats.capture import read_mask
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.lights_yaml import read_lights
+from lpcal.formats.mask_files import read_mask
 from lpcal.formats.normal_map import read_depth, read_normals
 from lpcal.formats.outputs import marked, refuse_place, write_text
 from lpcal.formats.surface_files import read_surface

@@ -23,8 +23,9 @@ from lpcal.api.surfaces import DISTANCE_M, Green, integrate, reconstruct
 from lpcal.errors import InputError, LpcalError, UsageError
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.camera_files import read_camera_file
-from lpcal.formats.capture import check_lights, read_capture, read_mask
+from lpcal.formats.capture import check_lights, read_capture
 from lpcal.formats.documents import plain, sha256
+from lpcal.formats.mask_files import read_mask
 from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.normal_map import read_normals
 from lpcal.formats.outputs import refuse_place

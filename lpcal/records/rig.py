@@ -341,4 +341,7 @@ class CaptureSection(Section):
     images: dict[str, str] = {}
     """Light: the file that shows it, where files are not called after their lights."""
 
-    _lights = field_validator("lights", mode="before")(_as_list)
+    @field_validator("lights", mode="before")
+    @classmethod
+    def _lights_as_list(cls, lights: object) -> object:
+        return [name.strip() for name in lights.split(",")] if isinstance(lights, str) else _as_list(lights)

@@ -91,3 +91,55 @@ def test_what_is_wrong_is_said(folder: Path, spoil: Callable[..., Any], error: t
 def test_no_such_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such folder"):
         read_capture(tmp_path / "nothing", LIGHTS)
+
+
+@pytest.mark.parametrize(
+    "text", ["exposures: {L0: 20 ms}", "exposures: {ambient: 40 ms}", "exposures: {L0: 1 ms, L1: 1 ms, ambient: 1 ms}"]
+)
+def test_exposures_of_some_images_and_none_of_the_others_are_refused(folder: Path, text: str) -> None:
+    image(folder / "ambient.png", 5)
+    (folder / "capture.yaml").write_text(f"{text}\n")
+    with pytest.raises(InputError, match=r"an exposure of \w+\.png is stated, none of (?s:.*)state exposure: for all"):
+        read_capture(folder, LIGHTS)
+    (folder / "capture.yaml").write_text(f"exposure: 20 ms\n{text}\n")
+    assert len(read_capture(folder, LIGHTS).exposure_s) == 3
+
+
+def test_gains_without_an_exposure_are_refused(folder: Path) -> None:
+    (folder / "capture.yaml").write_text("gains: {L0: 2}\n")
+    with pytest.raises(InputError, match="a gain of L0, and no exposure"):
+        read_capture(folder, LIGHTS)
+
+
+@pytest.mark.parametrize("text", ["lights: L0, L2", "lights: 'L0,L2'", "lights: [L0, L2]"])
+def test_lights_may_be_written_as_a_list_or_in_one_line(folder: Path, text: str) -> None:
+    (folder / "capture.yaml").write_text(f"{text}\n")
+    assert read_capture(folder, LIGHTS).lights == ("L0", "L2")
+
+
+INSIDE = np.zeros((20, 30), np.uint8)
+INSIDE[5:15, 8:20] = 255
+
+
+@pytest.mark.parametrize("colour", [0, 255, 90])
+def test_a_mask_may_be_how_opaque_an_image_is(folder: Path, colour: int) -> None:
+    cv2.imwrite(str(folder / "mask.png"), np.dstack([np.full((20, 30, 3), colour, np.uint8), INSIDE]))
+    found = read_capture(folder, LIGHTS).mask
+    assert found is not None
+    assert np.array_equal(found, INSIDE > 0)
+
+
+def test_an_opaque_mask_is_what_is_not_zero(folder: Path) -> None:
+    cv2.imwrite(str(folder / "mask.png"), np.dstack([INSIDE // 100, INSIDE // 100, INSIDE // 100, np.full_like(INSIDE, 255)]))
+    found = read_capture(folder, LIGHTS).mask
+    assert found is not None
+    assert np.array_equal(found, INSIDE > 0)
+
+
+def test_what_a_jpeg_makes_of_zero_is_no_mask(folder: Path) -> None:
+    cv2.imwrite(str(folder / "mask.jpg"), INSIDE, [cv2.IMWRITE_JPEG_QUALITY, 40])
+    stored = cv2.imread(str(folder / "mask.jpg"), cv2.IMREAD_GRAYSCALE)
+    assert ((stored > 0) & (INSIDE == 0)).sum() > 20
+    found = read_capture(folder, LIGHTS).mask
+    assert found is not None
+    assert (found != (INSIDE > 0)).sum() == 0
