@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -15,7 +16,7 @@ from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
 from lpcal.chain.k_camera import board_shape, solve_camera
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.geometry.arrays import Array, Image
-from lpcal.records import given
+from lpcal.records import given, given_records
 from lpcal.records.calibration import Camera, CameraSolution
 from lpcal.records.observations import Board, BoardPoses, BoardView, BoardViews
 from lpcal.records.outcome import Progress, silent
@@ -76,6 +77,9 @@ def find_boards(
     >>> sum(view.corners_px is not None for view in views.views)
     4
     """
+    path = next((row for row, image in enumerate(images) if isinstance(image, str | Path)), None)
+    if path is not None:
+        raise InputError("a path", where=f"images[{path}]", needed="(H, W) or (H, W, 3) numbers", todo="read it first, as with cv2.imread")
     grey = [grey_of(_picture(image, row)) for row, image in enumerate(images)]
     if not grey:
         raise InputError("no image", where="images", needed="images of the board")
@@ -222,7 +226,7 @@ def locate_boards(
         return _located(boards, camera, progress)
     if board is None:
         raise InputError("none is given", where="board", needed="the board, where the camera was not solved from it")
-    solution = as_given(camera, board, "camera", "camera", boards.image_size if boards.views else None)
+    solution = as_given(given_records.camera(camera), board, "camera", "camera", boards.image_size if boards.views else None)
     poses = _located(boards, solution, progress)
     if not (board.warp and poses.images):
         return poses

@@ -27,6 +27,7 @@ from lpcal.formats.outputs import refuse_place, write_text
 from lpcal.formats.panel_yaml import FILE_NAME
 from lpcal.formats.panel_yaml import read_rig as read_panel
 from lpcal.formats.zarr_files import write_surface_zarr
+from lpcal.records import given_records
 from lpcal.records.calibration import Calibration, Camera, CameraSolution
 from lpcal.records.observations import MarkerStream, PoseStream, RawCapture
 from lpcal.records.provenance import Provenance
@@ -306,7 +307,7 @@ def write_calibration(path: PathLike, calibration: Calibration) -> None:
     """
     place = Path(path)
     refuse_place(place, document_kind(calibration_yaml.KIND))
-    calibration_yaml.write_calibration(place, calibration, Provenance())
+    calibration_yaml.write_calibration(place, given_records.calibration(calibration), Provenance())
 
 
 def write_camera(path: PathLike, camera: Camera | CameraSolution) -> None:
@@ -334,7 +335,11 @@ def write_camera(path: PathLike, camera: Camera | CameraSolution) -> None:
     (640, 400)
     """
     place = Path(path)
-    solution = camera if isinstance(camera, CameraSolution) else CameraSolution(camera, NO_CORNERS, (), "given", float("nan"))
+    solution = (
+        camera
+        if isinstance(camera, CameraSolution)
+        else CameraSolution(given_records.camera(camera), NO_CORNERS, (), "given", float("nan"))
+    )
     if place.suffix == ".cameramodel":
         refuse_place(place, MODEL_FILE)
         write_text(place, MARK + (solution.cameramodel or cameramodel_text(solution.camera)), MODEL_FILE)

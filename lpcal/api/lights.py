@@ -12,7 +12,7 @@ from lpcal.chain.h_pl_wings import design_lights as wings_of
 from lpcal.chain.refine_lights import as_designed
 from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array
-from lpcal.records import given
+from lpcal.records import given, given_records
 from lpcal.records.calibration import Calibration, Camera, HandEye, Light, LightsSolution, Wing, Wings
 from lpcal.records.distance import DistanceSensor, SensorSolution
 from lpcal.records.light_field import LightField
@@ -177,6 +177,22 @@ def assemble_calibration(
     )
 
 
+FAR = 100.0
+"""Distances of the lights from the camera beyond which points are taken to be in another unit than metres."""
+
+
+def _far(lights: Sequence[Light], points: Array) -> list[str]:
+    """In words, where points (..., 3) are far out of the lights' reach, as millimetres taken for metres are."""
+    near = [light.source_C for light in lights if light.source_C is not None]
+    if not near or not points.size:
+        return []
+    reach = float(np.median(np.linalg.norm(near, axis=1)))
+    away = float(np.median(np.linalg.norm(points, axis=-1)))
+    if away < FAR * max(reach, 1e-3):
+        return []
+    return [f"the points are {away:.4g} m from the camera, the lights {reach:.3g} m: are they in millimetres? x_m, y_m and z_m are metres"]
+
+
 def light_field(lights: Calibration | LightsSolution | Sequence[Light], x_C: npt.ArrayLike) -> LightField:
     """Evaluate the calibrated light field at points.
 
@@ -206,7 +222,7 @@ def light_field(lights: Calibration | LightsSolution | Sequence[Light], x_C: npt
     >>> field.irradiance[0, :, 0].tolist()
     [4.0, 1.0]
     """
-    each = tuple(lights) if isinstance(lights, Sequence) else lights.lights
+    each = given_records.lights(lights if isinstance(lights, Sequence) else lights.lights)
     points = given.numbers(x_C, "x_C")
     if points.shape[-1:] != (3,):
         raise InputError(f"an array of {points.shape}", where="x_C", needed="points (..., 3) in metres")
@@ -221,6 +237,7 @@ def light_field(lights: Calibration | LightsSolution | Sequence[Light], x_C: npt
         for light, one in zip(each, beyond, strict=True)
         if one.any()
     ]
+    warnings += _far(each, points)
     return LightField(
         names=tuple(light.name for light in each),
         direction_C=np.stack([direction for direction, _ in fields]),

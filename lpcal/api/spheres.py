@@ -19,7 +19,7 @@ from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
 from lpcal.errors import InputError
-from lpcal.records import given
+from lpcal.records import given, given_records
 from lpcal.records.calibration import Camera, LightsSolution, Lobe, Wings
 from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Progress, silent
@@ -94,6 +94,7 @@ def find_sphere(
         raise InputError(repr(kind), where="kind", needed='"chrome" or "matte"')
     if camera is not None and radius_m is None:
         raise InputError("none is given", where="radius_m", needed="the sphere's radius in metres: there is a camera")
+    camera = None if camera is None else given_records.camera(camera)
     raw = stacks.capture(images, lights, name=name, ambient=ambient, mask=mask)
     in_use = sensor_of_capture(raw, _saying(sensor, raw, camera))
     used = in_use.sensor
@@ -113,9 +114,9 @@ def find_sphere(
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, camera: Camera | None) -> Statements:
     """All that is said of the sensor, what counts more first."""
-    if not isinstance(sensor, StatedSensor) and sensor:
+    if isinstance(sensor, tuple | list) and sensor:
         return sensor
-    first = [(BY_CALLER, sensor)] if isinstance(sensor, StatedSensor) else []
+    first = [] if isinstance(sensor, tuple | list) else [(BY_CALLER, given_records.sensor(sensor))]
     own = StatedSensor() if camera is None else unlike_plain(sensor_of_camera(camera))
     return [*first, (BY_CAPTURE, raw.sensor), ("the camera", own)]
 

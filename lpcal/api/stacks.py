@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,9 @@ def capture(
         if beside:
             raise InputError("given beside a capture, which brings its own", where=", ".join(beside), needed="one of both")
         return images if mask is None else replace(images, mask=of_image_size(mask, images.images.shape[1:3], "mask"))
+    if isinstance(images, str | Path):
+        needed, todo = "images (L, H, W[, 3]), or a capture that was read", "lpcal.read_capture(folder, calibration) reads a folder"
+        raise InputError(f"holds no numbers, but a path: {images}", where="images", needed=needed, todo=todo)
     stack, step = _fractions(images, "images")
     if stack.ndim not in (3, 4) or (stack.ndim == 4 and stack.shape[3] != 3):
         raise InputError(f"an array of {given.shape_of(stack)}", where="images", needed="(L, H, W) or (L, H, W, 3)")

@@ -37,7 +37,7 @@ from lpcal.integration import convention
 from lpcal.integration import mesh as meshes
 from lpcal.integration.mesh import Mesh
 from lpcal.integration.of_normals import check
-from lpcal.records import given, screens
+from lpcal.records import given, given_records, screens
 from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.figures import ConventionFound
 from lpcal.records.observations import Radiance, RawCapture
@@ -150,6 +150,7 @@ def reconstruct(
     >>> bool(np.median(error) < 2)
     True
     """
+    calibration = given_records.calibration(calibration)
     if lights is None and not isinstance(images, RawCapture):
         lights = [light.name for light in calibration.with_lights().lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
@@ -223,7 +224,7 @@ def _reconstructed(
     )
     radiance = _linear(raw, used, said, part, use_mask=automatic)
     surface = solver.reconstruct(radiance, calibration, options, progress, kept)
-    notes = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration))
+    notes = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration), *_far_stated(options, calibration))
     surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
         _refuse_outside(surface, calibration)
@@ -250,10 +251,18 @@ def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop |
 
 def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Calibration) -> Statements:
     """All that is said of the sensor, what counts more first."""
-    if not isinstance(sensor, StatedSensor) and sensor:
+    if isinstance(sensor, tuple | list) and sensor:
         return sensor
-    first = [(BY_CALLER, sensor)] if isinstance(sensor, StatedSensor) else []
+    first = [] if isinstance(sensor, tuple | list) else [(BY_CALLER, given_records.sensor(sensor))]
     return [*first, (BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration))]
+
+
+def _far_stated(options: solver.Options, calibration: Calibration) -> tuple[str, ...]:
+    """In words, where a stated distance is far out of the working volume, as one in another unit is."""
+    stated, working_m = options.distance_m, calibration.d_object_m
+    if not options.near or stated is None or working_m is None or OUTSIDE[0] * working_m < stated < OUTSIDE[1] * working_m:
+        return ()
+    return (f"the distance is stated as {1e3 * stated:.0f} mm, the lights are calibrated for {1e3 * working_m:.0f} mm: is its unit right?",)
 
 
 def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
@@ -343,7 +352,7 @@ def integrate(
 def _integrated(
     normals_C: Image, inside: Mask, camera: Camera | None, distance_m: float, green: Green, integrator: str, name: str
 ) -> Surface:
-    camera = None if camera is None else camera.of_images((inside.shape[1], inside.shape[0]))
+    camera = None if camera is None else given_records.camera(camera).of_images((inside.shape[1], inside.shape[0]))
     check(name, inside, camera)
     found = convention.settled(name, normals_C, inside, camera, green)
     surface = compared.integrated(name, found.normals_C, inside, camera, distance_m, integrator)

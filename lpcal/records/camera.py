@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from lpcal.geometry import camera as central
 from lpcal.geometry import lens_models
 from lpcal.geometry.arrays import Array
@@ -82,6 +84,14 @@ class Camera(Shown):
     """Splined: mrcal's vector, core and knots."""
     size_guessed: bool = False
     """The image size was made out from the principal point: images of about that size replace it."""
+
+    def __post_init__(self) -> None:
+        """Lists are taken as arrays, and the size as a pair of whole numbers."""
+        for name in ("K", "distortion"):
+            if not isinstance(getattr(self, name), np.ndarray):
+                object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=float))
+        if not isinstance(self.image_size, tuple):
+            object.__setattr__(self, "image_size", tuple(int(side) for side in self.image_size))
 
     def of_images(self, size: tuple[int, int]) -> Camera:
         """The camera with the images' (width, height) where its own is guessed and theirs is about that; else as it is."""

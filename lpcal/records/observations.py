@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from lpcal.errors import InputError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.full_images import FullImages
 from lpcal.records.placement import StatedPlace
@@ -21,6 +22,10 @@ type SphereKind = Literal["chrome", "matte"]
 """What a sphere's surface is: a mirror shows directions, a Lambertian one intensities."""
 
 
+LARGEST_SQUARE_M = 2.0
+"""Metres of the side of the largest square that is believed: boards for cameras on drones have squares of half a metre."""
+
+
 @dataclass(frozen=True)
 class Board:
     """A flat grid of inner corners; ``points_B`` runs along x first.
@@ -29,7 +34,7 @@ class Board:
     ----------
     corners : (int, int)
         Inner corners along x, along y.
-    square_m : (float, float)
+    square_m : (float, float) or float
         Size of a square along x, along y, metres.
     warp : bool
         Whether its departure from a plane may be estimated.
@@ -62,6 +67,23 @@ class Board:
     """Charuco, aprilgrid: OpenCV's name of the markers' dictionary."""
     corner_fit: str = "edges"
     """edges: where two blurred edges cross; opencv: cornerSubPix, as other tools refine, for figures that compare with theirs."""
+
+    def __post_init__(self) -> None:
+        """One number for the squares' size stands for both; metres are meant.
+
+        Raises
+        ------
+        InputError
+            Squares larger than any board's.
+        """
+        if isinstance(self.square_m, int | float):
+            object.__setattr__(self, "square_m", (float(self.square_m), float(self.square_m)))
+        if not all(0 < side <= LARGEST_SQUARE_M for side in self.square_m):
+            found = " x ".join(f"{side:g}" for side in self.square_m)
+            needed = f"metres, up to {LARGEST_SQUARE_M:g}"
+            raise InputError(
+                f"squares of {found} m", where="board, square", needed=needed, todo="write 0.025 for 25 mm (25 mm in panel.yaml)"
+            )
 
     def points_B(self) -> Array:
         """Corners (ny*nx, 3) in B, of a flat board; of an AprilGrid two a tag, the tags a square apart."""
