@@ -4,6 +4,7 @@
 
 #define BLOCK 64
 #define MOST_LAYERS 64
+#define TOGETHER 10 /* steps of many labels that follow each other within the cache */
 
 static inline float clipped(float x, float low, float high) {
     float above = x > low ? x : low;
@@ -53,10 +54,11 @@ KERNEL void lpcal_two_labels(int64_t rows, int64_t columns, const float *evidenc
     }
 }
 
-/* The point of the simplex nearest to each of `some` points, given and found layer by layer (layers, BLOCK). */
+/* The point of the simplex nearest to each of BLOCK points, given and found layer by layer (layers, BLOCK): what all numbers are lowered by is
+   the largest of (sum of the k largest - 1) / k (Held, Wolfe and Crowder 1974). */
 static void on_the_simplex(int64_t layers, double at[][BLOCK]) {
     static const int count = BLOCK;
-    double ordered[MOST_LAYERS][BLOCK], over[MOST_LAYERS][BLOCK], last[BLOCK], by[BLOCK];
+    double ordered[MOST_LAYERS][BLOCK], sum[BLOCK] = {0.0}, by[BLOCK];
     memcpy(ordered, at, (size_t)layers * sizeof *at);
     for (int64_t i = 1; i < layers; i++) /* the largest first */
         for (int64_t j = i; j > 0; j--)
@@ -65,18 +67,15 @@ static void on_the_simplex(int64_t layers, double at[][BLOCK]) {
                 ordered[j - 1][p] = a > b ? a : b;
                 ordered[j][p] = a > b ? b : a;
             }
-    for (int p = 0; p < count; p++) {
-        over[0][p] = ordered[0][p];
-        last[p] = 0.0;
-    }
-    for (int64_t l = 1; l < layers; l++)
-        for (int p = 0; p < count; p++) over[l][p] = over[l - 1][p] + ordered[l][p];
-    for (int64_t l = 0; l < layers; l++)
+    for (int p = 0; p < count; p++) by[p] = ordered[0][p] - 1.0;
+    for (int64_t l = 0; l < layers; l++) {
+        double share = 1.0 / (double)(l + 1);
         for (int p = 0; p < count; p++) {
-            over[l][p] -= 1.0;
-            last[p] += ordered[l][p] - over[l][p] / (double)(l + 1) > 0.0 ? 1.0 : 0.0;
+            sum[p] += ordered[l][p];
+            double over = (sum[p] - 1.0) * share;
+            by[p] = over > by[p] ? over : by[p];
         }
-    for (int p = 0; p < count; p++) by[p] = over[(int64_t)last[p] - 1][p] / last[p];
+    }
     for (int64_t l = 0; l < layers; l++)
         for (int p = 0; p < count; p++) {
             double x = at[l][p] - by[p];
@@ -84,48 +83,63 @@ static void on_the_simplex(int64_t layers, double at[][BLOCK]) {
         }
 }
 
+/* Many labels on the way: layers of pictures. */
+typedef struct {
+    int64_t layers, rows, columns;
+    const double *cost, *across, *down;
+    double dual, primal, *ahead, *right, *below, *x;
+} Labels;
+
+/* A step of one row: of the flows to its right and below it, then of its indicators. */
+static void row_stepped(const Labels *of, int64_t y) {
+    int64_t layers = of->layers, columns = of->columns, n = of->rows * columns, wide = columns - 1;
+    const double *most = of->across + y * wide, *deep = of->down + y * columns;
+    double dual = of->dual, primal = of->primal;
+    for (int64_t l = 0; l < layers; l++) {
+        const double *from = of->ahead + l * n + y * columns, *under = from + columns;
+        double *flow = of->right + l * n + y * columns, *fall = of->below + l * n + y * columns;
+        for (int64_t i = 0; i < wide; i++) flow[i] = held(flow[i] + dual * (from[i + 1] - from[i]), most[i]);
+        if (y + 1 < of->rows)
+            for (int64_t i = 0; i < columns; i++) fall[i] = held(fall[i] + dual * (under[i] - from[i]), deep[i]);
+    }
+    for (int64_t first = 0; first < columns; first += BLOCK) {
+        int64_t some = columns - first < BLOCK ? columns - first : BLOCK;
+        double moved[MOST_LAYERS][BLOCK];
+        for (int64_t l = 0; l < layers; l++) {
+            int64_t at = l * n + y * columns + first;
+            const double *flow = of->right + at, *fall = of->below + at, *own = of->x + at, *cost = of->cost + at;
+            double *to = moved[l];
+            for (int64_t i = some; i < BLOCK; i++) to[i] = 0.0;
+            for (int64_t i = 0; i < some; i++) to[i] = -cost[i] + flow[i]; /* nothing flows out of the last column and row */
+            for (int64_t i = 0; i < some; i++) to[i] = to[i] - flow[i - 1] + fall[i];
+            for (int64_t i = 0; y && i < some; i++) to[i] -= fall[i - columns];
+            for (int64_t i = 0; i < some; i++) to[i] = own[i] + primal * to[i];
+        }
+        on_the_simplex(layers, moved);
+        for (int64_t l = 0; l < layers; l++) {
+            int64_t at = l * n + y * columns + first;
+            for (int64_t i = 0; i < some; i++) {
+                double before = of->x[at + i];
+                of->x[at + i] = moved[l][i];
+                of->ahead[at + i] = 2.0 * moved[l][i] - before;
+            }
+        }
+    }
+}
+
 /* Indicators x (layers, rows, columns) of many labels after so many steps, from those given. `across` (rows, columns - 1) and `down`
-   (rows - 1, columns) are halves of the costs of a boundary; `work` holds three times as many numbers as x. */
+   (rows - 1, columns) are halves of the costs of a boundary; `work` holds three times as many numbers as x, and one. A step asks for the
+   row below as the step before has left it: TOGETHER steps follow each other two rows apart, while their rows are still at hand. */
 KERNEL void lpcal_many_labels(int64_t layers, int64_t rows, int64_t columns, const double *cost, const double *across, const double *down,
                               int64_t steps, double dual, double primal, double *work, double *x) {
-    int64_t n = rows * columns, wide = columns - 1, all = layers * n;
-    double *ahead = work, *right = work + all, *below = work + 2 * all;
-    memcpy(ahead, x, (size_t)all * sizeof *x);
-    memset(right, 0, (size_t)(2 * all) * sizeof *x);
-    for (int64_t k = 0; k < steps; k++) {
-        for (int64_t l = 0; l < layers; l++)
-            for (int64_t y = 0; y < rows; y++) {
-                const double *from = ahead + l * n + y * columns, *under = from + columns, *most = across + y * wide, *deep = down + y * columns;
-                double *flow = right + l * n + y * columns, *fall = below + l * n + y * columns;
-                for (int64_t i = 0; i < wide; i++) flow[i] = held(flow[i] + dual * (from[i + 1] - from[i]), most[i]);
-                if (y + 1 < rows)
-                    for (int64_t i = 0; i < columns; i++) fall[i] = held(fall[i] + dual * (under[i] - from[i]), deep[i]);
-            }
-        for (int64_t y = 0; y < rows; y++)
-            for (int64_t first = 0; first < columns; first += BLOCK) {
-                int64_t some = columns - first < BLOCK ? columns - first : BLOCK;
-                double moved[MOST_LAYERS][BLOCK] = {{0.0}};
-                for (int64_t l = 0; l < layers; l++) {
-                    int64_t at = l * n + y * columns + first;
-                    const double *flow = right + at, *fall = below + at;
-                    for (int64_t i = 0; i < some; i++) {
-                        double pull = -cost[at + i];
-                        if (first + i < wide) pull += flow[i];
-                        if (first + i) pull -= flow[i - 1];
-                        if (y + 1 < rows) pull += fall[i];
-                        if (y) pull -= fall[i - columns];
-                        moved[l][i] = x[at + i] + primal * pull;
-                    }
-                }
-                on_the_simplex(layers, moved);
-                for (int64_t l = 0; l < layers; l++) {
-                    int64_t at = l * n + y * columns + first;
-                    for (int64_t i = 0; i < some; i++) {
-                        double before = x[at + i];
-                        x[at + i] = moved[l][i];
-                        ahead[at + i] = 2.0 * moved[l][i] - before;
-                    }
-                }
-            }
+    int64_t all = layers * rows * columns;
+    Labels of = {layers, rows, columns, cost, across, down, dual, primal, work, work + all + 1, work + 2 * all + 1, x};
+    memcpy(of.ahead, x, (size_t)all * sizeof *x);
+    memset(of.right - 1, 0, (size_t)(2 * all + 1) * sizeof *x);
+    for (int64_t done = 0; done < steps; done += TOGETHER) {
+        int64_t together = steps - done < TOGETHER ? steps - done : TOGETHER;
+        for (int64_t front = 0; front < rows + 2 * (together - 1); front++)
+            for (int64_t k = 0, y = front; k < together; k++, y -= 2)
+                if (y >= 0 && y < rows) row_stepped(&of, y);
     }
 }

@@ -217,10 +217,10 @@ def _relaxed(cost: Array, across: Image, down: Image) -> Array:
     step, scale = 1 / np.sqrt(8), float(np.median(across))
     if run := kernel("many_labels"):
         half = (np.ascontiguousarray(one / 2, float) for one in (across, down))
-        run(*cost.shape, np.ascontiguousarray(cost, float), *half, STEPS, step * scale, step / scale, np.empty((3, *cost.shape)), x)
+        run(*cost.shape, np.ascontiguousarray(cost, float), *half, STEPS, step * scale, step / scale, np.empty(3 * cost.size + 1), x)
         return x
     ahead, right, below = x.copy(), np.zeros((layers, rows, columns - 1)), np.zeros((layers, rows - 1, columns))
-    rank = np.arange(1, layers + 1)[:, None, None]
+    share = 1 / np.arange(1, layers + 1)[:, None, None]
     for _ in range(STEPS):
         right = np.clip(right + step * scale * np.diff(ahead, axis=2), -across / 2, across / 2)
         below = np.clip(below + step * scale * np.diff(ahead, axis=1), -down / 2, down / 2)
@@ -231,8 +231,7 @@ def _relaxed(cost: Array, across: Image, down: Image) -> Array:
         pull[:, 1:] -= below
         moved = x + step / scale * pull
         ordered = -np.sort(-moved, axis=0)
-        over = np.cumsum(ordered, axis=0) - 1
-        last = np.sum(ordered - over / rank > 0, axis=0)
-        before, x = x, np.maximum(moved - np.take_along_axis(over, last[None] - 1, axis=0) / last, 0)
+        over = np.max((np.cumsum(ordered, axis=0) - 1) * share, axis=0)
+        before, x = x, np.maximum(moved - over, 0)
         ahead = 2 * x - before
     return x
