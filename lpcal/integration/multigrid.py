@@ -36,8 +36,9 @@ relative to its diagonal (Chebyshev). Two equal steps of .7 take a sixth more cy
 PRECISION = 1e-8
 """Relative residual that a solve ends at. The slope and the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves
 them to where the solve began, and to rounding."""
-MOST = LARGEST
-"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60."""
+MOST = 5 * COARSEST
+"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60, and the field of normals (shading.field), whose
+blocks have no coarser levels, hundreds."""
 OVER_CORRECTION = 1.6
 """Factor of what a coarser level says: sums over pixels see steps between them too steep."""
 

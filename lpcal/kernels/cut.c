@@ -54,8 +54,8 @@ KERNEL void lpcal_two_labels(int64_t rows, int64_t columns, const float *evidenc
     }
 }
 
-/* The point of the simplex nearest to each of BLOCK points, given and found layer by layer (layers, BLOCK): what all numbers are lowered by is
-   the largest of (sum of the k largest - 1) / k (Held, Wolfe and Crowder 1974). */
+/* The point of the simplex nearest to each of BLOCK points, given and found layer by layer (layers, BLOCK): what all numbers are lowered by
+   is the largest of (sum of the k largest - 1) / k (Held, Wolfe and Crowder 1974). */
 static void on_the_simplex(int64_t layers, double at[][BLOCK]) {
     static const int count = BLOCK;
     double ordered[MOST_LAYERS][BLOCK], sum[BLOCK] = {0.0}, by[BLOCK];
