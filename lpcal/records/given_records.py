@@ -20,8 +20,10 @@ from lpcal.records.sensor import StatedSensor
 
 UNIT = 0.02
 """How far from 1 the length of a unit vector may be: vectors of two digits are taken for one."""
-COEFFICIENTS = {"opencv4": 4, "opencv5": 5, "opencv8": 8}
-"""Numbers of the distortion, by the lens model."""
+MODELS = {4: "opencv4", 5: "opencv5", 8: "opencv8"}
+"""Lens models by how many coefficients they have: they nest, so that the count says which one is meant."""
+ALSO = ("opencv", "pinhole", "radtan")
+"""Names that other programs give to them."""
 
 
 def calibration(found: Calibration, name: str = "calibration") -> Calibration:
@@ -83,23 +85,24 @@ def camera(found: Camera, name: str = "camera") -> Camera:
     Raises
     ------
     InputError
-        Another lens model, a matrix that is no camera's, or as many coefficients as another model has.
+        Another lens model, a matrix that is no camera's, or a count of coefficients that no model has.
     """
     if not isinstance(found, Camera):
         raise InputError(_kind(found), where=name, needed="a Camera", todo="lpcal.read_camera(path) reads one")
     if found.model == "splined":
         return found
-    if found.model not in COEFFICIENTS:
-        needed = f"{', '.join(COEFFICIENTS)} or splined (a pinhole: opencv4 with four zeros)"
+    if found.model not in {*MODELS.values(), *ALSO}:
+        needed = f"{', '.join(MODELS.values())} or splined; a fisheye's images are to be undistorted first"
         raise InputError(repr(found.model), where=f"{name}.model", needed=needed)
     K, distortion = given.shaped(found.K, (3, 3), f"{name}.K"), given.numbers(found.distortion, f"{name}.distortion").ravel()
     if not np.allclose(K[2], [0, 0, 1]) or K[1, 0] != 0 or min(K[0, 0], K[1, 1]) <= 0:
         todo = "transpose it" if K[2, :2].any() and np.allclose(K[:, 2], [0, 0, 1]) else "focal lengths are above 0"
         raise InputError(f"{np.round(K, 3).tolist()}", where=f"{name}.K", needed="[[fx, s, cx], [0, fy, cy], [0, 0, 1]]", todo=todo)
-    if distortion.size != COEFFICIENTS[found.model]:
-        needed = f"{COEFFICIENTS[found.model]} for {found.model}, in OpenCV's order"
+    distortion = distortion if distortion.size else np.zeros(4)
+    if distortion.size not in MODELS:
+        needed = "none, 4, 5 or 8 in OpenCV's order: k1, k2, p1, p2, k3, ..."
         raise InputError(f"{distortion.size} coefficients", where=f"{name}.distortion", needed=needed)
-    return replace(found, K=K, distortion=distortion)
+    return replace(found, model=MODELS[distortion.size], K=K, distortion=distortion)
 
 
 def sensor(found: object, name: str = "sensor") -> StatedSensor:

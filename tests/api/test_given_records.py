@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -80,14 +81,14 @@ def test_a_camera_of_lists_is_a_camera() -> None:
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        (camera("pinhole"), r"camera\.model: 'pinhole'(?s:.*)opencv4 with four zeros"),
+        (camera("fisheye"), r"camera\.model: 'fisheye'(?s:.*)undistorted first"),
         (camera(matrix=np.array(K).T), r"camera\.K(?s:.*)transpose it"),
         (camera(matrix=np.diag([-500.0, 500, 1])), r"camera\.K(?s:.*)focal lengths are above 0"),
-        (camera(distortion=[0.1, 0.2, 0, 0]), "4 coefficients(?s:.*)5 for opencv5"),
+        (camera(distortion=[0.1, 0.2, 0]), "3 coefficients(?s:.*)none, 4, 5 or 8"),
         (camera(distortion=[0.1, 0.2, 0, 0, np.nan]), "1 numbers that are not finite"),
     ],
 )
-def test_a_camera_that_cannot_be_is_refused(wrong: lpcal.Camera, words: str, tmp_path: Any) -> None:
+def test_a_camera_that_cannot_be_is_refused(wrong: lpcal.Camera, words: str, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=words):
         lpcal.integrate(np.broadcast_to([0, 0, -1.0], (260, 400, 3)), wrong)
     with pytest.raises(InputError, match=words):
@@ -97,3 +98,9 @@ def test_a_camera_that_cannot_be_is_refused(wrong: lpcal.Camera, words: str, tmp
 
 def test_one_number_for_squares_is_both_sides() -> None:
     assert np.allclose(lpcal.Board((3, 2), 0.025).points_B(), lpcal.Board((3, 2), (0.025, 0.025)).points_B())  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("model", "count", "meant"), [("pinhole", 0, "opencv4"), ("opencv4", 5, "opencv5"), ("opencv5", 4, "opencv4")])
+def test_the_count_of_coefficients_says_the_model(model: str, count: int, meant: str, tmp_path: Path) -> None:
+    lpcal.write_camera(tmp_path / "camera.yaml", camera(model, distortion=[0.0] * count))
+    assert lpcal.read_camera(tmp_path / "camera.yaml").model == meant
