@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.wing import d_object, wing_jacobian, wing_transform
@@ -64,12 +64,15 @@ def design_lights(wings: Sequence[Wing], H_CD: Array, H_CD_covariance: Array, se
     ------
     DegenerateError
         There is no wing.
+    DisagreementError
+        A wing is longer than any panel's: its lengths are in another unit.
     """
     if not wings:
         raise DegenerateError(
             "no light is a wing", needed="lights with azimuth, joint_angle, disc_spacer and blob_spacer", todo="state the wings' settings"
         )
     settings = np.array([[wing.azimuth_rad, wing.joint_angle_rad, wing.d1_m, wing.d2_m] for wing in wings])
+    refuse_beyond(wings)
     H_DL = wing_transform(settings)
     carry = se3.adjoint(H_CD)
     by_setting = carry @ wing_jacobian(settings) * setting_sigma
@@ -88,4 +91,36 @@ def design_lights(wings: Sequence[Wing], H_CD: Array, H_CD_covariance: Array, se
         covariance=covariance,
         source_of_H_CD=source_of_H_CD,
         d_object_m=float(np.median(reach)),
+    )
+
+
+MOST_M = 5.0
+"""Metres that no wing reaches: a length in mm that was written as m, or a panel as large as a room."""
+
+
+def refuse_beyond(wings: Sequence[Wing]) -> None:
+    """Stop where a wing is longer than any panel's.
+
+    Raises
+    ------
+    DisagreementError
+        One is, with its length.
+    """
+    for wing in wings:
+        if wing.d1_m + wing.d2_m > MOST_M:
+            raise DisagreementError(
+                f"{wing.name}: the wing is {wing.d1_m + wing.d2_m:.4g} m long",
+                where="panel and lights",
+                needed=f"a wing of at most {MOST_M:g} m",
+                todo="correct the units of panel.disc_radius, panel.joint, panel.blob and the light's spacers: mm for m?",
+            )
+
+
+def behind_warning(wings: Wings) -> str | None:
+    """In words, where the lights look away from what stands before the panel."""
+    if wings.d_object_m > 0:
+        return None
+    return (
+        f"the lights' axes meet {-1e3 * wings.d_object_m:.0f} mm behind the disc: they look away from the object; a joint's angle is "
+        "counted towards the disc's axis and is positive"
     )

@@ -10,7 +10,7 @@ from lpcal.records.outcome import Outcome, Progress
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's words."""
-    parser.add_argument("normals", type=Path, metavar="NORMALS", help=".npz, .npy, .png or .tif; z towards the camera, or as in C")
+    parser.add_argument("normals", type=Path, metavar="NORMALS", help=".npz, .npy, .mat, .png or .tif; z towards the camera, or as in C")
     parser.add_argument("-c", "--calibration", type=Path, help="calibration or any camera file (default: parallel rays, depth in pixels)")
     parser.add_argument(
         "--green",

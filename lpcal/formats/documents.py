@@ -69,6 +69,10 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
         It is not there, cut off, of another kind or of another version.
     """
     todo = "write it again with lpcal export" if kind == "calibration" else "write it again with the command that makes it"
+    elsewhere = f"name {kind}.yaml, or make one of another system's lights: lpcal import {path.name} -o calibration.yaml"
+    if path.is_dir():
+        made = path / "calib" / f"{kind}.yaml"
+        raise InputError("a folder", where=str(path), needed=f"a {kind} file", todo=f"name {made}" if made.is_file() else "name the file")
     if not path.is_file():
         todo = did_you_mean(path, "run lpcal run: it makes it" if kind == "calibration" else todo)
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
@@ -79,10 +83,16 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{path}:{mark.line + 1}" if mark else str(path)
-        raise InputError("cannot be read as YAML; is the file cut off?", where=place, needed=f"a whole {kind} file", todo=todo) from error
+        raise InputError(
+            "cannot be read as YAML; is the file cut off?",
+            where=place,
+            needed=f"a whole {kind} file",
+            todo=elsewhere if _of_others(kind, path) else todo,
+        ) from error
     if not isinstance(document, dict) or document.get("kind") != kind:
         found = document.get("kind") if isinstance(document, dict) else None
-        raise InputError(f"of kind {found!r}" if found else "says no kind", where=str(path), needed=f"kind: {kind}", todo=todo)
+        mends = todo if kind != "calibration" else "give the calibration that lpcal export writes" if found else elsewhere
+        raise InputError(f"of kind {found!r}" if found else "says no kind", where=str(path), needed=f"kind: {kind}", todo=mends)
     if document.get("lpcal") != VERSION:
         raise InputError(
             f"version {document.get('lpcal')!r}", where=str(path), needed=f"lpcal: {VERSION}", todo="use the lpcal that wrote it"
@@ -91,6 +101,11 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
     if not isinstance(provenance, dict) or any(provenance.get(entry.name) is None for entry in fields(Provenance)):
         raise InputError("ends before its provenance does: the file is cut off", where=str(path), needed=f"a whole {kind} file", todo=todo)
     return document
+
+
+def _of_others(kind: str, path: Path) -> bool:
+    """Whether what is to be a calibration does not even begin as a document of lpcal's."""
+    return kind == "calibration" and not path.read_bytes()[:9].startswith(f"lpcal: {VERSION}\n".encode())
 
 
 def read_provenance(path: Path, kind: str) -> Provenance:

@@ -12,12 +12,14 @@ takes as many lines as the first one says.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.light_tables import C_FROM_UP, distant, lines_of, near_lights, numbers, text_of, unit_rows, whole_number, words_of
+from lpcal.formats.named_files import PICTURES, RAWS
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Calibration
 
@@ -27,6 +29,9 @@ MOSTLY = 0.5
 """Share of vectors of length 1 from which the others are damaged directions, not positions."""
 STATED = ("directions", "positions")
 """What a user may state the vectors to be."""
+SAME_RAD = 1e-3
+"""Radians within which two lights are of one direction: a line that is there twice, not two lamps."""
+NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 SPLIT = re.compile(r"[\s;]+")
 COUNTED_FROM = "# lpcal: positions in mm, counted from the point of the camera's frame (x right, y down, z forward) "
 """How the comment begins after which the point stands, three numbers in mm."""
@@ -75,7 +80,7 @@ def read_lp(path: Path, stated: str | None = None) -> tuple[Calibration, list[st
         where = ", ".join(f"{value:.1f}" for value in point_C / M_FROM_MM)
         return found, [f"positions about the point {where} mm of the camera's frame, as its comment says: near lights, alike on all sides"]
     vectors, notes = _directions(np.stack(rows), path, stated)
-    return distant(path.stem, names, vectors * C_FROM_UP), notes
+    return distant(path.stem, names, vectors * C_FROM_UP), [*notes, *_of_one_direction(names, vectors)]
 
 
 def counted_from(text: str, where: str) -> Array | None:
@@ -104,11 +109,33 @@ def _light(line: str, where: str) -> tuple[str, Array]:
         words = [word for word in SPLIT.split(line) if word]
         if len(words) < 4 or any(word.endswith(",") for word in words[-3:-1]):  # commas between the values
             words = [word for word in re.split(r"[\s;,]+", line) if word]
+        _refuse_more(words, where)
         name, words = " ".join(words[:-3]).rstrip(","), words[-3:]
     stem = PureWindowsPath(name).stem.strip()
     if len(words) != 3 or not stem:
         raise InputError(f"{line[:80]!r}", where=where, needed="file name and x y z")
     return stem, numbers(words, where)
+
+
+def _refuse_more(words: list[str], where: str) -> None:
+    """Stop where more than three numbers follow an image's name: the last three would be taken, and the first be part of the name."""
+    at = next((k for k, word in enumerate(words) if PureWindowsPath(word.rstrip(",")).suffix.lower() in PICTURES + RAWS), len(words))
+    more = words[at + 1 :]
+    if len(more) > 3 and all(NUMBER.fullmatch(word.strip(",")) for word in more):
+        raise InputError(
+            f"{len(more)} numbers after {words[at]}",
+            where=where,
+            needed="file name and x y z",
+            todo="leave the others out: an .lp states no intensities, angles or places beside directions",
+        )
+
+
+def _of_one_direction(names: Sequence[str], directions: Array) -> list[str]:
+    """In words, lights that stand in one direction, as a line that was copied."""
+    apart = np.linalg.norm(directions[:, None] - directions[None], axis=2) + 2 * np.tri(len(directions))
+    pairs = [f"{names[i]} and {names[j]}" for i, j in np.argwhere(apart < SAME_RAD)]
+    more = f" and {len(pairs) - 3} pairs more" if len(pairs) > 3 else ""
+    return [f"{', '.join(pairs[:3])}{more} are of one direction: is a line there twice?"] if pairs else []
 
 
 def is_table(path: Path) -> bool:
@@ -137,7 +164,8 @@ def read_table(path: Path, stated: str | None = None) -> tuple[Calibration, list
     if count not in {None, len(found)}:
         raise DisagreementError(f"{len(found)} lights, but the first row says {count}", where=str(path), needed="one row a light")
     vectors, notes = _directions(found, path, stated)
-    return distant(path.stem, [f"L{k}" for k in range(len(found))], vectors * C_FROM_UP), notes
+    names = [f"L{k}" for k in range(len(found))]
+    return distant(path.stem, names, vectors * C_FROM_UP), [*notes, *_of_one_direction(names, vectors)]
 
 
 def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, list[str]]:

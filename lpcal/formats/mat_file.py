@@ -6,6 +6,7 @@ structures, sparse or complex matrices) are passed over. Source: MathWorks, MAT-
 
 from __future__ import annotations
 
+import math
 import struct
 import zlib
 from collections.abc import Iterator
@@ -37,8 +38,8 @@ HEAD = (6, 5, 1)
 type Element = tuple[int, bytes]
 
 
-def read_matrices(path: Path) -> dict[str, Array]:
-    """Matrices (rows, columns) by name.
+def read_matrices(path: Path, dimensions: int = 2, most_bytes: int = MOST_BYTES) -> dict[str, Array]:
+    """Matrices (rows, columns), or arrays of so many dimensions, by name.
 
     Raises
     ------
@@ -47,22 +48,23 @@ def read_matrices(path: Path) -> dict[str, Array]:
     """
     try:
         size = path.stat().st_size
-        stored = path.read_bytes() if size <= MOST_BYTES else b""
+        stored = path.read_bytes() if size <= most_bytes else b""
     except OSError as error:
         raise InputError("cannot be read", where=str(path), needed="a MATLAB file") from error
-    if size > MOST_BYTES:
-        raise InputError(f"holds {size / 1e6:.0f} MB", where=str(path), needed="a MATLAB file of lights", todo="is it the right file?")
+    if size > most_bytes:
+        needed = f"a MATLAB file of at most {most_bytes / 1e6:.0f} MB"
+        raise InputError(f"holds {size / 1e6:.0f} MB", where=str(path), needed=needed, todo="is it the right file?")
     if stored.startswith(b"MATLAB 7.3") or b"\x89HDF\r\n\x1a\n" in stored[:1024]:
         raise InputError("a MATLAB file of version 7.3 (HDF5)", where=str(path), needed="version 7 or older", todo="save it with -v7")
     order = {b"IM": "<", b"MI": ">"}.get(stored[HEADER - 2 : HEADER])
     if order is None:
-        raise InputError("is no MATLAB file of version 5 to 7", where=str(path), needed="light.mat of near_ps", todo="save it with -v7")
+        raise InputError("is no MATLAB file of version 5 to 7", where=str(path), needed="one of these", todo="save it with -v7")
     found: dict[str, Array] = {}
     try:
         for kind, data in _elements(stored[HEADER:], order):
-            unpacked = next(_elements(_inflated(data), order)) if kind == COMPRESSED else (kind, data)
+            unpacked = next(_elements(_inflated(data, most_bytes), order)) if kind == COMPRESSED else (kind, data)
             if unpacked[0] == MATRIX:
-                _keep(found, unpacked[1], order)
+                _keep(found, unpacked[1], order, dimensions)
     except (ValueError, StopIteration, struct.error, zlib.error, UnicodeDecodeError) as error:
         raise InputError("a MATLAB file that is cut off or damaged", where=str(path), needed="a whole one", todo="copy it again") from error
     return found
@@ -85,16 +87,16 @@ def _elements(stored: bytes, order: str) -> Iterator[Element]:
         at += step
 
 
-def _inflated(packed: bytes) -> bytes:
+def _inflated(packed: bytes, most_bytes: int) -> bytes:
     unpacking = zlib.decompressobj()
-    found = unpacking.decompress(packed, MOST_BYTES)
+    found = unpacking.decompress(packed, most_bytes)
     if unpacking.unconsumed_tail or not unpacking.eof:
         raise ValueError("a variable that is too large or cut off")
     return found
 
 
-def _keep(found: dict[str, Array], variable: bytes, order: str) -> None:
-    """Add a variable if it is a full real matrix of numbers."""
+def _keep(found: dict[str, Array], variable: bytes, order: str, dimensions: int) -> None:
+    """Add a variable if it is a full real array of numbers of so many dimensions."""
     parts = _elements(variable, order)
     (flag_kind, flags), (shape_kind, shape_bytes), (name_kind, name_bytes) = next(parts), next(parts), next(parts)
     if (flag_kind, shape_kind, name_kind) != HEAD or len(flags) != 8 or len(shape_bytes) % 4:
@@ -104,13 +106,13 @@ def _keep(found: dict[str, Array], variable: bytes, order: str) -> None:
     if flag & ~KNOWN_FLAGS:
         raise ValueError("flags that the format does not have")
     name = name_bytes.decode("latin-1")
-    if flag & 0xFF not in NUMERIC or flag & COMPLEX or shape.size != 2:
+    if flag & 0xFF not in NUMERIC or flag & COMPLEX or shape.size != dimensions:
         return
-    rows, columns = (int(side) for side in shape)
+    sides = tuple(int(side) for side in shape)
     kind, data = next(parts)
-    if kind not in TYPES or rows < 0 or columns < 0:
+    if kind not in TYPES or min(sides) < 0:
         raise ValueError("numbers of no known type")
     values: npt.NDArray[np.generic] = np.frombuffer(data, order + TYPES[kind])
-    if values.size != rows * columns:
-        raise ValueError("another count of numbers than the matrix has")
-    found[name] = values.astype(float).reshape((rows, columns), order="F")
+    if values.size != math.prod(sides):
+        raise ValueError("another count of numbers than the array has")
+    found[name] = values.astype(float).reshape(sides, order="F")

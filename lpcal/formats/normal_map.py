@@ -1,4 +1,4 @@
-"""Normal maps from elsewhere: .npz and .npy arrays, .png and .tif images.
+"""Normal maps from elsewhere: .npz and .npy arrays, MATLAB's .mat (DiLiGenT's Normal_gt.mat), .png and .tif images.
 
 Normals that face the camera show their own axes: those with z towards the viewer (x right, y up, as in normals_gl.png) have z > 0, those
 in C (x right, y down, z forward) z < 0. Whole numbers 0..max, and floats none of which is negative, stand for -1..1.
@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.images import read_image
+from lpcal.formats.mat_file import read_matrices
 from lpcal.formats.named_files import did_you_mean
 from lpcal.formats.reading import reader
 from lpcal.geometry.arrays import Image, Mask
@@ -34,7 +35,11 @@ LENGTHS = (0.5, 1.5)
 """A pixel whose vector is no longer or shorter holds a normal."""
 
 
-@reader("a normal map: .npz, .npy, .png or .tif", "cv2")
+MAPS = "a normal map: .npz, .npy, .mat, .png or .tif"
+"""What is read."""
+
+
+@reader(MAPS, "cv2")
 def read_normals(path: Path) -> tuple[Image, Mask]:
     """Normals (H, W, 3) in C, not made unit, and the pixels (H, W) that hold one.
 
@@ -49,6 +54,10 @@ def read_normals(path: Path) -> tuple[Image, Mask]:
     mask: Mask | None = None
     if path.suffix.lower() in {".npz", ".npy"}:
         values, mask = _read_arrays(path)
+    elif path.suffix.lower() == ".mat":
+        values = _of_matlab(path)
+    elif path.suffix.lower() in {".txt", ".csv", ".exr", ".hdr", ".pfm"}:
+        raise InputError(f"a {path.suffix.lower()} file", where=str(path), needed=MAPS, todo="store the map as .npy: numpy.save, H x W x 3")
     else:
         values = read_image(path).pixels
         mask = _alpha(path)
@@ -95,7 +104,7 @@ def read_depth(path: Path) -> Image | None:
 
 def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:
     if not path.is_file():
-        raise InputError("no such file", where=str(path), needed="a normal map: .npz, .npy, .png or .tif", todo=did_you_mean(path))
+        raise InputError("no such file", where=str(path), needed=MAPS, todo=did_you_mean(path))
     try:
         if not zipfile.is_zipfile(path):
             with path.open("rb") as stream:
@@ -115,6 +124,15 @@ def _read_arrays(path: Path) -> tuple[npt.NDArray[Any], Mask | None]:
         raise InputError(
             f"cannot be read ({str(error)[:80]})", where=str(path), needed="a whole .npz or .npy file", todo="write it again"
         ) from error
+
+
+def _of_matlab(path: Path) -> npt.NDArray[Any]:
+    """The array (H, W, 3) of a MATLAB file."""
+    found = {name: values for name, values in read_matrices(path, 3, MOST_BYTES).items() if values.shape[2] == 3}
+    key = next((key for key in KEYS if key in found), next(iter(found)) if len(found) == 1 else None)
+    if key is None:
+        raise InputError(f"holds {len(found)} arrays of height x width x 3", where=str(path), needed="one of normals, such as Normal_gt")
+    return found[key]
 
 
 def _array(stream: IO[bytes], path: Path) -> npt.NDArray[Any]:

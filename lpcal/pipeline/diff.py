@@ -29,7 +29,7 @@ from lpcal.formats.mask_files import read_mask
 from lpcal.formats.normal_map import read_depth, read_normals
 from lpcal.formats.outputs import marked, refuse_place, write_text
 from lpcal.formats.surface_files import read_surface
-from lpcal.geometry.arrays import Array, Mask
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.geometry.camera_difference import pixel_grid, projection_difference
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration, Camera, LightsSolution
@@ -217,6 +217,7 @@ def evaluate_files(surface: Path, truth: Path, mask: Path | None) -> Outcome:
     """
     found = read_surface(surface) if surface.is_dir() else _of_normals(surface)
     asked = None if mask is None else read_mask(mask, found.mask.shape)
+    said: list[str] = []
     if truth.is_dir():
         result = evaluate(found, read_surface(truth), mask=asked)
     else:
@@ -224,8 +225,25 @@ def evaluate_files(surface: Path, truth: Path, mask: Path | None) -> Outcome:
         depth = read_depth(truth) if surface.is_dir() else None
         normals[~good] = 0.0
         result = evaluate(found, normals, depth=depth, mask=asked)
+        said = _other_axes(found, normals, asked, result.normal_mean_deg)
     figures = {one.name: getattr(result, one.name) for one in fields(result) if one.name != "angle_deg"}
-    return Outcome(repr(result).splitlines(), {"surface": str(surface), "truth": str(truth), **figures})
+    return Outcome([*repr(result).splitlines(), *said], {"surface": str(surface), "truth": str(truth), **figures})
+
+
+TURNED_OVER, CONVENTION_DEG = 0.3, 5.0
+"""Share of the mean angle that is left once an axis is turned over, and the least mean angle, from which two maps differ by convention."""
+
+
+def _other_axes(surface: Surface, normals_C: Image, mask: Mask | None, mean_deg: float) -> list[str]:
+    """In words, where the truth's normals agree far better with x or y turned over."""
+    if mean_deg < CONVENTION_DEG:
+        return []
+    turned = {axis: normals_C * np.array(signs, np.float32) for axis, signs in (("x", (-1, 1, 1)), ("y", (1, -1, 1)))}
+    left = {axis: evaluate(surface, other, mask=mask).normal_mean_deg for axis, other in turned.items()}
+    axis = min(left, key=lambda each: left[each])
+    if left[axis] > TURNED_OVER * mean_deg:
+        return []
+    return [f"  with {axis} of one of them turned over it would be {left[axis]:.3f} deg mean: are they of one convention?"]
 
 
 def _of_normals(path: Path) -> Surface:

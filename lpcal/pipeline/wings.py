@@ -9,7 +9,7 @@ import numpy as np
 
 from lpcal.api.lights import AS_DRAWN, as_drawn, design_lights
 from lpcal.chain.h_pd_markers import h_pd_from_markers
-from lpcal.chain.h_pl_wings import camera_in_disc
+from lpcal.chain.h_pl_wings import behind_warning, camera_in_disc
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.handeye_yaml import read_handeye
 from lpcal.formats.wings_yaml import KIND, write_wings
@@ -79,6 +79,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
             "d_object_m": wings.d_object_m,
             "H_CL": dict(zip(drawn, wings.H_CL, strict=True)),
         },
+        warnings=[behind] if (behind := behind_warning(wings)) else [],
         next_command="lpcal refine",
     )
 

@@ -87,7 +87,7 @@ def test_a_file_cut_anywhere_is_refused(tmp_path: Path) -> None:
     [
         (
             b"lpcal: 1\nkind: camera\nprovenance: {}\n",
-            "of kind 'camera'\n  needed: kind: calibration\n  do: write it again",
+            "of kind 'camera'\n  needed: kind: calibration\n  do: give the calibration",
         ),
         (b"lpcal: 2\nkind: calibration\nprovenance: {}\n", "version 2\n  needed: lpcal: 1\n  do: use the lpcal that wrote it"),
         (b"kind: calibration\n", "version None"),
