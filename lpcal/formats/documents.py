@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Mapping
+from copy import deepcopy
 from dataclasses import asdict, fields, is_dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +25,8 @@ from lpcal.formats.record_documents import document_of
 from lpcal.records.provenance import Provenance
 
 VERSION = 1
+MOST_HELD = 4_000_000
+"""Characters of the largest document that is held once it is parsed: those of the stages have a tenth of it."""
 
 
 def sha256(path: Path) -> str:
@@ -59,6 +63,12 @@ def _without_time(document: bytes) -> bytes:
     return document.rpartition(b"\n  time:")[0]
 
 
+@lru_cache(maxsize=8)
+def _held(text: str, path: Path) -> Any:
+    """What a document's text holds, to be copied: `lpcal run` reads each some four times, and parsing takes ten times as long as a copy."""
+    return load_yaml(text, path)
+
+
 @reader("a document that lpcal wrote")
 def read_document(path: Path, kind: str) -> dict[str, Any]:
     """Read a YAML document of a kind.
@@ -77,7 +87,8 @@ def read_document(path: Path, kind: str) -> dict[str, Any]:
         todo = did_you_mean(path, "run lpcal run: it makes it" if kind == "calibration" else todo)
         raise InputError("no such file", where=str(path), needed=f"a {kind} file that lpcal wrote", todo=todo)
     try:
-        document = load_yaml(path.read_text(encoding="utf-8"), path)
+        text = path.read_text(encoding="utf-8")
+        document = deepcopy(_held(text, path)) if len(text) <= MOST_HELD else load_yaml(text, path)
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", where=str(path), needed=f"a {kind} file that lpcal wrote") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:

@@ -37,8 +37,8 @@ PRECISION = 1e-8
 """Relative residual that a solve ends at. The slope and the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves
 them to where the solve began, and to rounding."""
 MOST = 5 * COARSEST
-"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60, and the field of normals (shading.field), whose
-blocks have no coarser levels, hundreds."""
+"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60, and the field of normals (shading.field),
+which has no coarser levels, hundreds."""
 OVER_CORRECTION = 1.6
 """Factor of what a coarser level says: sums over pixels see steps between them too steep."""
 

@@ -113,6 +113,18 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
         read_document(tmp_path / "calibration.yaml", "calibration")
 
 
+def test_a_document_read_again_is_whole_and_as_it_stands_now(tmp_path: Path) -> None:
+    """One that is held after it was parsed: neither what a caller does to it nor an older text comes back."""
+    path = tmp_path / "camera.yaml"
+    write_document(path, "camera", {"K": [[1.0, 0.0], [0.0, 1.0]]}, Provenance())
+    first = read_document(path, "camera")
+    first["K"][0][0] = 7.0
+    del first["provenance"]
+    assert read_document(path, "camera")["K"] == [[1.0, 0.0], [0.0, 1.0]]
+    write_document(path, "camera", {"K": [[2.0]]}, Provenance())
+    assert read_document(path, "camera")["K"] == [[2.0]]
+
+
 def test_sha256_is_the_files(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"abc")
     assert sha256(tmp_path / "a") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
