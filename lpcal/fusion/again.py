@@ -1,14 +1,16 @@
 r"""Every view solved again with what all of them together know: where the surface lies, and the light that its parts throw on each other.
 
-Symbols: z the depth of a view as aligned, T_k the light vectors of what the parts of the model reflect (`between`), a the reflectance
-of the median patch, I_k the signals of a view at points p of it, V_k B_k the light vectors of its lights, 0 where the model hides them::
+Symbols: z the depth of a view as aligned, p a place of the model, T_ik the light vectors of what the parts of the model reflect there under
+light k of view i (`between`), a the reflectance of the median patch, I_ik the signals at p of the views i that see it, V_ik B_ik the light
+vectors of their lights, 0 where the model hides them::
 
-    b_i(p; a) = argmin_b sum_k rho((I_k - b . (V_k B_k + T_k(a))) / s_k)            each view i by itself, where lights reach p
-    a         = argmin sum_p,i,j rho(b_i / |b_i| - b_j / |b_j|)
+    b_p(a) = argmin_b sum_ik rho((I_ik - b . (V_ik B_ik + T_ik(a))) / s_ik)          one albedo and normal of all views that see p
+    a      = argmin N / 2 log sum_pik rho(..)  +  prior
 
-Each view has its lights elsewhere, so with a wrong reflectance what is reflected turns its normals another way: where views agree best is
-the reflectance of the object, one number for all of them. That all signals fit the model's own normals best says less: these were found
-with each view's guess of it. Each view is then solved again at its depth with that light, and takes the place of the first.
+Each view has its lights elsewhere, so with a wrong reflectance no one normal explains the signals of all of them. The normals of views that
+are solved apart say less: what is reflected comes from the same parts in all views and turns their normals alike. So does the fit of all
+signals to the model's own normals: these were found with each view's guess of the light. Each view is then solved again at its depth with
+that light, and takes the place of the first.
 """
 
 from __future__ import annotations
@@ -21,10 +23,10 @@ import numpy as np
 from lpcal.errors import LpcalError
 from lpcal.fusion.align import SHARED, Aligned, Start, align
 from lpcal.fusion.bending import bending_of
-from lpcal.fusion.between import Body, at_points
+from lpcal.fusion.between import PATCHES, Body, at_points
 from lpcal.fusion.pairs import Placed
 from lpcal.fusion.pieces import cleared
-from lpcal.fusion.vertices import albedo_of
+from lpcal.fusion.vertices import GATE_PX, albedo_of, evidence
 from lpcal.fusion.views import PlacedView, renewed
 from lpcal.fusion.volume import Triangles
 from lpcal.geometry import lambert, se3
@@ -43,22 +45,17 @@ from lpcal.view import sight
 
 TRIED = np.arange(0.0, 0.97, 0.16)
 """Reflectances of the median patch that are tried; between them the cost is nearly a parabola."""
-APART_RAD = float(np.radians(3.0))
-"""Scale of the loss of what two views' normals of a place differ by: most differ by one or two degrees."""
-BESIDE_PX = 2.0
-"""Points of two views that are so near each other, in footprints of a pixel, are one place."""
-LIKE = float(np.cos(np.radians(18.0)))
-"""Least cosine between the model's normals at two points of one place."""
-INDEPENDENT = 5000.0
-"""Pairs that all of them are worth against what reflectance is common: most say the same of the few places that see each other."""
-MOST_POINTS, FEWEST_PAIRS = 25_000, 200
-"""Points of all views that are compared, about, and pairs of them from which a reflectance is estimated."""
-MODEL_STD, OUTLIER, ROUNDS = 0.03, 2.5, 5
-"""What the light at a point lacks, a standard deviation, as a share of its brightest signal; the scale of the loss, in standard deviations
-of a signal; and rounds of its weights."""
-CLEAR, FEWEST_LIGHTS = 0.1, 4
-"""Least cosine between the model's normal and a light that counts as reaching a point, and of these the fewest that tell its normal: one
-more than needed, so that one in shadow can be found."""
+PLACES = 4000
+"""Vertices of the model at which signals are compared, about: one number is asked of them."""
+FEWEST_VIEWS, FEWEST_PLACES = 2, 100
+"""Views that must see a place for it to count, and fewest such places from which a reflectance is estimated."""
+INDEPENDENT = float(PATCHES)
+"""Signals that all of them are worth against what reflectance is common: what one patch's light lacks is lacking in all that it reaches."""
+MODEL_STD, OUTLIER, ROUNDS = 0.01, 2.5, 5
+"""What the light at a place lacks, a standard deviation, as a share of its brightest signal in a view (of a knot 0.7 %); the scale of the
+loss, in standard deviations of a signal; and rounds of its weights."""
+CLEAR = 0.1
+"""Least cosine between the model's normal and a light that counts as reaching a place."""
 SMOOTHED = 12
 """Vertices whose normals' mean is the model's normal at a point."""
 
@@ -68,15 +65,14 @@ type Images = Callable[[str], tuple[Radiance, Calibration] | None]
 
 @dataclass(frozen=True)
 class ViewSamples:
-    """Signals (L, N) at points of one view, their standard deviation, and what lights them."""
+    """Signals (L, N) of a view at the places that it sees, their standard deviation, and what lights them."""
 
-    x_A: Array
-    n_A: Array
-    """(N, 3) points, and the model's normals there."""
-    footprint_m: float
+    place: Index
+    """(N,) which of the model's places these are."""
     signal: Array
     sigma: Array
-    usable: Mask
+    reached: Mask
+    """(L, N) not saturated, and reached by the light."""
     lit: Array
     """(L, N, 3) light vectors of the lights in A, 0 where the model hides them."""
     direct: Array
@@ -92,11 +88,12 @@ def again(aligned: Aligned, model: Triangles, images: Images, progress: Progress
     state = aligned.placed
     footprint_m = float(np.median([one.view.footprint_m for one in state]))
     body = Body.of(model, albedo_of(state, model.vertices_A, model.normals_A, footprint_m))
-    normals = _Smoothed(model)
+    x_A, n_A = places_of(model)
+    seen = evidence(state, x_A, n_A, GATE_PX * footprint_m).weight > 0
     samples = []
-    for one in state:
+    for one, at in zip(state, seen, strict=True):
         known = images(one.view.name)
-        samples.append(None if known is None else sampled(body, normals, one, *known))
+        samples.append(None if known is None else sampled(body, x_A, n_A, np.flatnonzero(at), one, *known))
     reflectance = reflectance_of(body, [some for some in samples if some is not None])
     if reflectance is None:
         return aligned, None
@@ -119,85 +116,84 @@ def again(aligned: Aligned, model: Triangles, images: Images, progress: Progress
     return replace(cleared(found), before_m=aligned.before_m), reflectance
 
 
-class _Smoothed:
-    """Normals of a model, each the mean of those about it."""
+def places_of(model: Triangles) -> tuple[Array, Array]:
+    """Vertices (P, 3) all over a model, and at each the mean normal (P, 3) of those about it."""
+    from scipy.spatial import cKDTree
 
-    def __init__(self, model: Triangles) -> None:
-        from scipy.spatial import cKDTree
-
-        self.tree, self.normals_A = cKDTree(model.vertices_A), model.normals_A
-
-    def __call__(self, x_A: Array, n_A: Array) -> Array:
-        _, near = self.tree.query(x_A, k=SMOOTHED)
-        of = self.normals_A[near]
-        mean = (of * (np.einsum("nki,ni->nk", of, n_A) > 0.5)[..., None]).sum(axis=1)
-        length = np.linalg.norm(mean, axis=1, keepdims=True)
-        return np.where(length > 0.5, mean / np.maximum(length, 1e-12), n_A)
+    some = slice(None, None, max(len(model.vertices_A) // PLACES, 1))
+    x_A, n_A = model.vertices_A[some], model.normals_A[some]
+    _, near = cKDTree(model.vertices_A).query(x_A, k=min(SMOOTHED, len(model.vertices_A)))
+    of = model.normals_A[near]
+    mean = (of * (np.einsum("nki,ni->nk", of, n_A) > 0.5)[..., None]).sum(axis=1)
+    return x_A, lambert.unit(mean)[0]
 
 
-def sampled(body: Body, normals: Callable[[Array, Array], Array], one: Placed, radiance: Radiance, calibration: Calibration) -> ViewSamples:
-    """What a view's images show at the points that are compared with other views."""
+def sampled(body: Body, x_A: Array, n_A: Array, place: Index, one: Placed, radiance: Radiance, calibration: Calibration) -> ViewSamples:
+    """What a view's images show at those of some places (P, 3) with normals (P, 3) that it sees."""
+    from scipy.ndimage import map_coordinates
+
+    x_A, n_A = x_A[place], n_A[place]
     lights = sight.lights_of(calibration, radiance)
     maps = sight.grey(radiance, lights)
-    row, column = one.row - one.view.image[1], one.column - one.view.image[0]
-    x_A, seen_n_A, _ = one.points()
-    n_A = normals(x_A, seen_n_A)
-    d_C, E = sight.light_vectors(lights, se3.apply(se3.inv(one.H_AC), x_A))
+    x_C = se3.apply(se3.inv(one.H_AC), x_A)
+    column, row = (one.view.to_pixels(x_C[:, :2] / x_C[:, 2:]) - one.view.image[:2]).T
+    signal = np.stack([map_coordinates(each.astype(float), [row, column], order=1, mode="nearest") for each in maps.signal])
+    at = np.s_[:, np.rint(row).astype(int), np.rint(column).astype(int)]
+    d_C, E = sight.light_vectors(lights, x_C)
     lit = d_C @ one.H_AC[:3, :3].T * E[..., None]
     for k, light in enumerate(lights):
         lit[k, body.hidden(x_A, n_A, one.H_AC, light)] = 0.0
-    signal, sigma = (of[:, row, column].astype(float) for of in (maps.signal, maps.sigma))
-    usable, direct = maps.usable[:, row, column], body.direct(one.H_AC, lights)
-    return ViewSamples(x_A, n_A, one.view.footprint_m, signal, sigma, usable, lit, direct, body.shares(x_A, n_A))
+    reached = maps.usable[at] & (np.einsum("lni,ni->ln", lit, n_A) > CLEAR * E)
+    return ViewSamples(place, signal, maps.sigma[at].astype(float), reached, lit, body.direct(one.H_AC, lights), body.shares(x_A, n_A))
 
 
 def reflectance_of(body: Body, samples: Sequence[ViewSamples]) -> float | None:
-    """The reflectance of the model's median patch at which views agree best; None where no views show common places."""
-    if not samples:
-        return None
-    pairs = _met(samples)
-    if len(pairs) < FEWEST_PAIRS:
+    """The reflectance of the model's median patch with which one normal a place explains the signals of all views best.
+
+    None where too few places are seen by several views.
+    """
+    views = np.bincount(np.concatenate([some.place for some in samples])) if samples else np.zeros(1, int)
+    shared = views >= FEWEST_VIEWS
+    if shared.sum() < FEWEST_PLACES:
         return None
     direct = np.concatenate([some.direct for some in samples])
     ends = np.cumsum([len(some.direct) for some in samples])[:-1]
-    n_A = np.concatenate([some.n_A for some in samples])
     costs = []
     for one in TRIED:
         by_view = np.split(body.thrown(direct, float(one)), ends)
-        turned = np.concatenate([_normals(some, thrown) for some, thrown in zip(samples, by_view, strict=True)]) - n_A
-        square = ((turned[pairs[:, 0]] - turned[pairs[:, 1]]) ** 2).sum(axis=1)
-        costs.append(float(np.nanmean(square / (square + APART_RAD**2))))
-    odds = INDEPENDENT * np.array(costs) + ((TRIED - bounce.COMMON) / bounce.COMMON_SIGMA) ** 2
+        lights = [some.lit + at_points(thrown, some.shares) for some, thrown in zip(samples, by_view, strict=True)]
+        costs.append(_unexplained(samples, lights, shared))
+    odds = INDEPENDENT * np.log(costs) + ((TRIED - bounce.COMMON) / bounce.COMMON_SIGMA) ** 2
     least = int(np.clip(np.argmin(odds), 1, len(TRIED) - 2))
     before, here, after = odds[least - 1 : least + 2]
     shift = np.clip(0.5 * (before - after) / max(before - 2 * here + after, 1e-30), -1, 1)
     return float(np.clip(TRIED[least] + shift * (TRIED[1] - TRIED[0]), *bounce.REFLECTANCES[:: len(bounce.REFLECTANCES) - 1]))
 
 
-def _met(samples: Sequence[ViewSamples]) -> Index:
-    """Pairs (M, 2) of points of two views that lie at one place and face one way."""
-    from scipy.spatial import cKDTree
+def _unexplained(samples: Sequence[ViewSamples], lights: Sequence[Array], shared: Mask) -> float:
+    """Robust mean square of what one b a place leaves of the signals of all views, under the light (L, N, 3) of each.
 
-    x_A, n_A = np.concatenate([some.x_A for some in samples]), np.concatenate([some.n_A for some in samples])
-    view = np.repeat(np.arange(len(samples)), [len(some.x_A) for some in samples])
-    some = np.arange(0, len(x_A), max(len(x_A) // MOST_POINTS, 1))
-    pairs = some[cKDTree(x_A[some]).query_pairs(BESIDE_PX * float(np.median([one.footprint_m for one in samples])), output_type="ndarray")]
-    a, b = pairs.T
-    return np.asarray(pairs[(view[a] != view[b]) & (np.einsum("ni,ni->n", n_A[a], n_A[b]) > LIKE)])
-
-
-def _normals(some: ViewSamples, thrown: Array) -> Array:
-    """Normals (N, 3) in A of points by their signals, with the light of patches (L, Q, 3); NaN where too few lights reach them."""
-    light = some.lit + at_points(thrown, some.shares)
-    strength = np.linalg.norm(some.lit, axis=2)
-    sure = some.usable & (np.einsum("lni,ni->ln", some.lit, some.n_A) > CLEAR * np.maximum(strength, 1e-12))
-    variance = some.sigma**2 + (MODEL_STD * some.signal.max(axis=0)) ** 2
-    weight = sure / variance
-    for _ in range(ROUNDS):
-        b, _ = lambert.weighted(light, some.signal, weight)
-        square = (some.signal - lambert.predicted(light, np.nan_to_num(b))) ** 2 / variance
-        weight = sure / variance / (1 + square / OUTLIER**2) ** 2
-    return np.where((sure.sum(axis=0) >= FEWEST_LIGHTS)[:, None], lambert.unit(b)[0], np.nan)
+    How bright each capture came out is free.
+    """
+    b, gain = np.zeros((len(shared), 3)), np.ones(len(samples))
+    for done in range(ROUNDS + 1):
+        A, c, total, count = np.zeros((len(b), 3, 3)), np.zeros((len(b), 3)), 0.0, 1
+        for k, (some, light) in enumerate(zip(samples, lights, strict=True)):
+            variance = some.sigma**2 + (MODEL_STD * some.signal.max(axis=0)) ** 2
+            weight = (some.reached & shared[some.place]) / variance
+            if done:
+                expected = lambert.predicted(light, b[some.place])
+                square = (some.signal - gain[k] * expected) ** 2 / (variance * OUTLIER**2)
+                total += float((weight * variance * square / (1 + square)).sum())
+                count += int(np.count_nonzero(weight))
+                weight = weight / (1 + square) ** 2
+                gain[k] = (weight * expected * some.signal).sum() / max((weight * expected**2).sum(), 1e-300)
+            A[some.place] += gain[k] ** 2 * np.einsum("ln,lni,lnj->nij", weight, light, light)
+            c[some.place] += gain[k] * np.einsum("ln,lni,ln->ni", weight, light, some.signal)
+        ridge = 1e-9 * np.trace(A, axis1=1, axis2=2) + 1e-30
+        b = np.linalg.solve(A + ridge[:, None, None] * np.eye(3), c[..., None])[..., 0]
+        gain /= gain.mean()
+    return total / count
 
 
 def solved(one: Placed, body: Body, thrown: Array, reflectance: float, known: tuple[Radiance, Calibration]) -> PlacedView:
