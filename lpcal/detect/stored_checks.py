@@ -91,7 +91,8 @@ def twins(raw: RawCapture, noise: tuple[float, float], linear: Image) -> tuple[s
         *raw.lights,
         *(f"ambient image {k}" if k else "the ambient image" for k in range(0 if raw.ambient is None else len(raw.ambient))),
     ]
-    found = list(_equal([*raw.images, *([] if raw.ambient is None else raw.ambient)]))
+    pairs = _equal([*raw.images, *([] if raw.ambient is None else raw.ambient)])
+    found = [(one, other) for one, other in pairs if one < len(raw.lights)]  # the same ambient image twice does no harm
     if not found:
         return ()
     words = "; ".join(f"{names[one]} and {names[other]}" for one, other in found[:3]) + ("; ..." if len(found) > 3 else "")
