@@ -29,9 +29,8 @@ from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, clues, flats, layers, mask, room_light
 from lpcal.segmentation.clues import View
-from lpcal.segmentation.samples import LIT_SIGMAS
 from lpcal.view import network, sight
-from lpcal.view.agreed import COARSE_PIXELS
+from lpcal.view.agreed import CERTAIN, COARSE_PIXELS
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 
 FOLDS = 4
@@ -108,7 +107,7 @@ class Seen:
         """The coarse view, and which of its pixels (P,) are lit."""
         image = coarse_of(self.maps, self.rays_C, factor_of(self.maps, COARSE_PIXELS))
         table = LightTable.of(image, self.lights, self.distance_m)
-        lit = np.sum(image.signal > LIT_SIGMAS * image.sigma, axis=0) >= 3
+        lit = np.sum(image.signal > CERTAIN * image.sigma, axis=0) >= 3
         return mask.view_of(image, table, self.distance_m, mask.NO_HINTS, self.true.shape, self.room), lit
 
 
@@ -127,7 +126,7 @@ def example(scene: Path, folds: Path | None) -> list[Example]:
     noisy = replace(image, signal=image.signal + NOISIER * image.sigma * rng.standard_normal(image.signal.shape))
     found = []
     for here in (image, noisy):
-        planes = flats.find(here, view.table, view.swept, lit, seen.distance_m)
+        planes = flats.find(here, view.table, view.swept, lit)
         labels, them, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
         found.append(Example(scene.name, clues.channels(view, labels, them.planes, cost), of_object, here is image))
     return found
@@ -230,7 +229,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
         for batch in order[: each * BATCH].reshape(each, BATCH):
             drawn = [sampled(by_name[name][rng.integers(len(by_name[name]))], names, rng) for name in batch]
             x = (np.stack([one[0] for one in drawn]) - middle[:, None, None]) / spread[:, None, None]
-            x = np.clip(x, -network.FURTHEST, network.FURTHEST) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
+            x = np.clip(x, -CERTAIN, CERTAIN) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
             x = np.concatenate([x + NOISE * rng.standard_normal(x.shape), place], axis=1)
             share = torch.from_numpy(np.stack([one[1] for one in drawn]).astype(np.float32))
             said, true = net(torch.from_numpy(x.astype(np.float32)))[:, 0], (share > 0.5).float()

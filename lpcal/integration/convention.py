@@ -19,7 +19,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
-from lpcal.view.agreed import GRAZING, OUTLIER, RARE
+from lpcal.view.agreed import CERTAIN, GRAZING, RARE
 from lpcal.view.sight import ray_map
 
 CLEAR = 0.3
@@ -28,8 +28,6 @@ WILD = 0.5
 """Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
 BLOCKS = (1, 4, 12)
 """Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
-SURE = 2 * OUTLIER
-"""Standard errors by which the likeness must differ from nothing; neighbours are not independent, so three would not be enough."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +65,7 @@ def settled(name: str, normals_C: Image, mask: Mask, camera: Camera | None, stat
         return Convention(turned, True, as_is, flipped, f"green points down in this map ({likeness}): it was turned over")
     if good:
         return Convention(normals_C, False, as_is, flipped)
-    if min(as_is.twist_sure, flipped.twist_sure) > SURE or min(as_is.median, flipped.median) > WILD:
+    if min(as_is.twist_sure, flipped.twist_sure) > CERTAIN or min(as_is.median, flipped.median) > WILD:
         raise DegenerateError(
             f"the normals are of no surface: their slopes' changes agree by {as_is.likeness:.2f} as they are, {flipped.likeness:.2f} with"
             " green turned over (1: a surface)",
@@ -104,7 +102,7 @@ def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
         p, q = n[..., 0] / size, n[..., 1] / size
     found = _asked(p, q, good)
     for side in BLOCKS[1:]:
-        if (abs(found.likeness) > CLEAR and abs(found.sure) > SURE) or found.twist_sure > SURE:
+        if (abs(found.likeness) > CLEAR and abs(found.sure) > CERTAIN) or found.twist_sure > CERTAIN:
             break
         coarse = _asked(*_blocks(p, q, good, side))
         found = replace(coarse, median=found.median)
@@ -134,7 +132,7 @@ def _asked(p: Array, q: Array, good: Mask) -> Curl:
     beside, below = a[:, :-1] * a[:, 1:], b[:-1] * b[1:]
     twist = np.sqrt(max(float(beside.sum()), 0.0) * max(float(below.sum()), 0.0))
     all_of_it = float(np.sum(a * a + b * b)) / 2
-    scale = twist if min(_sure(beside), _sure(below)) > SURE else all_of_it
+    scale = twist if min(_sure(beside), _sure(below)) > CERTAIN else all_of_it
     likeness = float(np.sum(a * b)) / scale if scale > 0 else 0.0
     return Curl(float(np.clip(likeness, -1, 1)), _sure(a * b), min(_sure(beside), _sure(below)), median)
 
@@ -146,7 +144,7 @@ def _sure(products: Array) -> float:
 
 
 def _tells(found: Curl) -> bool:
-    return found.likeness > CLEAR and found.sure > SURE
+    return found.likeness > CLEAR and found.sure > CERTAIN
 
 
 def _refuse_swapped(name: str, normals_C: Image, mask: Mask, rays_C: Array) -> None:

@@ -17,11 +17,10 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.shown import Shown
 from lpcal.records.surface import Surface
+from lpcal.view import bands
 
 DISPLAY_GAMMA = 2.2
 """Exponent between display numbers and light: sRGB's curve within two of 255 steps, but for the darkest."""
-BAND_PIXELS = 1 << 19
-"""Pixels of a band: its points in double precision take 12 MB."""
 CORNERS = (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)), ((0, 0), (1, 0), (0, 1)), ((0, 1), (1, 0), (1, 1)))
 """Rows and columns, in a square of 2x2 pixels, of the corners of the four triangles that it may be cut into: lower left, upper right,
 upper left, lower right."""
@@ -64,7 +63,7 @@ class MeshBands:
         if not surface.breaks.size:
             surface = replace(surface, breaks=ends_of(surface.mask))
         used, counts = np.zeros(surface.mask.shape, bool), np.zeros(len(CORNERS), int)
-        for rows in _bands(_squares(surface)):
+        for rows in bands.bands(*_squares(surface)):
             for kind in range(len(CORNERS)):
                 kept = _kept(surface, rows, kind)
                 counts[kind] += np.count_nonzero(kept)
@@ -99,13 +98,13 @@ class MeshBands:
     def faces(self) -> Iterator[Faces]:
         """Triangles (F, 3), kind by kind."""
         for kind, corners in enumerate(CORNERS):
-            for rows in _bands(_squares(self.surface)):
+            for rows in bands.bands(*_squares(self.surface)):
                 kept = _kept(self.surface, rows, kind)
                 yield np.stack([_corner(self.number, rows, corner)[kept] for corner in corners], axis=1)
 
     def _used(self) -> Iterator[tuple[slice, Mask]]:
         """Bands of rows, and which pixels (h, W) of them are vertices."""
-        for rows in _bands(self.number.shape):
+        for rows in bands.bands(*self.number.shape):
             yield rows, self.number[rows] >= 0
 
 
@@ -163,15 +162,10 @@ def _displayed(albedo: Image, white: float) -> npt.NDArray[np.uint8]:
     return shown if shown.ndim == 3 else np.repeat(shown[..., None], 3, axis=2)
 
 
-def _squares(surface: Surface) -> tuple[int, ...]:
+def _squares(surface: Surface) -> tuple[int, int]:
     """Rows and columns of squares of 2x2 pixels."""
-    return tuple(max(side - 1, 0) for side in surface.mask.shape)
-
-
-def _bands(shape: tuple[int, ...]) -> list[slice]:
-    """Bands of the rows of a picture, or of its squares, of a shape."""
-    step = max(1, BAND_PIXELS // max(shape[1], 1))
-    return [slice(first, min(first + step, shape[0])) for first in range(0, shape[0], step)]
+    rows, columns = surface.mask.shape
+    return max(rows - 1, 0), max(columns - 1, 0)
 
 
 def _corner[T: np.generic](values: npt.NDArray[T], rows: slice, corner: tuple[int, int]) -> npt.NDArray[T]:

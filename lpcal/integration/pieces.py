@@ -8,11 +8,11 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration import multigrid
 from lpcal.integration.integrate import Grid
-from lpcal.integration.mesh import BAND_PIXELS
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
+from lpcal.view import bands
 from lpcal.view.agreed import FEWEST_PIXELS, NEXT_TO_NOTHING, RIM_PX, SMALLEST_SHARE
 from lpcal.view.sight import Indices
 
@@ -135,7 +135,7 @@ def flatness(surface: Surface) -> Flatness | None:
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST_PIXELS:
         return None
     places = np.flatnonzero(inside)
-    places = places[:: max(1, len(places) // BAND_PIXELS)]
+    places = places[:: max(1, len(places) // bands.SAMPLES)]
     points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
     centred = points - points.mean(axis=0)
     along = np.linalg.svd(centred.T @ centred)[0]

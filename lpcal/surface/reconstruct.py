@@ -27,7 +27,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
 from lpcal.segmentation import mask, planes
-from lpcal.segmentation.background import NOTHING, OBJECT
+from lpcal.segmentation.background import Layer
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.shading import normals
 from lpcal.shading.normals import albedo_of
@@ -278,8 +278,8 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
 
 def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
     """What each pixel of the surface is (H, W), by the layers found; all the object where none were."""
-    found = np.full(object_mask.shape, OBJECT, np.uint8) if background is None or background.layer is None else background.layer
-    return np.asarray(np.where(object_mask, found, NOTHING), np.uint8)
+    found = np.full(object_mask.shape, Layer.OBJECT, np.uint8) if background is None or background.layer is None else background.layer
+    return np.asarray(np.where(object_mask, found, Layer.NOTHING), np.uint8)
 
 
 def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:

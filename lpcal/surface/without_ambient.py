@@ -190,7 +190,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
         return None
     coarse, coarse_rays, f = mask.binned(maps, rays_C)
     rows, columns = coarse.signal.shape[1:]
-    own = (outside & (found.layer == background.WALL))[: rows * f, : columns * f].reshape(rows, f, columns, f).all(axis=(1, 3))
+    own = (outside & (found.layer == background.Layer.WALL))[: rows * f, : columns * f].reshape(rows, f, columns, f).all(axis=(1, 3))
     if own.sum() < FEWEST_PIXELS:
         return None
     some = planes.thinned(look_at(coarse, coarse_rays, own, central=True))

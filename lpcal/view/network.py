@@ -21,9 +21,8 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.view import bands
+from lpcal.view.agreed import CERTAIN
 
-FURTHEST = 6.0
-"""Standard deviations of its channel at which a value is cut off: none that the network has not seen."""
 PLACE = 40.0
 """Pixels that are a unit of a place in the picture."""
 
@@ -96,7 +95,7 @@ class Network:
         return own, mirrored[..., ::-1]
 
     def _once(self, x: Image, inside: Mask) -> Image:
-        x = np.clip((x - self.middle[:, None, None]) / self.spread[:, None, None], -FURTHEST, FURTHEST)
+        x = np.clip((x - self.middle[:, None, None]) / self.spread[:, None, None], -CERTAIN, CERTAIN)
         step, seen = self.steps, list[Image]()
         x = step["in"](np.concatenate([x, places(*inside.shape)]) * inside)
         for level in ("1", "2", "3"):
