@@ -8,9 +8,9 @@ onto it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviat
 rho is Geman and McClure's. The samples of a pixel that three or more lights reach outweigh its neighbours. Where two lights reach it, the
 third direction comes from its neighbours' albedo and normal; in shadow, from the light that its surroundings throw on it. Solved in turn
 for the states of the samples (softly at first), for the weights, and for b by conjugate gradients, from the estimates of single pixels,
-without those so dark that they are taken for shadows, and those that most of their neighbours are not like. Where the palette of the
-object's albedos is known it draws abs(b) towards them (see shading.palette). The gloss of the object is fitted on the way; the steps of b
-count how it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a little.
+without those so dark that they are taken for shadows, and those that most of their neighbours are not like. The gloss of the object is
+fitted on the way; the steps of b count how it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a
+little.
 
 Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
 Cipolla 2008 (shadows, and the neighbours' part in what they hide).
@@ -31,7 +31,6 @@ from lpcal.integration.multigrid import MOST, PRECISION
 from lpcal.kernels.library import kernel
 from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
-from lpcal.shading.palette import Palette
 from lpcal.view import bands
 from lpcal.view.agreed import DOUBT, GRAZING, OUTLIER2
 from lpcal.view.sight import Lit, Sight
@@ -96,13 +95,12 @@ def solve(
     start: Estimate | Field,
     glossy: float | None = None,
     rounds: int | None = None,
-    palette: Palette | None = None,
 ) -> Field:
     """The field from estimates of single pixels, or from a field found before at a depth nearby.
 
     `hidden` (L, P) are samples whose light the depth hides; `glossy` is the reflectance of
     the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not. `rounds` is how many there
-    are, by default as many as such a start needs; `palette` is that of the object's albedos, where it is known.
+    are, by default as many as such a start needs.
     """
     v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     before = start if isinstance(start, Field) else None
@@ -121,8 +119,7 @@ def solve(
             shine = gloss.fit(state.lit, counted, state.spread2, few_lit, lambert.unit(b[some])[0], v[some], glossy / middle)
         warmth = WARM if before is None and k < FIRST_ROUNDS // 3 else 1.0
         own_samples, right = _gathered(seen, lit, b, v, hidden, shine, warmth)
-        drawn, of_palette = (0.0, 0.0) if palette is None else palette.pull(b).on(lambert.unit(b)[0])
-        b = _System.at(grid, b, own_samples + drawn).solved(right + of_palette, b)
+        b = _System.at(grid, b, own_samples).solved(right, b)
         towards, albedo = lambert.dot(b, v), lambert.length(b)
         b = b + np.maximum(GRAZING * albedo - towards, 0.0)[:, None] * v
         if last and warmth == 1.0 and np.linalg.norm(b - so_far) <= STILL * np.linalg.norm(b):

@@ -27,7 +27,7 @@ from lpcal.integration import pieces
 from lpcal.integration.integrate import Grid, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
-from lpcal.shading import normals, palette
+from lpcal.shading import normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance
 from lpcal.view import bands, coarse
@@ -42,8 +42,8 @@ GRADUATED = 2
 """Rounds until a depth is good enough for what rests on it, and whose depths look for their jumps again."""
 PIXELS = 1500
 """Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
-ROUNDS = GRADUATED + palette.ROUNDS
-"""Rounds from a start, as many as a full solve takes before it may end."""
+ROUNDS = 5
+"""Rounds from a start: ends of one basin are within a per cent of each other by then."""
 APART = 0.03
 """Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
 INDEPENDENT = 3.1

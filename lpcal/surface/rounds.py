@@ -19,10 +19,9 @@ from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
-from lpcal.shading import field, normals, palette
+from lpcal.shading import field, normals
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
-from lpcal.shading.palette import Palette
 from lpcal.surface import basins, bounce, distance, seams
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
@@ -43,8 +42,8 @@ SHAPE_ROUND = basins.GRADUATED
 """From which on the depth is good enough to find gloss, which lights it hides and what its parts reflect onto each other."""
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""
-SHAPED_ROUND = basins.ROUNDS
-"""The first that may be the last: the window of the palette has narrowed by then."""
+SHAPED_ROUND = SHAPE_ROUND + 1
+"""The first that may be the last: what rests on the depth has been found once."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from that of the blocks."""
 FULL_ROUNDS = 3
@@ -234,9 +233,8 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     depth = np.exp(u) if seen.central else np.ones_like(u)
     lit = scene.lit_at(depth)
     shaped = before if k >= SHAPE_ROUND else None
-    reflects = hidden = albedos = None
+    reflects = hidden = None
     if shaped is not None:
-        albedos = _palette(shaped, k)
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
         if scene.held is not None:
             lit, reflects = _held(scene, depth, shaped, lit)
@@ -254,7 +252,6 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         before,
         glossy if (k >= SHAPE_ROUND or not scene.near) and not thrown_known else None,
         CARRIED_ROUNDS if thrown_known else None,
-        albedos,
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
@@ -308,14 +305,6 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     return by_object, by_any
 
 
-def _palette(before: State, k: int) -> Palette | None:
-    """The palette of the object's albedos by the state before round k; None where it does not say how well normals are known."""
-    if before.field.tilt_rad is None:
-        return None
-    other = normals.thrown_share(before.lit, before.found) + normals.gloss_share(before.lit, before.found)
-    return Palette.of(before.field.b, before.field.tilt_rad, other, palette.width(k - SHAPE_ROUND))
-
-
 def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask, hidden: Mask) -> tuple[Lit, bounce.Reflectance]:
     """The light with what surfaces reflect at depths (P,), and their reflectance."""
     seen = scene.seen
@@ -346,12 +335,11 @@ def _estimated(
     before: State | None,
     glossy: float | None,
     rounds: int | None = None,
-    albedos: Palette | None = None,
 ) -> Field:
     """Normals, albedo and gloss."""
     seen = scene.seen
     if before is not None:
-        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy, rounds, albedos)
+        return field.solve(seen, scene.grid, lit, hidden, before.field, glossy, rounds)
     start = normals.estimate(seen, lit, usable, normals.variances(seen))
     lit_pixels = int(np.isfinite(start.b[:, 0]).sum())
     if lit_pixels < FEWEST_PIXELS:
