@@ -126,7 +126,7 @@ def example(scene: Path, folds: Path | None) -> list[Example]:
     noisy = replace(image, signal=image.signal + NOISIER * image.sigma * rng.standard_normal(image.signal.shape))
     found = []
     for here in (image, noisy):
-        planes = flats.find(here, view.table, view.swept, lit)
+        planes = flats.find(here, view.table, view.swept, lit, seen.distance_m)
         labels, them, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
         found.append(Example(scene.name, clues.channels(view, labels, them.planes, cost), of_object, here is image))
     return found
@@ -229,7 +229,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
         for batch in order[: each * BATCH].reshape(each, BATCH):
             drawn = [sampled(by_name[name][rng.integers(len(by_name[name]))], names, rng) for name in batch]
             x = (np.stack([one[0] for one in drawn]) - middle[:, None, None]) / spread[:, None, None]
-            x = np.clip(x, -CERTAIN, CERTAIN) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
+            x = np.clip(x, -network.FURTHEST, network.FURTHEST) + OFFSET * rng.standard_normal((*x.shape[:2], 1, 1))
             x = np.concatenate([x + NOISE * rng.standard_normal(x.shape), place], axis=1)
             share = torch.from_numpy(np.stack([one[1] for one in drawn]).astype(np.float32))
             said, true = net(torch.from_numpy(x.astype(np.float32)))[:, 0], (share > 0.5).float()

@@ -32,7 +32,6 @@ from lpcal.formats.capture import read_capture
 from lpcal.surface import normal_prior
 from lpcal.surface.rounds import Scene, State
 from lpcal.view import network
-from lpcal.view.agreed import CERTAIN
 from lpcal.view.network import Network
 
 LEFT_OUT = 70
@@ -139,7 +138,7 @@ def channels_of(one: Example, names: Sequence[str], middle: np.ndarray, spread: 
     """The channels and places of a scene as the network takes them."""
     inside = one.channels["share"] > 0
     x = np.stack([one.channels[name] for name in names])
-    x = np.clip((x - middle[:, None, None]) / spread[:, None, None], -CERTAIN, CERTAIN)
+    x = np.clip((x - middle[:, None, None]) / spread[:, None, None], -network.FURTHEST, network.FURTHEST)
     return np.asarray(np.concatenate([x, network.places(*inside.shape)]) * inside, np.float32)
 
 

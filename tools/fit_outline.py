@@ -24,7 +24,6 @@ from lpcal.geometry import raster
 from lpcal.geometry.raster import block_means
 from lpcal.segmentation import background, flats, layers, mask, outline
 from lpcal.view import network
-from lpcal.view.agreed import CERTAIN
 from lpcal.view.coarse import joined
 from lpcal.view.network import Network
 
@@ -86,7 +85,7 @@ def example(scene: Path, lights: slice, judge: Network | None) -> Example:
     seen = Seen.of(scene, lights)
     view, lit = seen.view()
     image = view.image
-    planes = flats.find(image, view.table, view.swept, lit)
+    planes = flats.find(image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
     judged = background.judged(view, labels, found.planes, cost, judge)
     apart = mask.apart_of(view, judged)
@@ -223,7 +222,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
     for _ in range(EPOCHS):
         for batch in rng.permutation(len(train))[: each * BATCH].reshape(each, BATCH):
             x, share, there = (np.stack(part) for part in zip(*(drawn(train[k], x_of[k], names, rng) for k in batch), strict=True))
-            x = np.clip((x - middle[:, None, None]) / spread[:, None, None], -CERTAIN, CERTAIN)
+            x = np.clip((x - middle[:, None, None]) / spread[:, None, None], -network.FURTHEST, network.FURTHEST)
             noise = OFFSET * rng.standard_normal((*x.shape[:2], 1, 1)) + NOISE * rng.standard_normal(x.shape)
             x = np.concatenate([x + noise, place], axis=1) * there[:, None]
             said, whole = net(torch.from_numpy(x.astype(np.float32)))[:, 0], torch.from_numpy(share)

@@ -19,7 +19,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.segmentation import clues
 from lpcal.segmentation.clues import View
-from lpcal.view.agreed import RARE, UNLIKELY
+from lpcal.view.agreed import UNLIKELY
 from lpcal.view.network import Network
 
 FITTED = Path(__file__).with_name("mask_network.npz")
@@ -30,11 +30,12 @@ HOLE = 0.005
 """Share of the object's area under which a hole in it is filled, in coarse pixels and in full size."""
 SMALLEST_PIECE = 0.08
 """Share of the object's largest piece under which a piece is dropped from it."""
-SURE = 10.0
-"""Log odds beyond which it makes no difference how sure a coarse pixel is."""
-
-Kind = Literal["support", "wall", "dark", "other"]
-"""What a pixel may be instead of the object: its support, a wall, a place that no light reaches, or matter like theirs in no plane."""
+LIKELY = (5e-5, 1 - 5e-5)
+"""Odds beyond which it makes no difference how sure a coarse pixel is."""
+CARRIED = 5
+"""Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
+OPEN = 0.1
+"""Odds that a pixel is on the other side from which it is named as doubtful."""
 
 
 class Layer(IntEnum):
@@ -47,6 +48,10 @@ class Layer(IntEnum):
     """What carries the object."""
     WALL = 3
     """What stands behind it."""
+
+
+Kind = Literal["support", "wall", "dark", "other"]
+"""What a pixel may be instead of the object: its support, a wall, a place that no light reaches, or matter like theirs in no plane."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
     """
     log_odds = log_odds_by(network or Network.read(FITTED), clues.channels(view, labels, planes, cost))
     odds = np.zeros(labels.shape)
-    odds[view.window] = 1 / (1 + np.exp(-np.clip(log_odds, -SURE, SURE)))
+    odds[view.window] = 1 / (1 + np.exp(-np.clip(log_odds, -30, 30)))
     for at in view.points:
         shown, _ = raster.labelled(labels == labels[at])
         odds[shown == shown[at]] = 1.0
@@ -91,7 +96,7 @@ def log_odds_by(network: Network, channels: Mapping[str, Array]) -> Array:
 
 def all_of(judgement: Judged, lit: Mask) -> Judged:
     """All that is lit (rows, columns) as the object, where nothing in the picture is likely to be it."""
-    return replace(judgement, odds=lit.astype(float), behind=~lit, mask=lit, least=0.5)
+    return replace(judgement, odds=np.where(lit, LIKELY[1], LIKELY[0]), behind=~lit, mask=lit, least=0.5)
 
 
 def rim_of(shape: tuple[int, ...]) -> Mask:
@@ -103,8 +108,8 @@ def rim_of(shape: tuple[int, ...]) -> Mask:
 
 def logit(odds: Array | float) -> Array:
     """Log odds (...) of odds, within bounds."""
-    with np.errstate(divide="ignore"):
-        return np.asarray(np.clip(np.log(odds) - np.log1p(-np.asarray(odds)), -SURE, SURE))
+    sure = np.clip(odds, *LIKELY)
+    return np.asarray(np.log(sure / (1 - sure)))
 
 
 def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
@@ -124,15 +129,12 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
 
 
 def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, distance_m: float) -> list[Kind]:
-    """What each layer is where it is background: `behind` (rows, columns), the object at about `distance_m`.
-
-    A plane that comes before the object, but for a RARE share of it, carries it: a wall lies behind it altogether.
-    """
+    """What each layer is where it is background: `behind` (rows, columns), the object at about `distance_m`."""
     found: list[Kind] = ["other"]
     for k, q in enumerate(planes, 1):
         own = behind & (labels == k)
         depth = 1 / np.maximum(rays_C.reshape(*labels.shape, 3)[own] @ q, 1e-9)
-        found.append("support" if own.any() and np.quantile(depth, RARE) < distance_m else "wall")
+        found.append("support" if own.any() and np.percentile(depth, CARRIED) < distance_m else "wall")
     return [*found, "dark", "other"]
 
 
@@ -145,7 +147,7 @@ class Doubt:
     open: float
     """Area of `place`, likewise."""
     place: Mask
-    """(rows, columns) where the odds of the other side are more than RARE."""
+    """(rows, columns) where the odds leave it uncertain."""
     rival: int
     """The label that most of it has, or whose place it takes."""
 
@@ -153,7 +155,7 @@ class Doubt:
 def doubt_of(judgement: Judged, labels: Labels) -> Doubt:
     """The doubt of a judgement on labels (rows, columns)."""
     wrong = np.where(judgement.mask, 1 - judgement.odds, judgement.odds)
-    place: Mask = wrong > RARE
+    place: Mask = wrong > OPEN
     rival = int(np.argmax(np.bincount(labels[place]))) if place.any() else 0
     area = max(int(judgement.mask.sum()), 1)
     return Doubt(float(wrong.sum()) / area, float(place.sum()) / area, place, rival)

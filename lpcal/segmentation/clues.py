@@ -14,16 +14,20 @@ import numpy.typing as npt
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.segmentation.flats import Sweep
-from lpcal.view.coarse import SPAN, Coarse, LightTable
+from lpcal.view.coarse import Coarse, LightTable
 
 COST = 60.0
 """Cost of matter of any normal at most: a few wild pixels are like others."""
 SPARED = 30.0
-"""Cost at most by which one explanation, layer or depth is better than another: beyond, they are all alike."""
+"""Cost at most by which one explanation, or layer, is better than another: beyond, they are all alike."""
+ABOVE = 20.0
+"""Cost at most by which a depth is worse than a pixel's best."""
 DEPTHS = (-0.8, -0.5, -0.3, -0.15, 0.0, 0.15, 0.3, 0.5, 0.8, 1.2)
 """Log depths, over the working distance, whose costs are channels."""
-NEAREST, FURTHEST = np.log(SPAN)
-"""Log depths, over the working distance, beyond which a plane's depth is held: no light reaches further."""
+NEAREST, FURTHEST = -1.5, 2.0
+"""Log depths, over the working distance, beyond which a plane's depth is held: no object lies there."""
+SPARED_BY_LABEL = (-10.0, 30.0)
+"""Bounds of the cost that its label spares a pixel."""
 MIRRORED = ("normal x", "free normal x")
 """Channels that change their sign in a mirror."""
 
@@ -92,7 +96,7 @@ def _of_labels(view: View, labels: Labels, planes: list[Array], cost: Array) -> 
         "plane": (labels > 0) & (labels <= count),
         "nothing": labels == count + 1,
         "other": other,
-        "spared": np.clip(cost[0] - own, -SPARED, SPARED),
+        "spared": np.clip(cost[0] - own, *SPARED_BY_LABEL),
         "cost": np.clip(cost[0], 0, COST),
         "flat cost": np.clip(flat - cost[0], -SPARED, SPARED),
     }
@@ -142,6 +146,6 @@ def _of_depth(view: View, labels: Labels, planes: list[Array]) -> dict[str, Chan
         "best depth": best,
         "depth of the wall": wall,
         "before the wall": np.clip(wall - np.where(shown, own, best), -1, 1),
-        "cost at the wall": np.where(wall < FURTHEST, np.minimum(at_wall, SPARED), SPARED),
-        **{f"cost at {at:g}": np.minimum(above[np.argmin(np.abs(u - at))], SPARED) for at in DEPTHS},
+        "cost at the wall": np.where(wall < FURTHEST, np.minimum(at_wall, ABOVE), ABOVE),
+        **{f"cost at {at:g}": np.minimum(above[np.argmin(np.abs(u - at))], ABOVE) for at in DEPTHS},
     }

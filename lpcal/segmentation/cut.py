@@ -1,8 +1,8 @@
-"""Cutting an image in two by evidence: total variation over the whole, or half way up the step.
+"""Cutting an image in two by evidence: total variation over the whole, along the seam GrabCut, or half way up the step.
 
 ``min over u in [0, 1] of  sum_p -e_p u_p + STIFF sum_ab w_ab abs(u_a - u_b)``, w low across edges of the picture. Sources: Chan, Esedoglu
 and Nikolova 2006, SIAM J. Applied Mathematics 66 (a convex form of the cut); Chambolle and Pock 2011, J. Math. Imaging and Vision 40 (the
-solver).
+solver); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (GrabCut).
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
-from lpcal.view.agreed import RIM_PX
 
-STEPS = 250
-"""Steps of the primal-dual method: labels then no longer change."""
-BESIDE_PX = 1.5
+STEPS = 200
+MARGIN = 2
+"""Pixels about what is open that are solved for with it."""
+SEAM_PX = 4
+GRABCUT_ROUNDS = 3
+BESIDE_PX, AROUND_PX = 1.5, 2
 HALF = 0.4
 
 
@@ -36,10 +38,10 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
     unsettled[1:] |= found[1:] != found[:-1]
     if not unsettled.any():
         return np.asarray(found)
-    (top, bottom), (left, right) = ((max(at.min() - RIM_PX, 0), at.max() + RIM_PX + 1) for at in np.nonzero(unsettled))
+    (top, bottom), (left, right) = ((max(at.min() - MARGIN, 0), at.max() + MARGIN + 1) for at in np.nonzero(unsettled))
     box = (slice(top, bottom), slice(left, right))
     rows, columns = evidence[box].shape
-    free = raster.highest(unsettled[box], RIM_PX, beyond=False)
+    free = raster.highest(unsettled[box], MARGIN, beyond=False)
     found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1], free) > 0.5
     return np.asarray(found)
 
@@ -73,6 +75,24 @@ def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Ima
     return u
 
 
+def along_the_seam(mask: Mask, picture: Image, free: Mask | None = None) -> Mask:
+    """The mask with its outline moved by SEAM_PX at most, by the colours of picture (H, W, 3, 0..1) on both sides; `free`: where it may."""
+    import cv2
+
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM_PX + 1, 2 * SEAM_PX + 1))
+    inside, outside = cv2.erode(mask.astype(np.uint8), kernel), 1 - cv2.dilate(mask.astype(np.uint8), kernel)
+    if free is not None:
+        inside, outside = inside | (mask & ~free), outside | (~mask & ~free)
+    if not inside.any() or not outside.any():
+        return mask
+    labels = np.where(mask, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    labels[inside > 0], labels[outside > 0] = cv2.GC_FGD, cv2.GC_BGD
+    cv2.setRNGSeed(0)
+    colours = np.ascontiguousarray(np.clip(255 * picture, 0, 255).astype(np.uint8))
+    cv2.grabCut(colours, labels, None, np.zeros((1, 65)), np.zeros((1, 65)), GRABCUT_ROUNDS, cv2.GC_INIT_WITH_MASK)
+    return np.asarray((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD))
+
+
 def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
     """The mask with pixels beside its outline decided by which side of the outline they are nearer to, in signals (L, H, W).
 
@@ -95,7 +115,7 @@ def _near(signal: Image, depth: Image) -> Image:
     """Mean of signals (L, H, W) over the pixels nearby that lie BESIDE_PX deep in a side of the outline, or at least in it."""
     import cv2
 
-    size = (2 * RIM_PX + 1,) * 2
+    size = (2 * AROUND_PX + 1,) * 2
     weight = (depth > BESIDE_PX) + np.float32(1e-3) * (depth > 0)
     total = np.maximum(cv2.blur(weight, size), 1e-9)
     return np.stack([cv2.blur(one * weight, size) / total for one in signal])

@@ -20,18 +20,35 @@ from lpcal.geometry.cauchy_fit import Equations
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import room_samples, samples
 from lpcal.view import bands
-from lpcal.view.agreed import FEWEST_PIXELS, GRAZING, MANY_PIXELS, NEIGHBOURS, OUTLIER, OUTLIER2
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior
 from lpcal.view.sight import Indices
 
-SLOPE_BINS = 61
-"""Cells of the vote across the x and the y of a normal (2 degrees each); log offsets have cells of a step of the sweep (5 per cent)."""
-APART = 3
+SWEEP = (0.3, 5.0)
+"""Depths at which pixels vote, as shares of the working distance."""
+SLOPE_BINS, OFFSET_BINS = 61, 90
+"""Cells of the vote across the x and the y of a normal (2 degrees each) and across log offsets (5 per cent each)."""
+OFFSETS = (-2.5, 2.0)
+"""Natural logarithms of a plane's distance from the camera over the working distance, from and to."""
+BLUR = (0.8, 0.8, 1.2)
+"""Cells over which votes are smoothed: what noise of a normal spreads them by."""
+APART = (3, 3, 4)
 """Cells about a peak that are no peaks of their own."""
 PEAKS = 3
 """Peaks of a vote that are fitted; that which explains most is kept."""
-PAINT = OUTLIER * samples.MODEL
-"""Natural logarithm of a step of albedo that encloses a part of a plane: more than what the model lacks."""
+STEEPEST = 0.05
+"""Cosine to the viewer under which a pixel's normal places no plane."""
+EXPLAINED = 20.0
+"""Cost by which a plane may exceed matter of any normal, at a pixel that it explains."""
+SMALLEST = 0.006
+"""Share of the image under which a plane is not looked for, or dropped."""
+MOST = 8
+"""Planes at most."""
+PAINT = 0.1
+"""Natural logarithm of a step of albedo that encloses a part of a plane."""
+CLEARLY, CLEARLY_EACH = 60.0, 0.3
+"""Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
+FIT_PIXELS = 600
+"""Pixels that a plane is fitted to, spread over its own: more do not improve three numbers."""
 ACCEPTED = 3.0
 """Cost a light under which a pixel takes part in the fit of a plane."""
 FIT_STEPS = 8
@@ -61,9 +78,10 @@ class Sweep:
         return np.asarray(b / np.maximum(lambert.length(b)[..., None], 1e-12))
 
 
-def sweep(image: Coarse, table: LightTable, every: int = 1) -> Sweep:
-    """The sweep over the table's nodes, or every so many of them."""
-    u = table.nodes[::every]
+def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -> Sweep:
+    """The sweep over the table's nodes, or every so many of them, from SWEEP[0] to SWEEP[1] working distances."""
+    low, high = np.log(distance_m) + np.log(SWEEP)
+    u = table.nodes[(table.nodes >= low) & (table.nodes <= high)][::every]
     everywhere = np.arange(len(image.rays_C))
     b, cost = np.empty((len(u), len(everywhere), 3)), np.empty((len(u), len(everywhere)))
 
@@ -117,14 +135,14 @@ def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None
     return room_samples.planar(signal, sigma, usable, m, doubt, image.room)[:3]
 
 
-def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask) -> list[Array]:
+def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
     """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
-    left, votes = lit.copy(), _Votes.of(image, swept)
+    left, votes = lit.copy(), _Votes.of(image, swept, distance_m)
     found: list[Array] = []
 
     def explains(q: Array) -> Mask:
         cost, _, shown = explained(image, table, q)
-        return np.asarray(left & (cost < swept.least + samples.OUTLIER) & (shown.sum(axis=0) >= 3))
+        return np.asarray(left & (cost < swept.least + EXPLAINED) & (shown.sum(axis=0) >= 3))
 
     def size(own: Mask) -> int:
         return int(raster.opened(image.image(own)).sum())
@@ -133,13 +151,13 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask) -> list[Arra
         q = fitted(image, table, q, left, rounds=2)
         return size(explains(q)), q
 
-    while left.sum() > FEWEST_PIXELS:
+    while len(found) < MOST and left.sum() > SMALLEST * left.size:
         trials = bands.shared(trial, votes.peaks(left))
         if not trials:
             break
         q = fitted(image, table, max(trials, key=lambda one: one[0])[1], left, rounds=4)
         own = explains(q)
-        if size(own) < FEWEST_PIXELS:
+        if size(own) < SMALLEST * left.size:
             break
         found.append(q)
         left &= ~own
@@ -149,8 +167,7 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask) -> list[Arra
 def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> list[Array]:
     """Planes (3,) that stand before those found and are nearly parallel to them: each pixel suits both, all together suit one.
 
-    Asked of the parts of a plane that an edge of its albedo encloses. A part becomes a plane where that spares the cost of an outlier, of
-    pixels each of which counts as one of NEIGHBOURS whose errors are alike.
+    Asked of the parts of a plane that an edge of its albedo encloses; a part becomes a plane where that pays by CLEARLY.
     """
     rim = np.ones(image.shape, bool)
     rim[1:-1, 1:-1] = False
@@ -161,11 +178,11 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
         tone = np.where(own, np.log(np.maximum(image.image(albedo), 1e-12)), 0.0)
         part, _ = raster.labelled(own & (_step(tone) < PAINT))
         size = np.bincount(part.ravel())
-        for one in np.setdiff1d(np.flatnonzero(size >= FEWEST_PIXELS), [0, *np.unique(part[rim])]):
+        for one in np.setdiff1d(np.flatnonzero(size >= SMALLEST * part.size), [0, *np.unique(part[rim])]):
             inside = (part == one).ravel()
             trial = fitted(image, table, q, inside, rounds=3)
             gain = np.sum(cost[inside] - explained(image, table, trial, np.flatnonzero(inside))[0])
-            if gain > NEIGHBOURS * OUTLIER2:
+            if gain > max(CLEARLY, inside.sum() * CLEARLY_EACH):
                 new.append(trial)
     return new
 
@@ -182,7 +199,7 @@ def _step(tone: Array) -> Array:
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
     """The plane q (3,) fitted to those pixels `among` (P,) that it explains."""
     pixels = np.flatnonzero(among)
-    pixels = pixels[:: max(1, len(pixels) // MANY_PIXELS)]
+    pixels = pixels[:: max(1, len(pixels) // FIT_PIXELS)]
     for _ in range(rounds):
         cost, albedo, lit = explained(image, table, q, pixels)
         good = cost < ACCEPTED * len(lit)
@@ -253,32 +270,26 @@ class _Votes:
     """(D, P) number of the cell."""
     weight: Array
     """(D, P), of sum 1 a pixel."""
-    first: float
-    """Logarithm of the distance from the camera of the first cell's planes."""
-    step: float
-    """Difference to that of the next."""
-    offsets: int
-    """Cells across distances."""
+    distance_m: float
 
     @staticmethod
-    def of(image: Coarse, swept: Sweep) -> _Votes:
+    def of(image: Coarse, swept: Sweep, distance_m: float) -> _Votes:
         """The votes of all pixels."""
         n = swept.b / np.maximum(lambert.length(swept.b)[..., None], 1e-12)
         towards = -lambert.dot(n, image.rays_C)
-        weight = np.exp(-(swept.cost - swept.least) / max(2, len(image.signal))) * ((towards > GRAZING) & (n[..., 2] < 0))
+        weight = np.exp(-(swept.cost - swept.least) / max(2, len(image.signal))) * ((towards > STEEPEST) & (n[..., 2] < 0))
         weight /= np.maximum(weight.sum(axis=0), 1e-9)
-        offset = swept.u[:, None] + np.log(np.maximum(towards, GRAZING))
-        first, step = float(offset.min()), float(swept.u[1] - swept.u[0])
+        offset = swept.u[:, None] + np.log(np.maximum(towards, 1e-3)) - np.log(distance_m)
         column, row = (np.rint((n[..., axis] + 1) / 2 * (SLOPE_BINS - 1)).astype(int) for axis in (0, 1))
-        depth = np.rint((offset - first) / step).astype(int)
-        offsets = int(depth.max()) + 1
-        return _Votes((column * SLOPE_BINS + row) * offsets + depth, weight, first, step, offsets)
+        share = (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0])
+        depth = np.clip(np.rint(share * (OFFSET_BINS - 1)), 0, OFFSET_BINS - 1).astype(int)
+        return _Votes((column * SLOPE_BINS + row) * OFFSET_BINS + depth, weight, distance_m)
 
     def peaks(self, left: Mask) -> list[Array]:
-        """Planes (3,) of the highest peaks of the votes of pixels `left` (P,), smoothed over a cell."""
-        cells = (SLOPE_BINS, SLOPE_BINS, self.offsets)
+        """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
+        cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
         votes = np.bincount(self.cell[:, left].ravel(), self.weight[:, left].ravel(), int(np.prod(cells)))
-        total = raster.blurred(votes.reshape(cells), 1.0)
+        total = raster.blurred(votes.reshape(cells), BLUR)
         found = []
         for _ in range(PEAKS):
             top = np.unravel_index(int(np.argmax(total)), cells)
@@ -286,6 +297,7 @@ class _Votes:
                 break
             x, y = (2 * top[axis] / (SLOPE_BINS - 1) - 1 for axis in (0, 1))
             n_top = np.array([x, y, -np.sqrt(max(1 - x * x - y * y, 0.01))])
-            found.append(-n_top / np.linalg.norm(n_top) / np.exp(self.first + top[2] * self.step))
-            total[tuple(slice(max(at - APART, 0), at + APART + 1) for at in top)] = 0
+            distance = self.distance_m * np.exp(OFFSETS[0] + top[2] / (OFFSET_BINS - 1) * (OFFSETS[1] - OFFSETS[0]))
+            found.append(-n_top / np.linalg.norm(n_top) / distance)
+            total[tuple(slice(max(at - by, 0), at + by + 1) for at, by in zip(top, APART, strict=True))] = 0
         return found

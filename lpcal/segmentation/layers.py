@@ -1,7 +1,7 @@
 r"""Every coarse pixel's layer: matter of any normal, one of the planes, other matter like theirs, or nothing.
 
-Each layer states a cost (see segmentation.samples), and the object and the planes an appearance, the histogram of the log of their pixels'
-brightest shading; the labels minimise::
+Each layer states a cost (see segmentation.samples) and an appearance, the histogram of log albedo over its own pixels; the labels
+minimise::
 
     sum_p  cost_l(p) - 2 log(appearance_l(p))   +   sum_ab  w_ab [l_a != l_b]
 
@@ -21,9 +21,8 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
 from lpcal.segmentation.clues import SPARED, View
-from lpcal.segmentation.cut import STEPS
 from lpcal.view import bands
-from lpcal.view.agreed import FEWEST_PIXELS, UNLIKELY
+from lpcal.view.agreed import UNLIKELY
 from lpcal.view.coarse import LightTable
 from lpcal.view.sight import Indices, strength
 
@@ -33,18 +32,24 @@ OTHER_PRICE = 2.0
 """Cost of matter like a plane's that lies in none of the planes, above that of the object's matter."""
 NOTHING_PRICE = 6.0
 """Cost of the label matter where no light comes back."""
+LEAST_NOTHING = 0.003
+"""Share of the image's rim that is taken to show nothing at least."""
 BOUNDARY = 10.0
 """Cost of a boundary between two layers along one pixel, where the picture shows no edge."""
 EDGE = 6.0
 """Medians of the picture's log steps at which a step halves the cost of a boundary."""
-OBJECT_SAYS = 8.0
-"""Most that the appearance of the brightest shading adds to a cost, for and against the object."""
+PLANE_SAYS, OBJECT_SAYS = 4.0, 8.0
+"""Most that an appearance adds to a cost: by the albedo in a plane, and by the brightest shading for and against the object."""
 ROUNDS = 4
 """Times that labels are found, planes and appearances estimated again in between: further rounds change next to nothing."""
+STEPS = 250
+"""Steps of the primal-dual method: labels then no longer change."""
 BINS = 40
 """Cells of an appearance."""
 BRIGHTEST = 75
 """Percentile of the object's brightest shading that stands for its matter in full light; at first the median of all that is lit does."""
+FEWEST = 30
+"""Pixels from which an appearance is learnt."""
 
 
 @dataclass(frozen=True)
@@ -75,13 +80,15 @@ class Layers:
 
     planes: list[Array]
     """q (3,) each."""
+    of_plane: list[Appearance | None]
+    """The appearance of each plane, by log albedo; None where too few pixels show it."""
     brightest: float
     """Log of the shading of the brightest matter."""
     of_object: Appearance | None = None
     of_rest: list[Appearance] | None = None
     """The appearances of all else, by the log of the brightest shading, as that of the object."""
     nothing: float = 0.0
-    """Cost of a place that no light comes back from: twice the negative logarithm of its share of the image's rim, a pixel at least."""
+    """Cost of a place that no light comes back from: twice the negative logarithm of how much of the image's rim is such."""
 
 
 @dataclass(frozen=True)
@@ -113,8 +120,12 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     found = [free + FREE_PRICE + matter - ratio]
 
     def in_plane(k: int) -> Array:
-        m, doubt = flats.white(layers.planes[k], at.rays_C, at.coarse, table)
-        return np.asarray(samples.planar(at.signal, at.sigma, at.usable, m, doubt)[0] + matter)
+        q, appearance = layers.planes[k], layers.of_plane[k]
+        m, doubt = flats.white(q, at.rays_C, at.coarse, table)
+        cost, albedo, _ = samples.planar(at.signal, at.sigma, at.usable, m, doubt)
+        if appearance is not None:
+            cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
+        return np.asarray(cost + matter)
 
     found += bands.shared(in_plane, range(len(layers.planes)))
     other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
@@ -136,7 +147,7 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
     bright = shine(at, E)
     weights = boundary(strength(image.maps))
     cost = np.empty((0, *image.shape))
-    layers, labels = Layers(planes, float(np.median(bright[lit]))), np.zeros(image.shape, int)
+    layers, labels = Layers(planes, [None] * len(planes), float(np.median(bright[lit]))), np.zeros(image.shape, int)
     for k in range(ROUNDS):
         cost = with_planes(layers, at, table, view.swept.least, E).reshape(-1, *image.shape)
         labels = cheapest(cost, *weights)
@@ -149,12 +160,16 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
-    kept = [k for k in range(count) if np.sum(flat == k + 1) >= FEWEST_PIXELS]
+    kept = [k for k in range(count) if np.sum(flat == k + 1) >= flats.SMALLEST * flat.size]
 
-    def again(k: int) -> Array:
-        return flats.fitted(image, table, layers.planes[k], (flat == k + 1) & lit, rounds=2)
+    def again(k: int) -> tuple[Array, Appearance | None]:
+        own = (flat == k + 1) & lit
+        q = flats.fitted(image, table, layers.planes[k], own, rounds=2)
+        albedo = np.log(np.maximum(flats.explained(image, table, q)[1][own], 1e-12))
+        return q, _appearance(albedo, albedo)
 
-    planes = bands.shared(again, kept)
+    both = bands.shared(again, kept)
+    planes, of_plane = [q for q, _ in both], [appearance for _, appearance in both]
     new = np.full(count + 3, 0)
     new[[k + 1 for k in kept]] = np.arange(1, len(kept) + 1)
     new[count + 1], new[count + 2] = len(kept) + 1, len(kept) + 2
@@ -163,19 +178,19 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     of_kept = cost[[0, *(k + 1 for k in kept), -2, -1]]
     mine = background.judged(view, labels, planes, of_kept).mask.ravel()
     free, rest = mine & (labels.ravel() == 0) & lit, ~mine & (labels.ravel() > 0) & (labels.ravel() <= len(kept)) & lit
-    if free.sum() > FEWEST_PIXELS and rest.sum() > FEWEST_PIXELS:
+    if free.sum() > FEWEST and rest.sum() > FEWEST:
         over = bright[free | rest]
         of_object = _appearance(bright[free], over)
         each = [_appearance(bright[rest & (labels.ravel() == k + 1)], over) for k in range(len(kept))]
         of_rest = [one for one in each if one is not None]
-    brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST_PIXELS else layers.brightest
+    brightest = float(np.percentile(bright[free], BRIGHTEST)) if free.sum() > FEWEST else layers.brightest
     rim = labels[background.rim_of(labels.shape)]
-    nothing = -2 * np.log(max(float(np.mean(rim == len(kept) + 1)), 1 / rim.size))
-    return labels, Layers(planes, brightest, of_object, of_rest, nothing)
+    nothing = -2 * np.log(max(float(np.mean(rim == len(kept) + 1)), LEAST_NOTHING))
+    return labels, Layers(planes, of_plane, brightest, of_object, of_rest, nothing)
 
 
 def _appearance(values: Array, over: Array) -> Appearance | None:
-    if len(values) <= FEWEST_PIXELS:
+    if len(values) <= FEWEST:
         return None
     low, high = np.percentile(over, [0.5, 99.5])
     return Appearance.of(values, float(low) - 1.5, float(high) + 1.5)

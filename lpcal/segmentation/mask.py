@@ -17,15 +17,15 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
-from lpcal.segmentation.background import Layer
 from lpcal.segmentation.clues import View
-from lpcal.segmentation.samples import MOST_LIGHTS
 from lpcal.view.agreed import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.sight import Grey, Sight, strength
 
 MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
+MOST_LIGHTS = 16
+"""Lights that the mask is found by, spread over all: more do not improve it."""
 LEAST_OF_IMAGE = 0.003
 """Share of the image under which what is found is no object."""
 BESIDE_POINT = 0.02
@@ -90,7 +90,7 @@ class Found:
     why: str = ""
     """What the area in doubt may be instead, and where it is."""
     layer: Labels | None = None
-    """(H, W) of `Layer`'s values; None where no layers were labelled."""
+    """(H, W) of segmentation.background's values: nothing, object, support, wall; None where no layers were labelled."""
     of_plane: Labels | None = None
     """(rows, columns) of coarse pixels: the number of the plane that each shows, -1 where it shows none; None where there are no planes."""
     factor: int = 1
@@ -100,7 +100,9 @@ class Found:
         """The layers (H, W) to be reconstructed."""
         if self.layer is None or keep == "object":
             return self.mask
-        return np.asarray(self.mask | (self.layer == Layer.SUPPORT) if keep == "support" else self.layer > Layer.NOTHING)
+        return np.asarray(
+            self.mask | (self.layer == background.Layer.SUPPORT) if keep == "support" else self.layer > background.Layer.NOTHING
+        )
 
     @property
     def doubt(self) -> float | None:
@@ -131,21 +133,17 @@ def automatic(
         found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room, drawn=drawn)
         if found is not None:
             return found
-    return Found(hints.of(_by_strength(maps, rays_C)), "by the strength of the signal")
+    return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
 
 
-def _by_strength(maps: Grey, rays_C: Array) -> Mask:
-    """By the logarithm of the strength: cut where its two classes (Otsu 1979) part, the outline then found in full size."""
-    here, _, factor = binned(maps, rays_C)
-    lit, noise = strength(here), np.median(here.sigma, axis=0)
+def _by_strength(maps: Grey) -> Mask:
+    """Otsu 1979 on the logarithm of the strength, then the seam."""
+    lit = strength(maps)
+    noise = np.median(maps.sigma, axis=0)
     level = np.log(np.maximum(lit, noise))
-    bright = level > (threshold := _otsu(level))
-    if bright.all() or not bright.any():
-        return np.zeros(maps.signal.shape[1:], bool)
-    apart = level[bright].mean() - level[~bright].mean()
-    said = np.where(lit > CERTAIN * noise, np.clip(2 * (level - threshold) / apart, -1, 1), -1)
-    mask = cut.total_variation(said.astype(np.float32), level.astype(np.float32), outline.STIFFNESS)
-    return tidy(outline.carried(tidy(mask), factor, maps, rays_C))
+    mask = level > _otsu(level)
+    mask &= lit > CERTAIN * noise
+    return tidy(cut.along_the_seam(tidy(mask), _picture(maps)))
 
 
 def _by_layers(
@@ -157,7 +155,7 @@ def _by_layers(
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
     view = view_of(image, table, distance_m, hints, shape, room)
-    planes_found = flats.find(image, table, view.swept, lit)
+    planes_found = flats.find(image, table, view.swept, lit, distance_m)
     labels, found, cost = layers.label(view, planes_found, lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
@@ -195,7 +193,7 @@ def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, s
         blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
         allowed = blocks.any(axis=(1, 3))
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
-    swept, levels = flats.sweep(image, table), outline.levels_of(image.maps, room, image.factor)
+    swept, levels = flats.sweep(image, table, distance_m), outline.levels_of(image.maps, room, image.factor)
     return View(image, table, swept, distance_m, *levels, allowed, points)
 
 
@@ -208,12 +206,17 @@ def apart_of(view: View, judged: background.Judged) -> outline.Apart:
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
     """The map of layers (H, W) by the mask (H, W) and the coarse labels; outside the mask that of the nearest background."""
-    value = {"support": Layer.SUPPORT, "wall": Layer.WALL, "dark": Layer.NOTHING, "other": Layer.WALL}
+    value = {
+        "support": background.Layer.SUPPORT,
+        "wall": background.Layer.WALL,
+        "dark": background.Layer.NOTHING,
+        "other": background.Layer.WALL,
+    }
     nearest = raster.nearest(behind) if behind.any() else None
     coarse = np.array([value[kind] for kind in kinds])[labels if nearest is None else labels.ravel()[nearest]]
     row, column = (np.minimum(np.arange(side) // factor, most - 1) for side, most in zip(mask.shape, labels.shape, strict=True))
     found = coarse[np.ix_(row, column)] if nearest is not None else np.zeros(mask.shape, int)
-    return np.asarray(np.where(mask, Layer.OBJECT, found), np.uint8)
+    return np.asarray(np.where(mask, background.Layer.OBJECT, found), np.uint8)
 
 
 def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> str:
@@ -251,6 +254,14 @@ def tidy(mask: Mask) -> Mask:
     area = np.bincount(holes.ravel())
     small = np.flatnonzero(area < background.HOLE * kept.sum())
     return np.asarray(kept | np.isin(holes, small[small > 0]))
+
+
+def _picture(maps: Grey) -> Image:
+    """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
+    ordered = np.sort(maps.signal, axis=0)
+    three = np.stack([ordered[-2], ordered.mean(axis=0), ordered[len(ordered) // 3]], axis=-1)
+    top = np.percentile(three, 99.5, axis=(0, 1))
+    return np.asarray(np.sqrt(np.clip(three / np.maximum(top, 1e-12), 0, 1)), np.float32)
 
 
 def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:

@@ -18,13 +18,14 @@ import numpy.typing as npt
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.segmentation import cut
-from lpcal.segmentation.background import SURE
 from lpcal.view.coarse import Coarse, LightTable, joined
 from lpcal.view.network import Network
 from lpcal.view.sight import Grey, second, strength
 
 FITTED = Path(__file__).with_name("outline_network.npz")
 """Where the network's weights are that tools/fit_outline.py has fitted."""
+SURE = 10.0
+"""Log odds at most of a coarse pixel."""
 MARGIN = 12
 """Pixels of the network's scale about what coarse pixels take for the object that it sees: nothing further away is the object."""
 DARKEST = 0.01

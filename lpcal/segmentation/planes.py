@@ -17,17 +17,17 @@ from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.segmentation.samples import MODEL
 from lpcal.view import bands
-from lpcal.view.agreed import MANY_PIXELS
 from lpcal.view.sight import Sight, light_vectors
 
 SHADE = 0.5
 """A signal under this share of what the second highest predicts is in shadow."""
 WEAK = 0.1
 """A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
+FIT_PIXELS = 700
 BEHIND = 1e-3
 """Reciprocal of a depth, 1/m, under which a ray misses a plane."""
-NODES = 64
-"""Nodes along a side of the lattice of rays on which the light of a plane is summed where rays are more than nodes: between them it is
+NODES, MANY_RAYS = 64, 10_000
+"""Nodes along a side of the lattice of rays on which the light of a plane is summed, and rays from which on it is: between the nodes it is
 right to 1e-4 of its most."""
 FEW_LIGHTS = 64
 """Lights up to which the kernel finds a plane's misfit."""
@@ -46,7 +46,7 @@ class Plane:
 
 def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
     """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
-    if len(rays_C) > NODES**2:
+    if len(rays_C) > MANY_RAYS:
         m = interpolated(lambda xy: _at_infinity(q, np.column_stack([xy, np.ones(len(xy))]), lights), rays_C[:, :2], NODES)
     else:
         m = _at_infinity(q, rays_C, lights)
@@ -149,5 +149,5 @@ def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]
 
 
 def thinned(seen: Sight) -> Sight:
-    """Every so many pixels, MANY_PIXELS at most."""
-    return seen.at(np.arange(0, seen.pixels, max(1, seen.pixels // MANY_PIXELS)))
+    """Every so many pixels, FIT_PIXELS at most."""
+    return seen.at(np.arange(0, seen.pixels, max(1, seen.pixels // FIT_PIXELS)))

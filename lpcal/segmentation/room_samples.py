@@ -26,6 +26,8 @@ SPREAD = 0.35
 """Relative standard deviation of A about level |b|: on simulated scenes 0.15 over an object, 0.3 between it and a wall behind."""
 DEEP = 0.02
 """Light that surfaces throw into shadow, as a share of a pixel's brightest sample: by so much a dark sample may differ from A."""
+BRIGHTER = 0.03
+"""Light from other surfaces, as in segmentation.samples but less of it: with more, the room's level comes out too low by a third."""
 STEPS = 4
 """Solves of b and A, the first with half of the least sample for A."""
 PLANE_STEPS = 3
@@ -98,7 +100,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
         consider(one, room.level * one, usable[k] & (m[k] > 0))
     for _ in range(PLANE_STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
-        dark = usable & ~lit & (lamps < SHADOW * albedo * m)
+        dark = usable & ~lit & (lamps < samples.DARK_SHARE * albedo * m)
         weight = (lit | dark) / (spread2 + (DEEP * lamps.max(axis=0)) ** 2)
         one, ambient = albedo_and_room(signal, weight, np.where(dark, 0.0, m), albedo, room)
         consider(one, np.maximum(ambient, 0.0), one > 0)
@@ -110,7 +112,7 @@ def _given(
     signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array, room: RoomPrior
 ) -> tuple[npt.NDArray[np.generic] | float, ...]:
     """What the kernels are given: samples (L, P), their light, the room's, and the constants."""
-    constants = [samples.MODEL**2, samples.MODEL, samples.MODEL, samples.OUTLIER, samples.DARK, samples.HALF_DARK, SHADOW]
+    constants = [samples.MODEL**2, BRIGHTER, samples.DARKER, samples.OUTLIER, samples.DARK, samples.HALF_DARK, samples.DARK_SHARE]
     constants += [SHADOW, OUTLIER2, DEEP, SPREAD, LEVEL_TIE]
     signal, sigma, light, share = (np.ascontiguousarray(one, float) for one in (signal, sigma, light, room.share))
     doubts = np.ascontiguousarray(doubt, np.float32)
@@ -119,7 +121,7 @@ def _given(
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:
     """Cost (P,), as `samples.nothing`, of places that the room alone lights, and A (P,) there."""
-    share, spread2 = room.share[:, None], sigma**2 + (samples.MODEL * around) ** 2
+    share, spread2 = room.share[:, None], sigma**2 + (samples.THROWN * around) ** 2
     weight = usable / spread2
     A = np.sum(weight * share * signal, axis=0) / np.maximum(np.sum(weight * share**2, axis=0), 1e-30)
     return np.sum(np.where(usable, np.minimum((signal - share * A) ** 2 / spread2, samples.OUTLIER), 0.0), axis=0) / 2, A
@@ -162,10 +164,10 @@ def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: A
     """Cost (L, P) and square residual (L, P) of samples; one that is darker than the room's light is no shadow."""
     lamps, spread2 = _without(signal, sigma, doubt, ambient)
     top = np.max(np.where(usable, lamps, 0.0), axis=0)
-    indirect = samples.MODEL * top
+    indirect = np.where(lamps > predicted, BRIGHTER, samples.DARKER) * top
     square = (lamps - predicted) ** 2 / (spread2 + indirect**2)
     below = np.minimum(np.minimum(lamps, 0.0) ** 2 / (spread2 + (DEEP * top) ** 2), samples.OUTLIER)
-    shadow = np.where(lamps < SHADOW * predicted, samples.DARK, samples.HALF_DARK) + below
+    shadow = np.where(lamps < samples.DARK_SHARE * predicted, samples.DARK, samples.HALF_DARK) + below
     return np.minimum(square, np.where(lamps < predicted, shadow, samples.OUTLIER)), square
 
 

@@ -5,7 +5,7 @@ Symbols: signal I_k, predicted signal m_k, in units of the sample's standard dev
     s_k^2 = noise^2 + (MODEL^2 + doubt_k^2) I_k^2 + (indirect max_l I_l)^2
 
 A brighter sample costs min(r^2, OUTLIER), a darker one min(r^2, a shadow's price): DARK where next to nothing is left of it, HALF_DARK
-where it keeps much of its light. Light from elsewhere only adds, so `indirect` is BRIGHTER for brighter samples, MODEL for darker ones.
+where it keeps much of its light. Light from elsewhere only adds, so `indirect` is BRIGHTER for brighter samples, DARKER for darker ones.
 Costs are twice negative logarithms of likelihoods: those of independent samples add up.
 """
 
@@ -21,19 +21,21 @@ from lpcal.view.agreed import OUTLIER2, SHADOW
 from lpcal.view.sight import second
 
 MODEL = 0.03
-"""Share of a signal that a model of matte matter lacks: ripples of a lobe, and the light of other surfaces that falls everywhere. Of a
-pixel's brightest sample by so much a sample may be darker than predicted, of the brightest matter in full light so much is left in deep
-shadow (2 to 6 per cent)."""
-BRIGHTER = 0.1
-"""Light from other surfaces, as a share of a pixel's brightest sample, by which a sample may be brighter than predicted."""
-OUTLIER = 20.0
-"""Cost of a sample that is brighter than predicted by any amount (4.5 sigmas): a highlight, or another surface."""
+"""Share of a signal that a model of matte matter lacks: light from elsewhere, ripples of a lobe."""
+BRIGHTER, DARKER = 0.1, 0.015
+"""Light from other surfaces, as a share of a pixel's brightest sample, by which a sample may be brighter, and darker, than predicted."""
+OUTLIER = 25.0
+"""Cost of a sample that is brighter than predicted by any amount (5 sigmas): a highlight, or another surface."""
 DARK, HALF_DARK = 5.0, 12.0
-"""Costs of a sample in shadow, twice the logarithm of how rare that is: with a share under SHADOW left of it, and with more left."""
+"""Costs of a sample in shadow, twice the logarithm of how rare that is: with next to nothing left, and with more than DARK_SHARE left."""
+DARK_SHARE = 0.2
+"""Share of the predicted signal under which a sample is dark: shadows get light from elsewhere only."""
+THROWN = 0.04
+"""Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
 ROUNDS = 3
 """Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
 MOST_LIGHTS = 32
-"""Lights that the kernels have room for, and that a mask is found by, spread over all: more do not improve it."""
+"""Lights that the kernels have room for."""
 
 
 def variance(signal: Array, sigma: Array, doubt: Array) -> Array:
@@ -43,13 +45,13 @@ def variance(signal: Array, sigma: Array, doubt: Array) -> Array:
 
 def square_residual(signal: Array, predicted: Array, spread2: Array) -> Array:
     """Square residuals (L, P) in sigmas, indirect light counted."""
-    indirect = np.where(signal > predicted, BRIGHTER, MODEL) * signal.max(axis=0)
+    indirect = np.where(signal > predicted, BRIGHTER, DARKER) * signal.max(axis=0)
     return np.asarray((signal - predicted) ** 2 / (spread2 + indirect**2))
 
 
 def price(signal: Array, predicted: Array, square: Array) -> Array:
     """Cost (L, P) of samples by their square residuals."""
-    shadow = np.where(signal < SHADOW * predicted, DARK, HALF_DARK)
+    shadow = np.where(signal < DARK_SHARE * predicted, DARK, HALF_DARK)
     return np.minimum(square, np.where(signal < predicted, shadow, OUTLIER))
 
 
@@ -108,12 +110,12 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
 
 def _given(signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array) -> tuple[npt.NDArray[np.generic], ...]:
     """What the kernels are given: samples (L, P), their light, and the constants."""
-    constants = np.array([MODEL**2, BRIGHTER, MODEL, OUTLIER, DARK, HALF_DARK, SHADOW, SHADOW, OUTLIER2, lambert.SINGULAR])
+    constants = np.array([MODEL**2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, OUTLIER2, lambert.SINGULAR])
     signal, sigma, light = (np.ascontiguousarray(one, float) for one in (signal, sigma, light))
     return signal, sigma, np.ascontiguousarray(usable), light, np.ascontiguousarray(doubt, np.float32), constants
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array) -> Array:
     """Cost (P,) of pixels as places that no light reaches but what other surfaces throw there, a share of `around` (L, P)."""
-    square = signal**2 / (sigma**2 + (MODEL * around) ** 2)
+    square = signal**2 / (sigma**2 + (THROWN * around) ** 2)
     return np.asarray(np.sum(np.where(usable, np.minimum(square, OUTLIER), 0.0), axis=0) / 2)

@@ -29,6 +29,8 @@ LATTICE = (19, 25)
 """Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
 """Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+HELD = 12
+"""Nodes beyond each end at which a spline keeps the end's value: what is said further out changes it by 1e-7 of a step."""
 EVERYWHERE = (slice(None), slice(None))
 """The box of all rows and columns."""
 
@@ -215,18 +217,21 @@ class LightTable:
 
 
 def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
-    """Matrix (places, nodes) from values at nodes evenly apart to a natural spline at places evenly apart, both from end to end."""
+    """Matrix (places, nodes) from values at nodes evenly apart to a spline at places evenly apart, both from end to end."""
     at = np.linspace(0, nodes - 1, places)
     if order == 1:
         return _linear(nodes, at)
-    through = (np.eye(nodes + 2, k=-1) + 4 * np.eye(nodes + 2) + np.eye(nodes + 2, k=1)) / 6
-    through[0, :3] = through[-1, -3:] = (1, -2, 1)  # straight at both ends
-    coefficients = np.linalg.solve(through, np.eye(nodes + 2)[:, 1:-1])
+    count = nodes + 2 * HELD
+    every = np.arange(count)
+    through = 4 / 6 * np.eye(count)
+    for beside in (every - 1, every + 1):
+        through[every, np.clip(beside, 0, count - 1)] += 1 / 6
+    coefficients = np.linalg.solve(through, np.eye(nodes)[np.clip(every - HELD, 0, nodes - 1)])
     before = np.minimum(at.astype(int), nodes - 2)
     f = at - before
     found = np.zeros((places, nodes))
     for k, weight in enumerate(((1 - f) ** 3, 3 * f**3 - 6 * f**2 + 4, -3 * f**3 + 3 * f**2 + 3 * f + 1, f**3)):
-        found += weight[:, None] / 6 * coefficients[before + k]
+        found += weight[:, None] / 6 * coefficients[before + HELD - 1 + k]
     return found
 
 

@@ -29,7 +29,7 @@ def seen(scale: float = 1.0, factor: int = 4) -> tuple[View, np.ndarray, np.ndar
     labels = np.ones(image.shape, int)
     labels[36 // factor : 72 // factor, 52 // factor : 104 // factor] = 2
     at = layers.Pixels(image.signal, image.sigma, image.usable, image.rays_C, np.arange(len(image.rays_C)))
-    found = layers.Layers([WALL, CARD], 0.0)
+    found = layers.Layers([WALL, CARD], [None, None], 0.0)
     B, doubt = table.at(np.full(len(image.rays_C), np.log(0.4)), at.coarse)
     free = samples.free(at.signal, at.sigma, at.usable, B, doubt)[1]
     cost = layers.with_planes(found, at, table, free, np.linalg.norm(B, axis=2)).reshape(-1, *image.shape)

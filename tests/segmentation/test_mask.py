@@ -58,8 +58,8 @@ def test_planes_are_found_where_they_are() -> None:
     maps, rays = picture(scene(card=None, floor=True))
     image = coarse_of(maps, rays, 2)
     table = LightTable.of(image, calibration().lights, WORKING_M)
-    swept = flats.sweep(image, table)
-    found = flats.find(image, table, swept, np.ones(len(image.rays_C), bool))
+    swept = flats.sweep(image, table, WORKING_M)
+    found = flats.find(image, table, swept, np.ones(len(image.rays_C), bool), WORKING_M)
     for q in (WALL, FLOOR):
         nearest = min(found, key=lambda one, q=q: float(np.linalg.norm(one - q)))
         assert np.degrees(np.arccos(nearest @ q / np.linalg.norm(nearest) / np.linalg.norm(q))) < 1.5
@@ -288,9 +288,9 @@ def test_an_edge_between_pixels_is_put_where_it_lies(offset: float) -> None:
 def test_a_plane_of_many_rays_is_lit_as_one_of_few(q: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> None:
     camera, lights = calibration().camera, calibration().lights
     rays = ray_map((112, 160), camera).reshape(-1, 3)
-    assert len(rays) > planes.NODES**2
+    assert len(rays) > planes.MANY_RAYS
     between = planes.predicted(q, rays, lights)
-    monkeypatch.setattr(planes, "NODES", len(rays))
+    monkeypatch.setattr(planes, "MANY_RAYS", len(rays))
     each = planes.predicted(q, rays, lights)
     assert np.array_equal(np.isnan(between), np.isnan(each))
     assert np.nanmax(np.abs(between - each)) < 1e-4 * np.nanmax(each)
