@@ -5,7 +5,7 @@ that takes pixels as independent rather breaks the surface at a neck than believ
 something else. There the nearer side turns away, as a round body does at its occluding contour, or the light itself says that the parts
 stand apart. So a seam is closed, the smaller piece put where both sides meet, if
 
-- one shift is enough: there the seam's median edge is whole, while the depth of a step that something hides differs along it;
+- one shift is enough: the seam's median edge is a break, and whole there, while the depth of a step that something hides differs along it;
 - the nearer side's normals do not turn away: ``-n . v > RIM`` at the median pixel of the seam; and
 - by the samples of the piece (surface.basins) this distance is not UNLIKELY, next to that where it stands: breaks without a rim are seldom.
 
@@ -61,12 +61,14 @@ def closed(seen: Sight, grid: Grid, lights: tuple[Light, ...], state: State, lab
         if seam is None or seam.turned < RIM:
             continue
         met = u - seam.jump * inside
-        if np.median(weights_of(grid, met, step, sigma)[seam.edges]) <= BREAK_WEIGHT:
+        there = weights_of(grid, met, step, sigma)
+        if not np.median(weight[seam.edges]) <= BREAK_WEIGHT < np.median(there[seam.edges]):
             continue
         if basins.against(seen, lights, u, state.lit.thrown, inside, -seam.jump, float(np.median(u[label == 1]))) > -np.log(UNLIKELY):
             continue
         u = met
-        weight[_beside(grid, weight, seen.mask, seam.edges)] = 1.0
+        beside = _beside(grid, weight, seen.mask, seam.edges)
+        weight[beside] = there[beside]
         label[inside] = seam.other
     return u, weight, label
 

@@ -55,6 +55,19 @@ def test_a_part_of_a_ball_that_was_cut_off_and_moved_comes_back(by: float) -> No
     assert pieces(scene.grid, weight, scene.seen.mask).max() == 1
 
 
+def test_what_holds_along_most_of_its_seam_stays_as_it_is() -> None:
+    """Pieces are told apart beside breaks, too: there is nothing to close, and the breaks are real."""
+    scene, state = ball()
+    grid = scene.grid
+    left = grid.columns < np.median(grid.columns) - 8
+    corner = left & (grid.rows < np.median(grid.rows) - 5)
+    off, _ = cut(scene, state, corner, 0.05)
+    u, weight, label = closed(scene, off, np.where(left, 2, 1).astype(np.uint8))
+    assert np.array_equal(weight, off.weight)
+    assert np.array_equal(u, off.u)
+    assert label.max() == 2
+
+
 def test_a_step_whose_height_differs_along_it_is_no_seam_to_close() -> None:
     scene, state = ball()
     left = scene.grid.columns < np.median(scene.grid.columns) - 8
