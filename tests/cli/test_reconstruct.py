@@ -144,7 +144,8 @@ def test_a_mask_in_the_capture_wins_and_a_subset_of_lights_is_taken(
 def test_one_bad_capture_does_not_stop_the_other(
     lpcal: Callable[..., tuple[int, str, str]], rig: Path, drawn: RawCapture, quick: Path
 ) -> None:
-    dark = replace(drawn, images=np.repeat(drawn.ambient, 6, axis=0))
+    noise = 0.002 * np.random.default_rng(1).standard_normal((6, *drawn.ambient.shape[1:]))
+    dark = replace(drawn, images=np.clip(drawn.ambient + noise, 0, 1).astype(np.float32))
     write_capture(rig / "objects/dark", dark)
     (rig / "panel.yaml").write_text(PANEL.replace("{ball: objects/first}", "{dark: objects/dark, ball: objects/first}"))
     code, _, told = lpcal("reconstruct", "--mask", quick, "--lights", "distant", cwd=rig)
