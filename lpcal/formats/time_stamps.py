@@ -41,17 +41,16 @@ def with_seconds(rows: Sequence[str], place: int) -> tuple[list[str], tuple[str,
     first = next((cell for cell in (_cell(row, place) for row in rows) if cell), "")
     if seconds_of(first) is None:
         return list(rows), ()
+    of_the_day = OF_THE_DAY.fullmatch(first) is not None
     found, days, before = [], 0, 0.0
     for row in rows:
-        time_s = seconds_of(_cell(row, place))
+        time_s, cells = seconds_of(_cell(row, place)), row.split(",")
         if time_s is not None:
-            days += time_s < before - DAY_S / 2
+            days += of_the_day and time_s < before - DAY_S / 2
             before = time_s
-            cells = row.split(",")
             cells[place] = f"{time_s + days * DAY_S:.6f}"
-            row = ",".join(cells)  # noqa: PLW2901 - the row as it is read from here on
-        found.append(row)
-    return found, ("times are of the day" if OF_THE_DAY.fullmatch(first) else "times are dates",)
+        found.append(",".join(cells))
+    return found, ("times are of the day" if of_the_day else "times are dates",)
 
 
 def _cell(row: str, place: int) -> str:

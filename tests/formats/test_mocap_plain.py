@@ -11,6 +11,7 @@ import pytest
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.image_times import read_image_times
 from lpcal.formats.mocap import read_mocap
+from lpcal.formats.time_stamps import with_seconds
 from lpcal.geometry import se3
 from lpcal.records.observations import PoseStream
 
@@ -195,3 +196,12 @@ def test_what_columns_lack_is_said_with_what_to_do(tmp_path: Path, head: str, to
 def test_a_web_page_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="a web page"):
         read_mocap(written(tmp_path / "mocap.csv", "<!DOCTYPE html>", ["<html><body>sign in</body></html>"]))
+
+
+def test_only_times_of_the_day_pass_midnight() -> None:
+    dates, _ = with_seconds(["2026-01-05 20:00:00,1", "2026-01-05 03:00:00,2"], 0)
+    before, after = (float(row.split(",")[0]) for row in dates)
+    assert after - before == -17 * 3600, "a recording that goes back is to be refused, not mended"
+    of_the_day, _ = with_seconds(["20:00:00,1", "03:00:00,2"], 0)
+    before, after = (float(row.split(",")[0]) for row in of_the_day)
+    assert after - before == 7 * 3600
