@@ -86,12 +86,12 @@ def _columns_of_body(cells: list[str], body: str | None, path: Path) -> tuple[li
     """
     if set(PLAIN) <= {_key(_split(cell)[0]) for cell in cells}:
         return cells, ""
-    of: dict[str, list[int]] = {}
+    of: dict[str, set[str]] = {}
     parts = [OF_A_BODY.fullmatch(cell.strip()) for cell in cells]
-    for place, match in enumerate(parts):
+    for match in parts:
         if match:
-            of.setdefault(match[1], []).append(place)
-    whole = [name for name, places in of.items() if {str(parts[k][2]).lower() for k in places} >= set(PLAIN[1:])]  # type: ignore[index]
+            of.setdefault(match[1], set()).add(match[2].lower())
+    whole = [name for name, columns in of.items() if columns >= set(PLAIN[1:])]
     if not whole:
         return cells, ""
     chosen = choose_body(whole, body, path)

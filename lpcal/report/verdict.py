@@ -197,7 +197,8 @@ def _surface(surface: SurfaceReport) -> Verdict:
     summary = surface.summary
     pieces = summary.components
     known = [piece for piece in pieces if summary.metric and np.isfinite(piece.scale_std)]
-    levels = [_level((100 * piece.scale_std, "surface_percent")) for piece in known]
+    measured = [(100 * piece.scale_std, "surface_percent") for piece in known]
+    levels = [_level(one) for one in measured]
     pixels = sum(piece.pixels for piece in pieces)
     found = f"{grouped(pixels)} pixels in {plural(len(pieces), 'piece')}" if pieces else "a surface"
     if not known:
@@ -211,7 +212,7 @@ def _surface(surface: SurfaceReport) -> Verdict:
         level = "fair" if level == "good" else level
         worst = max(unsure, key=lambda piece: piece.scale_std)
         found += f"; its piece {worst.label} of {grouped(worst.pixels)} pixels is known to {fixed(100 * worst.scale_std, 1, '%')} only"
-    return Verdict("surface", surface.name, level, found, _gate((0.0, "surface_percent")))
+    return Verdict("surface", surface.name, level, found, _gate(measured[0]))
 
 
 def _of_most(levels: Sequence[Tone], pixels: Sequence[int]) -> Tone:

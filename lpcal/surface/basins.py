@@ -34,7 +34,7 @@ from lpcal.view import bands, coarse
 from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.coarse import LightTable
 from lpcal.view.crop import Crop
-from lpcal.view.sight import Grey, Lit, Sight, light_vectors, look_at
+from lpcal.view.sight import Grey, Indices, Lit, Sight, light_vectors, look_at
 
 STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
@@ -162,10 +162,7 @@ def std_of(seen: Sight, lights: Sequence[Light], u: Array, inside: Mask) -> floa
     Few lights, near to each other or on one side, a shallow shape, shadows and gloss all make the same costs of neighbouring distances.
     """
     step = float(PIECE_SWEEP[1] - PIECE_SWEEP[0])
-    some = np.flatnonzero(inside)
-    some = some[:: max(1, len(some) // MANY_PIXELS)]
-    few = seen.at(some)
-    nearer, here, beyond = (_cost_of(few, lights, u[some] + shift, None) for shift in (-step, 0.0, step))
+    nearer, here, beyond = _costs_of_shifts(seen, lights, u, None, _some(inside), (-step, 0.0, step))
     bend = (nearer - 2 * here + beyond) / step**2 / 2 / max(here / len(lights), 1.0)
     return float(1 / np.sqrt(NEARBY * max(bend, 0.0) + WORKING**-2))
 
@@ -176,11 +173,9 @@ def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     Parts of an object that stand apart in the picture are swept as a whole: rounds find the minimum that is nearest. `thrown` (L, P, 3) is
     the light of surfaces. The energy is that of `odds_of`, with the main piece in the working distance's place.
     """
-    some = np.flatnonzero(inside)
-    some = some[:: max(1, len(some) // MANY_PIXELS)]
-    few, begin = seen.at(some), u[some]
-    cost = np.array([_cost_of(few, lights, begin + shift, None if thrown is None else thrown[:, some]) for shift in PIECE_SWEEP])
-    energy = _energy(cost, float(np.median(begin)) + PIECE_SWEEP - main, len(lights))
+    some = _some(inside)
+    cost = _costs_of_shifts(seen, lights, u, thrown, some, PIECE_SWEEP)
+    energy = _energy(cost, float(np.median(u[some])) + PIECE_SWEEP - main, len(lights))
     least = np.flatnonzero(np.r_[True, energy[1:] < energy[:-1]] & np.r_[energy[:-1] <= energy[1:], True])
     least = least[np.argsort(energy[least], kind="stable")]
     odds = np.exp(energy[least[0]] - energy[least])
@@ -189,14 +184,18 @@ def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | Non
     return PieceEnds(at, odds / odds.sum(), float(np.sqrt(np.average((PIECE_SWEEP - at[0]) ** 2, weights=weight))))
 
 
-def against(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, shift: float, main: float) -> float:
-    """By how much more energy (`of_piece`) a piece `inside` (P,) has when its log depths u (P,) are changed by `shift`."""
-    some = np.flatnonzero(inside)
-    some = some[:: max(1, len(some) // MANY_PIXELS)]
-    few, parts, moves = seen.at(some), None if thrown is None else thrown[:, some], np.array([0.0, shift])
-    cost = np.array([_cost_of(few, lights, u[some] + move, parts) for move in moves])
-    here, there = _energy(cost, float(np.median(u[some])) + moves - main, len(lights))
-    return float(there - here)
+def energy_of_shift(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, shift: float, main: float) -> float:
+    """By how much the energy (`of_piece`) of a piece `inside` (P,) rises when its log depths u (P,) are changed by `shift`."""
+    some, shifts = _some(inside), np.array([0.0, shift])
+    cost = _costs_of_shifts(seen, lights, u, thrown, some, shifts)
+    before, after = _energy(cost, float(np.median(u[some])) + shifts - main, len(lights))
+    return float(after - before)
+
+
+def _some(inside: Mask) -> Indices:
+    """Pixels of a piece, spread over it, by which its distances are judged."""
+    every = np.flatnonzero(inside)
+    return every[:: max(1, len(every) // MANY_PIXELS)]
 
 
 def _energy(cost: Array, away: Array, lights: int) -> Array:
@@ -211,6 +210,14 @@ def _vertex(energy: Array, k: int) -> float:
         return float(PIECE_SWEEP[k])
     bend = energy[k - 1] - 2 * energy[k] + energy[k + 1]
     return float(PIECE_SWEEP[k] + step * (energy[k - 1] - energy[k + 1]) / (2 * max(bend, 1e-12)))
+
+
+def _costs_of_shifts(
+    seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, some: Indices, shifts: Sequence[float] | Array
+) -> Array:
+    """Mean cost (N,) of the samples of some pixels whose log depths, of u (P,), are changed by each of `shifts` (N,)."""
+    few, light = seen.at(some), None if thrown is None else thrown[:, some]
+    return np.array([_cost_of(few, lights, u[some] + shift, light) for shift in shifts])
 
 
 def _cost_of(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None) -> float:

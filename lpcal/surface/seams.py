@@ -7,7 +7,7 @@ stand apart. So a seam is closed, the smaller piece put where both sides meet, i
 
 - one shift is enough: the seam's median edge is a break, and whole there, while the depth of a step that something hides differs along it;
 - the nearer side's normals do not turn away: ``-n . v > RIM`` at the median pixel of the seam; and
-- by the samples of the piece (surface.basins) this distance is not UNLIKELY, next to that where it stands: breaks without a rim are seldom.
+- by the samples of the piece (surface.basins) that distance is not UNLIKELY compared with its present one: breaks without a rim are rare.
 
 Source: Barrow and Tenenbaum 1978, Recovering Intrinsic Scene Characteristics from Images (the normal of a smooth body at its occluding
 contour is perpendicular to the line of sight).
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 RIM = 0.5
 """Cosine between a normal and the direction to the camera under which a seam's nearer side turns away: 60 degrees from it, where a ball of
-thirteen pixels across is a pixel from its outline."""
+fifteen pixels across is a pixel from its outline."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,8 @@ def closed(seen: Sight, grid: Grid, lights: tuple[Light, ...], state: State, lab
         there = weights_of(grid, met, step, sigma)
         if not np.median(weight[seam.edges]) <= BREAK_WEIGHT < np.median(there[seam.edges]):
             continue
-        if basins.against(seen, lights, u, state.lit.thrown, inside, -seam.jump, float(np.median(u[label == 1]))) > -np.log(UNLIKELY):
+        main = float(np.median(u[label == 1]))
+        if basins.energy_of_shift(seen, lights, u, state.lit.thrown, inside, -seam.jump, main) > -np.log(UNLIKELY):
             continue
         u = met
         beside = _beside(grid, weight, seen.mask, seam.edges)

@@ -6,7 +6,7 @@ OUTLIER = 3.0
 """Standard deviations from which a residual is taken for an outlier's."""
 OUTLIER2 = OUTLIER**2
 CERTAIN = 2 * OUTLIER
-"""Standard deviations from which something is no chance even where neighbours, or a model's errors, are not independent."""
+"""Standard deviations beyond which a difference is real, although the errors of neighbours, and those of the model, are correlated."""
 GRAZING = 0.03
 """Cosine (of 88 degrees) of a surface to light or viewer under which it is too steep to be computed with: smaller ones are held there."""
 DOUBT = 0.25
