@@ -14,7 +14,7 @@ from lpcal.api.engines import Engine, Lost, each
 from lpcal.api.sensor import BY_CAPTURE, Statements, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surfaces import linear
-from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.errors import DegenerateError, DisagreementError, InputError, UsageError
 from lpcal.fusion.model import model_of
 from lpcal.fusion.registration import FEWEST
 from lpcal.fusion.tiles import SpaceTile, TileFaces
@@ -29,6 +29,10 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.records.sensor import SensorInUse
 from lpcal.records.surface import Surface
 
+LEAST_STEP_PX = 0.25
+"""Finest edges of a model, in footprints of a pixel: finer ones show nothing more, and half the length takes four times as long."""
+FEWEST_STEPS = 8
+"""Fewest edges along the longest side of what a view shows: of fewer no surface is left."""
 LEAST_PIXELS = 200
 """Least number of usable pixels of a surface: fewer do not show how it fits."""
 
@@ -82,6 +86,8 @@ def fuse(
     ------
     InputError
         A surface is not placed or not metric, or scikit-image is not installed.
+    UsageError
+        `step_m` is under a quarter of a pixel on the object, or over an eighth of it.
     DisagreementError
         Surfaces are placed in different frames.
     DegenerateError
@@ -116,9 +122,21 @@ def fuse(
         )
     if importlib.util.find_spec("skimage") is None:
         raise InputError("scikit-image is not installed", where="fuse", needed="lpcal[fuse]", todo="uv add 'lpcal[fuse]'")
+    _refuse_step(step_m, views)
     over = in_turn if engine is None else partial(_over, engine)
     images = None if calibration is None or captures is None else partial(_images, captures, calibration, sensors, sensor)
     return model_of(name, views, step_m, progress, None if calibration is None else calibration.lights, over, images)
+
+
+def _refuse_step(step_m: float | None, views: Sequence[PlacedView]) -> None:
+    if step_m is None:
+        return
+    footprint_m = float(np.median([view.footprint_m for view in views]))
+    least_m = LEAST_STEP_PX * footprint_m
+    most_m = footprint_m * max(max(view.depth.shape) for view in views) / FEWEST_STEPS
+    if not least_m <= step_m <= most_m:
+        needed = f"{1e3 * least_m:.2g} mm, a quarter of a pixel on the object, to {1e3 * most_m:.2g} mm, an eighth of it"
+        raise UsageError(f"edges of {1e3 * step_m:g} mm", where="--step", needed=needed, todo="leave it out: 1.4 pixels on the object")
 
 
 def _images(

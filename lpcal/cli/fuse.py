@@ -53,7 +53,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         options.captures,
         options.output,
         rig,
-        length(options.step),
+        length(options.step, "--step"),
         progress,
         page=page,
         refine=options.refine,

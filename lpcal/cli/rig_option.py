@@ -34,8 +34,14 @@ def open_workspace(options: argparse.Namespace, panel: Path | None = None) -> Wo
     return workspace
 
 
-def length(text: str | None) -> float | None:
-    """Metres of a word such as 352mm; None where there is none."""
+def length(text: str | None, option: str = "--distance") -> float | None:
+    """Metres of an option's word such as 352mm, over zero; None where there is none.
+
+    Raises
+    ------
+    UsageError
+        It is no length, or not over zero.
+    """
     from lpcal.records.quantities import parse
 
     if text is None:
@@ -43,7 +49,7 @@ def length(text: str | None) -> float | None:
     try:
         found = parse(text, "length")
     except ValueError as error:
-        raise UsageError(str(error), where="--distance", needed="a length such as 352mm") from error
+        raise UsageError(str(error), where=option, needed="a length such as 352mm") from error
     if found <= 0:
-        raise UsageError(f"{text} is not in front of the camera", where="--distance", needed="a length such as 352mm")
+        raise UsageError(f"{text} is not over zero", where=option, needed="a length such as 352mm")
     return found

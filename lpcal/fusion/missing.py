@@ -2,7 +2,7 @@ r"""What no view has seen well, where the panel should stand next, and what that
 
 Symbols: s a sample of the surface with area a_s and normal n_s; H_AC a camera that might stand somewhere, d its distance to the object's
 middle. Samples are the model's vertices that one view alone sees, and points of the caps that close its open edges: no view saw what is
-there, a flat cap through the loop stands for it. A candidate sees a sample that faces it within 65 degrees, lies in its image, and is not
+there, the cap stands for it. A candidate sees a sample that faces it within 65 degrees, lies in its image, and is not
 behind the model or a cap (a depth buffer)::
 
     gain = sum_unseen a_s + w sum_once a_s              over the samples that it sees
@@ -13,6 +13,8 @@ are; and nearer and farther, where they would have to be set again. The best is 
 
 from __future__ import annotations
 
+import heapq
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -79,7 +81,7 @@ def missing(aligned: Aligned, found: Vertices) -> Missing:
 
 @dataclass(frozen=True)
 class Caps:
-    """Points on the flat caps that close a surface's open edges: places (N, 3), normals (N, 3), areas (N,)."""
+    """Points on the caps that close a surface's open edges: places (N, 3), normals (N, 3), areas (N,)."""
 
     x_A: Array
     n_A: Array
@@ -87,30 +89,48 @@ class Caps:
 
 
 def caps_of(v: Array, faces: Index) -> Caps:
-    """Close each loop of open edges by a fan about its mean."""
-    corners = [_fan(v[loop]) for loop in loops_of(faces)]
+    """Close each loop of open edges; see `zipped`."""
+    corners = [zipped(v[loop]) for loop in loops_of(faces)]
     if not corners:
         return Caps(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0))
-    fans = np.concatenate(corners)
+    corners_A = np.concatenate(corners)
     step = CAP_STEP * float(np.median(np.linalg.norm(v[faces[:, 0]] - v[faces[:, 1]], axis=1)))
-    flat = np.cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0]) / 2
+    flat = np.cross(corners_A[:, 1] - corners_A[:, 0], corners_A[:, 2] - corners_A[:, 0]) / 2
     area = np.linalg.norm(flat, axis=1)
     some = area > 0
-    fans, flat, area = fans[some], flat[some], area[some]
+    corners_A, flat, area = corners_A[some], flat[some], area[some]
     each = np.maximum(np.ceil(area / step**2).astype(int), 1)
     triangle = np.repeat(np.arange(len(area)), each)
     within = np.arange(len(triangle)) - np.repeat(np.cumsum(each) - each, each)
     along, across = (within + 0.5) / each[triangle], np.mod((within + 0.5) * 0.618034, 1.0)
     root = np.sqrt(along)
     weights = np.stack([1 - root, root * (1 - across), root * across], axis=1)
-    x_A = np.einsum("nk,nkc->nc", weights, fans[triangle])
+    x_A = np.einsum("nk,nkc->nc", weights, corners_A[triangle])
     return Caps(x_A, flat[triangle] / area[triangle, None], area[triangle] / each[triangle])
 
 
-def _fan(ring: Array) -> Array:
-    """Triangles (N, 3, 3) from the mean of a closed ring (N, 3) to its edges."""
-    middle = np.broadcast_to(ring.mean(axis=0), ring.shape)
-    return np.stack([middle, np.roll(ring, -1, axis=0), ring], axis=1)
+def zipped(ring: Array) -> Array:
+    """Triangles (N - 2, 3, 3) that close a ring (N, 3) of open edges, turned as what they close.
+
+    Corners are cut off one after the other, each time where the two beside are nearest to each other: a long narrow gap is closed across,
+    however it winds.
+    """
+    before, after = np.roll(np.arange(len(ring)), 1).tolist(), np.roll(np.arange(len(ring)), -1).tolist()
+    wide = np.linalg.norm(np.roll(ring, -1, axis=0) - np.roll(ring, 1, axis=0), axis=1).tolist()
+    queue = list(zip(wide, range(len(ring)), strict=True))
+    heapq.heapify(queue)
+    corners: list[tuple[int, int, int]] = []
+    while len(corners) < len(ring) - 2:
+        width, at = heapq.heappop(queue)
+        if width != wide[at]:
+            continue  # a neighbour of it has gone since
+        a, b, wide[at] = before[at], after[at], -1.0
+        corners.append((a, b, at))
+        after[a], before[b] = b, a
+        for one in (a, b):
+            wide[one] = math.dist(ring[after[one]], ring[before[one]])
+            heapq.heappush(queue, (wide[one], one))
+    return np.asarray(ring[np.array(corners)])
 
 
 def loops_of(faces: Index) -> list[Index]:

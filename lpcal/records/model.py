@@ -100,7 +100,7 @@ class NextStop:
     distance_m: float
     """From the camera to the object's middle."""
     unseen_m2: float
-    """Area that no view has seen, about: of flat caps over what is open."""
+    """Area that no view has seen, about: of caps over what is open."""
     once_m2: float
     """Area that one view alone has seen."""
     reset: bool
@@ -114,7 +114,7 @@ class Missing:
     area_m2: float
     """The model's own."""
     open_m2: float
-    """The flat caps' over its open edges: about what no view has seen."""
+    """That of the caps over its open edges: about what no view has seen."""
     once_m2: float
     """What one view alone sees."""
     loose_m2: float

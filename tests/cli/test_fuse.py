@@ -35,6 +35,24 @@ def test_fuse(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: p
     assert main(["fuse", names[0], names[0], "-o", "model"]) == 6
 
 
+@pytest.mark.parametrize(
+    ("step", "said"),
+    [
+        ("5", "--step: a bare number, 5"),
+        ("0mm", "--step: 0mm is not over zero"),
+        ("0.1mm", "--step: edges of 0.1 mm\n  needed: 0.43 mm, a quarter of a pixel on the object"),
+        ("50mm", "--step: edges of 50 mm\n"),
+    ],
+)
+def test_edges_that_cannot_be(tmp_path: Path, capsys: pytest.CaptureFixture[str], step: str, said: str) -> None:
+    """The option is named, and what it may be; a grid finer than pixels takes hours, one as coarse as the object has no surface."""
+    for surface in scene().surfaces[:2]:
+        library.write_surface(tmp_path / surface.name, surface)
+    assert main(["fuse", str(tmp_path / "stop_00"), str(tmp_path / "stop_01"), "-o", str(tmp_path / "model"), "--step", step]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "model").exists()
+
+
 def test_where_a_user_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """Started above the rig; without names, beside surfaces that are not placed; an object by its key; a folder of captures."""
     rig = tmp_path / "rig"

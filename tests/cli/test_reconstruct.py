@@ -288,7 +288,7 @@ def test_only_the_files_that_are_asked_for_are_written(
         (("--use", "L0,L1"), 4, "2 lights"),
         (("--use", "L0,L1,L9"), 6, "L9"),
         (("--distance", "352"), 2, "bare number"),
-        (("--distance", "0mm"), 2, "in front of the camera"),
+        (("--distance", "0mm"), 2, "--distance: 0mm is not over zero"),
         (("--mask", "nowhere.png"), 3, "nowhere.png"),
         (("--box", "10,10,80"), 2, "10,10,80 is not 4 whole numbers"),
         (("--box", "10,10,0,20"), 2, "holds no pixel"),

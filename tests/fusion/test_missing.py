@@ -9,7 +9,7 @@ import pytest
 
 import lpcal
 from fusion_views import scene
-from lpcal.fusion.missing import caps_of, carrier_of, loops_of
+from lpcal.fusion.missing import caps_of, carrier_of, loops_of, zipped
 from lpcal.geometry import se3
 from lpcal.records.model import Missing, ObjectModel
 from lpcal.report.model_page import missing_words
@@ -39,6 +39,18 @@ def test_a_cap_is_the_lid() -> None:
     assert caps.area_m2.sum() == pytest.approx(1.0)
     np.testing.assert_allclose(caps.n_A, np.broadcast_to([0, 0, 1.0], caps.n_A.shape), atol=1e-12)
     np.testing.assert_allclose(caps.x_A[:, 2], 0.5)
+
+
+def test_a_gap_that_winds_is_closed_across() -> None:
+    """Round a ring of radius 1 that is open along its inside, a tenth wide: the cap has the gap's area, not that of the ring's hole."""
+    around = np.linspace(0, 2 * np.pi, 120, endpoint=False)[:-4]
+    side = np.column_stack([np.cos(around), np.sin(around), np.zeros(len(around))])
+    gap = np.concatenate([side, side[::-1] + np.array([0, 0, 0.1])])
+    triangles = zipped(gap)
+    flat = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) / 2
+    assert np.linalg.norm(flat, axis=1).sum() == pytest.approx(0.1 * (around[-1] - around[0]), rel=0.02)
+    outward = np.einsum("nk,nk->n", flat[:, :2], triangles.mean(axis=1)[:, :2])
+    assert outward.max() < 1e-12 < -outward.sum()  # the faces that the gap lies between go round it the other way
 
 
 def test_a_closed_surface_has_no_cap() -> None:
