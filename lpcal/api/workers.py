@@ -17,7 +17,7 @@ from typing import Any
 
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 """The variables that hold a worker to one thread of linear algebra; the user's own setting wins."""
-PRELOADED = ("lpcal.pipeline.many", "PIL.PngImagePlugin", "cv2", "tifffile", "jinja2")
+PRELOADED = ("lpcal.pipeline.many", "PIL.PngImagePlugin", "cv2", "jinja2")
 """What a worker that reconstructs would import, a third of a second of processor time: where processes are forked off a server, the server
 imports it once for all workers and for those that take a lost one's place. What few captures need is imported where it is needed."""
 DASK_PRELOADED = ("distributed.nanny", "distributed.worker")

@@ -90,11 +90,11 @@ def glb(
     """
     views, accessors, begin = [], [], 0
     parts = [(sizes[1] * 3, "SCALAR", "<u4", 1, faces), *((sizes[0], "VEC3", "<f4", 3, of) for of in attributes.values())]
-    for number, (count, kind, stored, columns, of) in enumerate(parts):
+    for number, (count, kind, _, columns, of) in enumerate(parts):
         view = {"buffer": 0, "byteOffset": begin, "byteLength": 4 * columns * count}
         views.append(view | {"target": ARRAY_BUFFER if number else ELEMENT_BUFFER})
         accessor = {"bufferView": number, "componentType": FLOAT32 if number else UINT32, "type": kind, "count": count}
-        accessors.append(accessor | (_ends(of(), columns, stored) if count else {}))
+        accessors.append(accessor | (_ends(of()) if of is attributes["POSITION"] and count else {}))  # as the format asks
         begin += 4 * columns * count
     matte = {"name": "matte", "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}
     drawn = {"attributes": {name: 1 + k for k, name in enumerate(attributes)}, "indices": 0, "mode": 4, "material": 0}
@@ -120,12 +120,12 @@ def glb_holds(sizes: tuple[int, int]) -> bool:
     return 36 * sizes[0] + 12 * sizes[1] <= GLB_MOST
 
 
-def _ends(bands: Bands, columns: int, stored: str) -> dict[str, list[float]]:
+def _ends(bands: Bands) -> dict[str, list[float]]:
     """Least and largest numbers of each column, as a glTF states them."""
     least, largest = [], []
     for band in bands:
         if len(band):
-            table = np.asarray(band, stored).reshape(-1, columns)
+            table = np.asarray(band, "<f4")
             least.append(table.min(axis=0))
             largest.append(table.max(axis=0))
     return {"min": np.min(least, axis=0).tolist(), "max": np.max(largest, axis=0).tolist()}

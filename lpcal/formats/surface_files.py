@@ -32,7 +32,6 @@ from lpcal.formats.placement_document import placement_document, placement_from_
 from lpcal.formats.reading import reading
 from lpcal.formats.record_documents import document_of, record_of
 from lpcal.geometry import se3
-from lpcal.geometry.arrays import Image
 from lpcal.integration.mesh import DISPLAY_GAMMA, MeshBands
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.placement import Placement
@@ -214,11 +213,11 @@ def _component(entry: dict[str, Any]) -> Component:
 
 def normals_gl(surface: Surface) -> npt.NDArray[np.uint16]:
     """Normals (H, W, 3) as 16 bit RGB: x right, y up, z to the camera."""
-    found = np.empty(surface.normals.shape, np.uint16)
+    found = np.zeros(surface.normals.shape, np.uint16)
     for rows in _bands(found):
-        turned = np.nan_to_num(surface.normals[rows]) * GLTF_FROM_C
-        found[rows] = np.rint((turned + 1) / 2 * 65535).astype(np.uint16)
-        found[rows][~surface.mask[rows]] = 0
+        inside = surface.mask[rows]
+        turned = np.nan_to_num(surface.normals[rows][inside]) * GLTF_FROM_C
+        found[rows][inside] = np.rint((turned + 1) / 2 * 65535)
     return found
 
 
@@ -238,28 +237,27 @@ def _bands(image: npt.NDArray[Any]) -> list[slice]:
 
 
 def _write_images(draft: Path, surface: Surface, outputs: Collection[str]) -> None:
-    import tifffile
-
     if "normals" in outputs:
-        _write_png(draft / OUTPUTS["normals"], normals_gl(surface))
+        _write_image(draft / OUTPUTS["normals"], normals_gl(surface))
     if "albedo" in outputs:
-        _write_png(draft / OUTPUTS["albedo"], albedo_16(surface))
+        _write_image(draft / OUTPUTS["albedo"], albedo_16(surface))
     if "mask" in outputs:
-        _write_png(draft / OUTPUTS["mask"], np.asarray(255 * surface.mask, np.uint8))
+        _write_image(draft / OUTPUTS["mask"], np.asarray(255 * surface.mask, np.uint8))
     if "depth" in outputs:
-        depth: Image = surface.depth
-        tifffile.imwrite(draft / OUTPUTS["depth"], depth, compression="zlib")
+        _write_image(draft / OUTPUTS["depth"], surface.depth)
 
 
-def _write_png(path: Path, pixels: npt.NDArray[Any]) -> None:
-    """Write an image (H, W) or (H, W, 3), whose colours are turned over in their place: a large one is not held twice."""
+def _write_image(path: Path, pixels: npt.NDArray[Any]) -> None:
+    """Write an image (H, W) or (H, W, 3) as PNG or TIFF; its colours are turned over in their place: a large one is not held twice."""
     import cv2
 
     for rows in _bands(pixels) if pixels.ndim == 3 else ():
         pixels[rows] = pixels[rows, :, ::-1].copy()
-    encoded, data = cv2.imencode(".png", pixels)
+    deflated = [cv2.IMWRITE_TIFF_COMPRESSION, cv2.IMWRITE_TIFF_COMPRESSION_ADOBE_DEFLATE]
+    plainly = [cv2.IMWRITE_TIFF_PREDICTOR, cv2.IMWRITE_TIFF_PREDICTOR_NONE]  # which every reader knows
+    encoded, data = cv2.imencode(path.suffix, pixels, [*deflated, *plainly] if path.suffix == ".tif" else [])
     if not encoded:
-        raise InputError("cannot be encoded as PNG", where=str(path))
+        raise InputError("cannot be encoded", where=str(path))
     path.write_bytes(memoryview(data))
 
 

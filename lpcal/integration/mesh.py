@@ -18,6 +18,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.shown import Shown
 from lpcal.records.surface import Surface
 from lpcal.view import bands
+from lpcal.view.crop import Crop
 
 DISPLAY_GAMMA = 2.2
 """Exponent between display numbers and light: sRGB's curve within two of 255 steps, but for the darkest."""
@@ -50,8 +51,10 @@ class MeshBands:
     """The mesh of a surface, in bands of rows: what each method gives, one after the other, is what `Mesh` holds."""
 
     surface: Surface
+    """Its maps within the box (h, w) about its mask."""
+    box: Crop
     number: npt.NDArray[np.int32]
-    """(H, W) which vertex a pixel is; -1: none."""
+    """(h, w) which vertex a pixel is; -1: none."""
     vertices: int
     """How many there are."""
     triangles: tuple[int, ...]
@@ -60,6 +63,8 @@ class MeshBands:
     @staticmethod
     def of(surface: Surface) -> MeshBands:
         """Number the pixels that a triangle uses, in reading order; a surface that states no breaks is cut where its mask ends."""
+        box = Crop.about(surface.mask)
+        surface = box.surface(surface)
         if not surface.breaks.size:
             surface = replace(surface, breaks=ends_of(surface.mask))
         used, counts = np.zeros(surface.mask.shape, bool), np.zeros(len(CORNERS), int)
@@ -72,12 +77,13 @@ class MeshBands:
         number = np.full(used.shape, -1, np.int32)
         vertices = int(np.count_nonzero(used))
         number[used] = np.arange(vertices, dtype=np.int32)
-        return MeshBands(surface, number, vertices, tuple(counts.tolist()))
+        return MeshBands(surface, box, number, vertices, tuple(counts.tolist()))
 
     def points_C(self) -> Iterator[Image]:
         """Vertices (V, 3)."""
+        first, shape = (self.box.rows.start, self.box.columns.start), self.box.shape
         for rows, used in self._used():
-            yield _points(self.surface, rows)[used].astype(np.float32)
+            yield _points(self.surface, rows, first, shape)[used].astype(np.float32)
 
     def normals_C(self) -> Iterator[Image]:
         """Their measured normals (V, 3)."""
@@ -93,7 +99,8 @@ class MeshBands:
     def pixels(self) -> Iterator[npt.NDArray[np.int32]]:
         """Their columns and rows (V, 2)."""
         for rows, used in self._used():
-            yield (np.argwhere(used)[:, ::-1] + np.array([0, rows.start])).astype(np.int32)
+            first = np.array([self.box.columns.start, self.box.rows.start + rows.start])
+            yield (np.argwhere(used)[:, ::-1] + first).astype(np.int32)
 
     def faces(self) -> Iterator[Faces]:
         """Triangles (F, 3), kind by kind."""
@@ -122,7 +129,7 @@ def build(surface: Surface) -> Mesh:
 
 def points_C(surface: Surface) -> Array:
     """Points (H, W, 3); without a camera x and y are pixels from the middle of the image."""
-    return _points(surface, slice(0, surface.mask.shape[0]))
+    return _points(surface, slice(0, surface.mask.shape[0]), (0, 0), surface.mask.shape)
 
 
 def colours(surface: Surface) -> npt.NDArray[np.uint8]:
@@ -137,13 +144,12 @@ def ends_of(mask: Mask) -> Mask:
     return ends
 
 
-def _points(surface: Surface, rows: slice) -> Array:
-    """Points (h, W, 3) of some rows."""
+def _points(surface: Surface, rows: slice, first: tuple[int, int], shape: tuple[int, ...]) -> Array:
+    """Points (h, W, 3) of some rows of a surface whose first pixel is that of row and column `first` in a picture of a shape (H, W)."""
     depth = surface.depth[rows].astype(float)
     if not surface.metric:
         row, column = np.indices(depth.shape, dtype=float)
-        middle = (np.array(surface.mask.shape) - 1) / 2
-        return np.stack([column - middle[1], row + rows.start - middle[0], depth], axis=-1)
+        return np.stack([column + first[1] - (shape[1] - 1) / 2, row + rows.start + first[0] - (shape[0] - 1) / 2, depth], axis=-1)
     return surface.rays_C[rows].astype(float) * depth[..., None]
 
 

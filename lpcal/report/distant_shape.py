@@ -107,8 +107,9 @@ def bend_of(surface: Surface, calibration: Calibration, distant: Surface | None 
 
 def _shape_alone(ratio: Array, label: Labels) -> Array:
     """The depths' factor (P,) with the median of each piece put to 1, kept within what can be shown."""
-    medians = {one: np.median(ratio[label == one]) for one in np.unique(label)}
-    return np.clip(ratio / np.array([medians[one] for one in label]), 1 - MOST_RELATIVE, 1 + MOST_RELATIVE)
+    labels, of_pixel = np.unique(label, return_inverse=True)
+    medians = np.array([np.median(ratio[label == one]) for one in labels])
+    return np.clip(ratio / medians[of_pixel], 1 - MOST_RELATIVE, 1 + MOST_RELATIVE)
 
 
 def _distant_normals(normals: Array, points: Array, calibration: Calibration) -> Array:

@@ -26,9 +26,9 @@ WEAK = 0.1
 FIT_PIXELS = 700
 BEHIND = 1e-3
 """Reciprocal of a depth, 1/m, under which a ray misses a plane."""
-NODES, MANY_RAYS = 64, 10_000
-"""Nodes along a side of the lattice of rays on which the light of a plane is summed, and rays from which on it is: between the nodes it is
-right to 1e-4 of its most."""
+NODES = 64
+"""Nodes along a side of the lattice of rays on which the light of a plane is summed where there are twice as many rays as nodes: between
+the nodes it is right to 1e-4 of its most."""
 FEW_LIGHTS = 64
 """Lights up to which the kernel finds a plane's misfit."""
 TRUSTED = 4.0
@@ -46,12 +46,14 @@ class Plane:
 
 def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
     """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
-    if len(rays_C) > MANY_RAYS:
+    if len(rays_C) > 2 * NODES**2:
         m = interpolated(lambda xy: _at_infinity(q, np.column_stack([xy, np.ones(len(xy))]), lights), rays_C[:, :2], NODES)
     else:
         m = _at_infinity(q, rays_C, lights)
     slope = rays_C @ q
-    return np.where(slope > BEHIND, np.maximum(m, 0.0) * slope**2, np.nan)
+    np.maximum(m, 0.0, out=m)
+    m *= np.where(slope > BEHIND, slope**2, np.nan)
+    return m
 
 
 def _at_infinity(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:

@@ -25,6 +25,8 @@ BEYOND = 0.6
 """How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
 PATCHES = 600
 """Patches of the seen planes, at most: each of the object's patches asks all of them for light."""
+SIDE = 4
+"""Rays along a side of a patch that nobody sees: by them its place and area are right to a hundredth."""
 FURTHEST = 2.0
 """Times the median depth of what is seen of a plane that it goes on, and towards the camera as a divisor of it."""
 SLAB = 0.05
@@ -132,7 +134,8 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
         better = free & (fits if labelled is None else np.where(labelled >= 0, labelled == k, fits))
         of_plane[better], least[better] = k, square[better]
         albedo.append(_albedo(seen.signal[:, better], m[:, better]) if better.any() else 0.0)
-        signal[:, better] = _unclipped(seen, m, better, albedo[k])
+        clipped = np.flatnonzero(better & ~seen.usable.all(axis=0))
+        signal[:, clipped] = _unclipped(seen.at(clipped), m[:, clipped], albedo[k])
     _leave_out_of_reach(of_plane, found, seen.rays_C)
     signal = _beside(image, signal, of_plane, free)
     _leave_out_of_reach(of_plane, found, seen.rays_C)  # beside an object that stands before a table's horizon, rays miss the table
@@ -142,8 +145,9 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     if not shown:
         return None
     pad = int(np.ceil(BEYOND * max(seen.mask.shape) / size)) * size
-    rays_C, beyond = _rays_beyond(seen, pad), _goes_on(image, of_plane, pad)
-    block = _blocks((seen.mask.shape[0] + 2 * pad, seen.mask.shape[1] + 2 * pad), size)
+    every = max(1, size // SIDE)
+    rays_C, beyond = _rays_beyond(seen, pad, every), _goes_on(image, of_plane, pad)[::every, ::every]
+    block, beyond = _blocks(beyond.shape, -(-size // every)), beyond.ravel()
     blank = np.zeros((0, len(rays_C)))
     unseen = []
     for k, plane in enumerate(found):
@@ -158,12 +162,12 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     return Around(Patches.together(shown), Patches.together(unseen) if unseen else None, Relief.of(body, depth[of_plane >= 0], to_rim=True))
 
 
-def _unclipped(seen: Sight, m: Array, some: Mask, albedo: float) -> Array:
-    """Signals (L, Q) of some pixels of a plane, by m (L, P) of albedo 1: saturated ones as the pixel's others, or the common albedo, say.
+def _unclipped(seen: Sight, m: Array, albedo: float) -> Array:
+    """Signals (L, P) of pixels of a plane, by its m of albedo 1: saturated ones as the pixel's others, or the common albedo, say.
 
     A support in full light is often brighter than the object that the exposure was set for.
     """
-    signal, m, usable = seen.signal[:, some], np.maximum(m[:, some], 0.0), seen.usable[:, some]
+    signal, m, usable = seen.signal, np.maximum(m, 0.0), seen.usable
     lit = usable & (m > planes.WEAK * m.max(axis=0))
     with np.errstate(all="ignore"):
         own = np.where(lit.any(axis=0), np.sum(np.where(lit, signal * m, 0.0), axis=0) / np.sum(np.where(lit, m**2, 0.0), axis=0), albedo)
@@ -184,11 +188,11 @@ def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array
 
 
 def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
-    """The plane that goes on at each pixel of the image with a margin of `pad`, the nearest of those seen; -1 where the image shows it."""
+    """The plane (H, W) that goes on at each pixel of the image with a margin of `pad`, the nearest of those seen; -1 where it is shown."""
     here = np.pad(of_plane.reshape(image.seen.mask.shape), pad, constant_values=-1)
     plane = np.where(here < 0, here.ravel()[raster.nearest(here >= 0)], -1)
     plane[np.pad(~image.hidden, pad)] = -1
-    return np.asarray(plane.ravel())
+    return np.asarray(plane)
 
 
 def _leave_out_of_reach(of_plane: Indices, found: Sequence[planes.Plane], rays_C: Array) -> None:
@@ -217,13 +221,16 @@ def _blocks(shape: tuple[int, ...], size: int) -> Indices:
     return np.asarray(row // size * (shape[1] // size + 1) + column // size)
 
 
-def _rays_beyond(seen: Sight, pad: int) -> Array:
-    """Rays (N, 3) of the image with a margin of `pad` pixels: those of a camera without distortion that is like it on the whole."""
+def _rays_beyond(seen: Sight, pad: int, every: int) -> Array:
+    """Rays (N, 3) of the image with a margin of `pad` pixels, one of `every` so many along its sides.
+
+    They are those of a camera without distortion that is like it on the whole.
+    """
     height, width = seen.mask.shape
     row, column = np.indices((height, width)).reshape(2, -1)
     waves = np.column_stack([column, row, np.ones(len(row))])
     slope = np.linalg.lstsq(waves, seen.rays_C[:, :2], rcond=None)[0]
-    row, column = np.indices((height + 2 * pad, width + 2 * pad)).reshape(2, -1) - pad
+    row, column = (one.ravel() for one in np.mgrid[-pad : height + pad : every, -pad : width + pad : every])
     return np.column_stack([np.column_stack([column, row, np.ones(len(row))]) @ slope, np.ones(len(row))])
 
 

@@ -53,6 +53,13 @@ class Crop:
         """The part of images (L, H, W, ...)."""
         return images[:, self.rows, self.columns].copy()
 
+    def surface(self, whole: Surface) -> Surface:
+        """The part of a surface: its maps are views of the whole one's, and what it says of no pixel stays as it is."""
+        maps = {name: self.of(one) for name in (*MAPS, "rays_C") if (one := getattr(whole, name)).size}
+        breaks = whole.breaks[:, self.rows, self.columns] if whole.breaks.size else whole.breaks
+        changed: Any = {**maps, "breaks": breaks}
+        return replace(whole, **changed)
+
     def put_back(self, part: Surface) -> Surface:
         """The surface of the part in the whole picture; its rays must all be alike."""
         maps = {name: self._whole(getattr(part, name)) for name in MAPS}
