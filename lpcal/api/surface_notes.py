@@ -8,7 +8,7 @@ import numpy as np
 
 from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.geometry.arrays import Array, Image
-from lpcal.integration.convention import mirrored
+from lpcal.integration.convention import hollow, mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
@@ -28,7 +28,7 @@ def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:
     return (
         *_with_ambient_said(known, surface),
         *_intensities_said(surface),
-        *_misfit_said(surface),
+        *misfit_said(surface),
         *_exchange_said(surface),
         *_mask_said(surface),
         *_reading_said(surface),
@@ -103,8 +103,8 @@ def _exchange_said(surface: Surface) -> tuple[str, ...]:
     )
 
 
-def _misfit_said(surface: Surface) -> tuple[str, ...]:
-    """Notes where the normals are hardly known, or are those of a surface only with one axis turned over."""
+def misfit_said(surface: Surface) -> tuple[str, ...]:
+    """Notes where the normals are hardly known, those of a surface only with one axis turned over, or of a hollow thing."""
     said = []
     doubt_deg = float(np.median(surface.normal_std_deg[surface.mask])) if surface.mask.any() else 0.0
     if doubt_deg > VAGUE_DEG:
@@ -116,6 +116,11 @@ def _misfit_said(surface: Surface) -> tuple[str, ...]:
         said.append(
             "the normals are of a surface only with x or y turned over: an axis of the light list seems flipped "
             "(lpcal takes x right, y up), the images mirrored, or the lights in backward order"
+        )
+    elif hollow(surface.normals, surface.mask):
+        said.append(
+            "the object is hollow all along its outline: unless it is a bowl, the images are turned by 180 degrees against their lights, "
+            "the light list is half a turn off, or its directions go from the lights to the object"
         )
     return tuple(said)
 

@@ -25,9 +25,10 @@ from lpcal.api.curve import settle_sensor
 from lpcal.api.full_size import SOLVED, Asked, in_full_size
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
-from lpcal.api.surface_notes import contradicting, notes_of
+from lpcal.api.surface_notes import contradicting, misfit_said, notes_of
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient
+from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import DegenerateError, InputError
@@ -223,11 +224,12 @@ def _reconstructed(
         most_samples=SOLVED if kept is None else None,
     )
     radiance = _linear(raw, used, said, part, use_mask=automatic)
+    fits = refuse_rearranged(radiance, calibration, radiance.mask if options.mask is None else options.mask)
     surface = solver.reconstruct(radiance, calibration, options, progress, kept)
-    notes = (*notes_of(radiance.notes, surface), *contradicting(surface, radiance, calibration), *_far_stated(options, calibration))
+    notes = (*notes_of(radiance.notes, surface), *fits, *contradicting(surface, radiance, calibration), *_far_stated(options, calibration))
     surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
-        _refuse_outside(surface, calibration)
+        _refuse_outside(surface, calibration, (*fits, *misfit_said(surface)))
     return replace(surface, warnings=notes, sensor=settled.used)
 
 
@@ -265,7 +267,7 @@ def _far_stated(options: solver.Options, calibration: Calibration) -> tuple[str,
     return (f"the distance is stated as {1e3 * stated:.0f} mm, the lights are calibrated for {1e3 * working_m:.0f} mm: is its unit right?",)
 
 
-def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
+def _refuse_outside(surface: Surface, calibration: Calibration, doubts: tuple[str, ...]) -> None:
     """Refuse an object that near light puts far from where the lights are known.
 
     Raises
@@ -279,7 +281,7 @@ def _refuse_outside(surface: Surface, calibration: Calibration) -> None:
     distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
     if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
         raise DegenerateError(
-            f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume",
+            "; ".join((f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume", *doubts)),
             where=surface.name,
             needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
             todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",

@@ -5,7 +5,8 @@ normals. Of a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same number
 the other sign. So the likeness ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 the right way up and -1 the wrong way, noise or not: a' is
 a of the next column and b' is b of the next row, whose noise is independent of theirs. Large values are cut, so that edges of depth, where
 neither holds, do not decide. Where noise hides the twist of neighbours, means of blocks of pixels are asked. The curl does not distinguish
-a hollow from a bump: with both components turned over the map is that of another surface, as good.
+a hollow from a bump: with both components turned over the map is that of another surface, as good. An outline does: things turn away there,
+so that normals near it look outwards.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
-from lpcal.view.agreed import CERTAIN, GRAZING, RARE
+from lpcal.view.agreed import CERTAIN, FEWEST_PIXELS, GRAZING, RARE, RIM_PX
 from lpcal.view.sight import ray_map
 
 CLEAR = 0.3
@@ -86,6 +87,38 @@ def mirrored(normals_C: Image, mask: Mask, rays_C: Array) -> bool:
     if (as_is := curl(normals_C, mask, rays_C)).likeness >= -CLEAR or _tells(as_is):
         return False
     return _tells(curl(normals_C * np.array([1, -1, 1], np.float32), mask, rays_C))
+
+
+def hollow(normals_C: Image, mask: Mask) -> bool:
+    """Whether normals (H, W, 3) look inwards all along the outline of a mask (H, W), as those of no thing that is seen whole do.
+
+    Pixels next to the outline, and at the image's edge, are not asked. Of 100 things drawn or scanned, tables under them or not, the
+    normals' outward component is -0.15 on average at least; it is 0.68 at the median.
+    """
+    if not mask.any():
+        return False
+    box = tuple(slice(max(at.min() - 1, 0), at.max() + 2) for at in np.nonzero(mask))
+    inside, n = mask[box] & np.isfinite(normals_C[box][..., 0]), np.nan_to_num(normals_C[box].astype(float))
+    layers = [inside]
+    for k in range(4 * RIM_PX):
+        layers.append(_shrunk(layers[-1], corners=k % 2 == 1))
+    depth = np.sum(layers, axis=0, dtype=float)
+    down, along = np.gradient(sum(np.roll(depth, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)))
+    rim = layers[RIM_PX] & ~layers[3 * RIM_PX]
+    steep = np.hypot(along, down)
+    rim &= steep > 0
+    if rim.sum() < FEWEST_PIXELS:
+        return False
+    outwards = -(n[..., 0] * along + n[..., 1] * down)[rim] / steep[rim]
+    return bool(outwards.mean() < -CLEAR)
+
+
+def _shrunk(mask: Mask, *, corners: bool) -> Mask:
+    """A mask (H, W) without the pixels that have a neighbour beside it, corners counted or not; the map goes on beyond its edges."""
+    height, width = mask.shape
+    wide = np.pad(mask, 1, mode="edge")
+    steps = [(i, j) for i in (0, 1, 2) for j in (0, 1, 2) if corners or i == 1 or j == 1]
+    return np.asarray(np.all([wide[i : i + height, j : j + width] for i, j in steps], axis=0))
 
 
 def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:

@@ -42,14 +42,35 @@ def test_the_right_list_is_not_doubted(lpcal: Callable[..., tuple[int, str, str]
     assert "warning" not in said(lpcal, tmp_path)
 
 
-@pytest.mark.parametrize(
-    "order",
-    [[*range(1, 12), 0], [5, 11, 3, 9, 1, 7, 0, 6, 2, 8, 4, 10], pytest.param([*range(2, 12), 0, 1], marks=pytest.mark.slow)],
-    ids=["shifted by one", "mixed", "shifted by two"],
-)
-def test_lights_in_another_order(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, order: list[int]) -> None:
-    write(tmp_path, order)
+def test_lights_in_no_order(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path) -> None:
+    write(tmp_path, [5, 11, 3, 9, 1, 7, 0, 6, 2, 8, 4, 10])
     assert "do not fit the lights" in said(lpcal, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [
+        ([*range(1, 12), 0], "L1 is of the light L0, L2 is of the light L1"),
+        ([11, *range(11)], "L11 is of the light L0, L0 is of the light L1"),
+        (list(range(11, -1, -1)), "L11 is of the light L0, L10 is of the light L1"),
+        (np.argsort([f"{k}" for k in range(12)]).tolist(), "L10 is of the light L2, L11 is of the light L3, L2 is of the light L4"),
+        pytest.param([*range(2, 12), 0, 1], "L2 is of the light L0, L3 is of the light L1", marks=pytest.mark.slow),
+    ],
+    ids=["a line too early", "a line too late", "backwards", "as text", "shifted by two"],
+)
+def test_lights_in_another_order(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, order: list[int], words: str) -> None:
+    write(tmp_path, order)
+    assert lpcal("import", "dome.lp", "-o", "c.yaml", cwd=tmp_path)[0] == 0
+    code, _, err = lpcal("reconstruct", "cap", "-c", "c.yaml", "-o", "out", cwd=tmp_path)
+    assert code == 6
+    assert words in err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("signs", [(-1, -1, 1), (1, 1, 1)])
+def test_a_list_half_a_turn_off(lpcal: Callable[..., tuple[int, str, str]], tmp_path: Path, signs: tuple[int, int, int]) -> None:
+    write(tmp_path, list(range(12)), signs)
+    assert ("hollow all along its outline" in said(lpcal, tmp_path)) == (signs[0] < 0)
 
 
 @pytest.mark.parametrize(
