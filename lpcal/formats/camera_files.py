@@ -1,10 +1,12 @@
 """Cameras of whatever file: the format is recognised from what stands in it, not from its name (but for COLMAP's cameras.bin).
 
 Known: lpcal (camera.yaml, calibration.yaml), mrcal (.cameramodel), OpenCV (FileStorage as YAML, XML, JSON), ROS (camera_info), Kalibr
-(camchain.yaml, and EuRoC's sensor.yaml), COLMAP (cameras.txt, cameras.bin). Here stand those of a few numbers by name:
+(camchain.yaml, and EuRoC's sensor.yaml), COLMAP (cameras.txt, cameras.bin), Metashape, numpy's and MATLAB's arrays, and numbers by name
+(`camera_named`). Here stand those of a few matrices by name:
 
 - ROS: the yaml of camera_calibration (image_width, camera_matrix.data, ...) and a printed sensor_msgs/CameraInfo (width, K or k, D or d).
   ``distortion_model`` plumb_bob and rational_polynomial are OpenCV's; K and D hold the raw image, so the projection matrix P is not used.
+  They are of the sensor's full size: a printed one's ``roi`` and ``binning`` (REP 104) say which of its pixels the images hold.
 - Kalibr: camchain.yaml (cam0: camera_model, intrinsics, distortion_model, ...) and the flat sensor.yaml of EuRoC with the same keys.
   Source: Kalibr's wiki, "yaml formats"; radtan is OpenCV's k1 k2 p1 p2.
 - OpenCV's FileStorage, as its calibration samples and many tools write it; names as these tools spell them. It is read here and not by
@@ -22,8 +24,16 @@ import numpy as np
 import yaml
 
 from lpcal.errors import InputError
-from lpcal.formats.camera_coefficients import central_camera, refuse_lens, sane_camera
+from lpcal.formats.camera_coefficients import central_camera, core_of, refuse_lens, sane_camera
 from lpcal.formats.camera_colmap import is_colmap, read_colmap_camera
+from lpcal.formats.camera_named import (
+    arrays_of,
+    camera_from_metashape,
+    camera_from_names,
+    is_named,
+    metashape_calibration,
+    refuse_other_lens,
+)
 from lpcal.formats.camera_yaml import camera_from_document, read_camera
 from lpcal.formats.cameramodel import read_cameramodel
 from lpcal.formats.documents import read_document
@@ -47,6 +57,10 @@ DISTORTION = (
     "Distortion_Coefficients",
     "distCoeffs",
     "dist_coeffs",
+    "dist_coeff",
+    "distCoeff",
+    "distortionCoefficients",
+    "distortion_coeffs",
     "distortion",
     "DistCoeffs",
     "dist",
@@ -55,12 +69,17 @@ DISTORTION = (
 )
 WIDTH, HEIGHT = ("image_width", "image_Width", "imageWidth", "width"), ("image_height", "image_Height", "imageHeight", "height")
 SIZES = ("image_size", "imageSize", "image_Size", "size", "resolution")
+ANY_DISTORTION = re.compile(r"dist|coef|^d\d?$|^kc$", re.IGNORECASE)
+"""Names of what may be a distortion, where none of DISTORTION is there."""
+HEADER_LINES = re.compile(r"^\s*(seq|stamp|secs?|nsecs?|nanosec|sec|frame_id|header):.*\n", re.MULTILINE)
+"""Lines in which two messages of one camera differ."""
+ARRAYS = (".npz", ".mat")
 NUMBERS = re.compile(r"\d*[ucwsifdh]")
 """How OpenCV states what a matrix holds: ``d``, ``3f``."""
 FILE_STORAGE = "a whole FileStorage of OpenCV's"
 MOST_BYTES = 16 << 20
 """Bytes of the largest file of a camera that is read."""
-KNOWN = "a camera file of lpcal, mrcal, OpenCV, ROS, Kalibr or COLMAP"
+KNOWN = "a camera file of lpcal, mrcal, OpenCV, ROS, Kalibr, COLMAP, Metashape, or its matrices in a .npz or .mat"
 
 
 @reader(KNOWN)
@@ -80,10 +99,12 @@ def _read(path: Path) -> Camera:
         raise InputError("no such camera file", where=str(path), needed=KNOWN, todo=did_you_mean(path))
     if path.suffix == ".bin":
         return read_colmap_camera(path)
+    if path.suffix.lower() in ARRAYS:
+        return _of_opencv(arrays_of(path), path)
     text = read_text(path, KNOWN)
     if "lensmodel" in text and "imagersize" in text:
         return read_cameramodel(path)
-    if text.startswith(("%YAML:1.0", "<?xml", "<opencv_storage")) or "opencv-matrix" in text:
+    if text.lstrip().startswith(("%YAML:1.0", "<")) or "opencv-matrix" in text:
         return read_opencv_camera(path)
     if is_colmap(text):
         return read_colmap_camera(path)
@@ -92,7 +113,7 @@ def _read(path: Path) -> Camera:
 
 def _load(text: str, path: Path) -> dict[str, Any]:
     try:
-        document = load_yaml(text, path)
+        document = load_yaml(_one_message(text, path), path)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{path}:{mark.line + 1}" if mark else str(path)
@@ -100,6 +121,15 @@ def _load(text: str, path: Path) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise InputError("of no format known", where=str(path), needed=KNOWN)
     return document
+
+
+def _one_message(text: str, path: Path) -> str:
+    """The first of the documents of a text, which may hold one camera many times, as a printed topic does."""
+    first, *more = [part for part in re.split(r"^---[ \t]*$", text, flags=re.MULTILINE) if part.strip()] or [text]
+    bare = HEADER_LINES.sub("", first).strip()
+    if any(HEADER_LINES.sub("", other).strip() != bare for other in more):
+        raise InputError(f"{1 + len(more)} documents of several cameras", where=str(path), needed="one camera", todo="keep one of them")
+    return first if not more else text[: text.index(first)] + first
 
 
 def _from_document(document: dict[str, Any], path: Path) -> Camera:
@@ -111,6 +141,8 @@ def _from_document(document: dict[str, Any], path: Path) -> Camera:
         return camera_from_kalibr(document, path)
     if is_ros(document):
         return camera_from_ros(document, path)
+    if is_named(document):
+        return camera_from_names(document, path)
     if path.suffix == ".json":
         return read_opencv_camera(path)
     raise InputError(f"of no format known: its keys are {', '.join(map(str, list(document)[:6]))}", where=str(path), needed=KNOWN)
@@ -145,11 +177,25 @@ def camera_from_ros(document: dict[str, Any], path: Path) -> Camera:
     if lens not in ROS_LENSES:
         raise refuse_lens(lens, str(path))
     try:
-        K = _data(document, "camera_matrix", "K", "k")
+        core = core_of(_data(document, "camera_matrix", "K", "k"), str(path))
         size = document.get("image_width", document.get("width")), document.get("image_height", document.get("height"))
-        return central_camera(size, (K[0], K[4], K[2], K[5]), _data(document, "distortion_coefficients", "D", "d"), str(path))
+        whole = central_camera(size, core, _data(document, "distortion_coefficients", "D", "d"), str(path))
+        return _of_region(whole, document)
     except (KeyError, IndexError, TypeError) as error:
         raise InputError(f"{error} is lacking or garbled", where=str(path), needed="a whole ROS camera file") from error
+
+
+def _of_region(whole: Camera, document: dict[str, Any]) -> Camera:
+    """The camera of the images, by which of the sensor's pixels they hold; a size of 0 or 1 says all."""
+    roi = document.get("roi") or {}
+    size = [int(roi.get(side) or all_of_it) for side, all_of_it in zip(("width", "height"), whole.image_size, strict=True)]
+    first = [int(roi.get(side) or 0) for side in ("x_offset", "y_offset")]
+    bins = [max(int(document.get(side) or 1), 1) for side in ("binning_x", "binning_y")]
+    K = whole.K.copy()
+    for axis in (0, 1):
+        K[axis, 2] = (K[axis, 2] - first[axis] + 0.5) / bins[axis] - 0.5
+        K[axis, axis] /= bins[axis]
+    return Camera((size[0] // bins[0], size[1] // bins[1]), whole.model, K, whole.distortion)
 
 
 def _data(document: dict[str, Any], *names: str) -> list[Any]:
@@ -209,6 +255,14 @@ def read_opencv_camera(path: Path) -> Camera:
         Not readable, or the matrix, the distortion or the image size is not there.
     """
     stored = _stored(path)
+    return camera_from_metashape(stored, path) if not isinstance(stored, dict) else _of_opencv(stored, path)
+
+
+def _of_opencv(stored: dict[str, Any], path: Path) -> Camera:
+    """The camera of matrices by the names that OpenCV's files have."""
+    refuse_other_lens(stored, str(path))
+    if not any(name in stored for name in MATRIX) and is_named(stored):
+        return camera_from_names(stored, path)
     K = _matrix(stored, MATRIX)
     distortion = _matrix(stored, DISTORTION)
     size = _size(stored)
@@ -216,20 +270,25 @@ def read_opencv_camera(path: Path) -> Camera:
         raise InputError("no camera matrix", where=str(path), needed=f"a 3x3 matrix named {', '.join(MATRIX)}")
     if size is None:
         raise InputError("no image size", where=str(path), needed="image_width and image_height", todo="add them")
-    K = K.reshape(3, 3)
+    if distortion is None and (strange := [name for name in stored if ANY_DISTORTION.search(name)]):
+        found = f"no distortion of a name known, but {', '.join(strange[:4])}"
+        raise InputError(found, where=str(path), needed=f"one of {', '.join(DISTORTION)}", todo="rename it")
     coefficients = [] if distortion is None else list(distortion.ravel())
-    return central_camera(size, (K[0, 0], K[1, 1], K[0, 2], K[1, 2]), coefficients, str(path))
+    return central_camera(size, core_of(list(K.ravel()), str(path)), coefficients, str(path))
 
 
-def _stored(path: Path) -> dict[str, Any]:
-    """The entries of a file."""
+def _stored(path: Path) -> dict[str, Any] | ET.Element:
+    """The entries of a file, or the document that holds Metashape's calibration."""
     text = read_text(path, FILE_STORAGE)
     if len(text) > MOST_BYTES:
         raise InputError(f"{len(text) / 1e6:.0f} MB", where=str(path), needed="the file of a camera")
     if text.lstrip().startswith("<"):
         from xml.etree import ElementTree as ET
 
-        found: Any = _from_xml(ET.fromstring(text))
+        root = ET.fromstring(text)
+        if metashape_calibration(root) is not None:
+            return root
+        found: Any = _from_xml(root)
     elif text.lstrip().startswith("{"):
         found = json.loads(text)
     else:

@@ -24,6 +24,7 @@ import numpy as np
 
 from lpcal.formats.camera_coefficients import central_camera, sane_camera
 from lpcal.formats.camera_files import read_camera_file
+from lpcal.formats.camera_named import camera_from_metashape
 from lpcal.formats.cameramodel import MARK as CAMERAMODEL_MARK
 from lpcal.formats.cameramodel import cameramodel_text, read_cameramodel
 from lpcal.formats.export_lens import with_room_for
@@ -224,24 +225,7 @@ def is_metashape(path: Path) -> bool:
 @reader("a camera calibration of Metashape's, in XML")
 def read_metashape(path: Path) -> Calibration:
     """Read Metashape's calibration of a frame camera."""
-    root = ET.fromstring(path.read_text(encoding="utf-8"))
-    if (root.findtext("projection") or "frame") != "frame":
-        raise ValueError(f"a {root.findtext('projection')} camera, not a frame camera")
-
-    def value(name: str) -> float:
-        return float(root.findtext(name) or 0.0)
-
-    if value("k4") or value("b2"):
-        raise ValueError("k4 or b2, which lpcal's lens models have not")
-    size = int(value("width")), int(value("height"))
-    core = (
-        value("f") + value("b1"),
-        value("f"),
-        value("cx") + size[0] / 2 - HALF_PIXEL,
-        value("cy") + size[1] / 2 - HALF_PIXEL,
-    )
-    lens = [value("k1"), value("k2"), value("p2"), value("p1"), value("k3")]
-    return calibration_of(central_camera(size, core, lens, str(path)), path)
+    return calibration_of(camera_from_metashape(ET.fromstring(path.read_text(encoding="utf-8")), path), path)
 
 
 VERSION = ("1", "2", "8")
