@@ -13,7 +13,7 @@ more than their doubt, the difference stays in the vertex's disagreement and in 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -64,6 +64,8 @@ class Evidence:
     """(N, V, 3)."""
     row: Index
     column: Index
+    bent_m: Image
+    """How far off along its normal a view may be there against its own mean about the place, a standard deviation: see `_bent_m`."""
 
 
 @dataclass(frozen=True)
@@ -136,10 +138,12 @@ class Resting:
     count: Index
     """How many see it."""
     disagreement_m: Array
+    bent_m2: Array
+    """Variance of their mean by what each view's normals may bend it within a cell of knots."""
 
     def of(self, some: Index) -> Resting:
         """What they say of some of the vertices."""
-        return Resting(self.off_m[some], self.mean_normal_A[some], self.effective[some], self.count[some], self.disagreement_m[some])
+        return Resting(*(getattr(self, field.name)[some] for field in fields(self)))
 
 
 def blocks(views: int, vertices: int) -> Iterator[slice]:
@@ -160,7 +164,8 @@ def _resting(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) ->
         count = (found.weight > 0).sum(axis=0)
         disagreement = np.sqrt((off**2).sum(axis=0) / np.maximum(count - 1, 1))
         effective = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
-        parts.append((mean, np.einsum("nv,nvk->vk", share, found.normals_A), effective, count, disagreement))
+        bent = ((share * found.bent_m) ** 2).sum(axis=0)
+        parts.append((mean, np.einsum("nv,nvk->vk", share, found.normals_A), effective, count, disagreement, bent))
     return Resting(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
@@ -204,7 +209,7 @@ def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> 
     """What every view says of vertices with normals (V, 3)."""
     shape = len(state), len(v_A)
     weight, residual, normals = np.zeros(shape), np.zeros(shape), np.zeros((*shape, 3), np.float32)
-    row, column = np.zeros(shape, np.intp), np.zeros(shape, np.intp)
+    row, column, bent = np.zeros(shape, np.intp), np.zeros(shape, np.intp), np.zeros(shape, np.float32)
     for k, one in enumerate(state):
         if not may_see(one.view, one.H_AC, v_A):
             continue
@@ -223,7 +228,17 @@ def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> 
         row[k, at], column[k, at] = np.rint(seen.pixel[kept, 1]), np.rint(seen.pixel[kept, 0])
         weight[k, at] = weight_of(one, row[k, at], column[k, at], cosine[at])
         residual[k, at], normals[k, at] = r[same], n_view[same]
-    return Evidence(weight, residual, normals, row, column)
+        bent[k, at] = _bent_m(one, row[k, at], column[k, at], cosine[at])
+    return Evidence(weight, residual, normals, row, column, bent)
+
+
+def _bent_m(one: Placed, row: Index, column: Index, cosine: Array) -> Array:
+    """How far off along its normal a view may be at pixels (N,) against its own mean about them, a standard deviation.
+
+    Its bending follows what other views say from knot to knot. Over half a step between knots the depth rests on the view's own normals
+    alone, which are off together there: at a rim, or in a crease, by degrees.
+    """
+    return np.asarray(one.view.normal_std_rad[row, column] * one.bending.step_px / 2 * one.view.footprint_m / cosine)
 
 
 def through(state: Sequence[Placed], v_A: Array, margin_m: float) -> Index:
@@ -254,7 +269,7 @@ def _robust(found: Evidence, scale_m: float) -> Array:
 
 
 def _sigma(aligned: Aligned, rest: Resting, v: Array, n: Array, footprint_m: float) -> Array:
-    """Standard deviation of each vertex along its normal: the views' places, and what they still differ by."""
+    """Standard deviation of each vertex along its normal: the views' places, what they still differ by, and their normals between knots."""
     lone = rest.count < LONE
     places = np.zeros(len(v))
     for which, step in ((lone, 1), (~lone, max(int((~lone).sum()) // SIGMA_VERTICES, 1))):
@@ -263,7 +278,7 @@ def _sigma(aligned: Aligned, rest: Resting, v: Array, n: Array, footprint_m: flo
             at, variance = _places(aligned, v, n, held[::step], footprint_m)
             places[held] = variance[_nearest(v[at], v[held])]
     alone = np.where(lone, aligned.sigma_m**2, 0.0) + np.where(rest.count < 1, (GATE_PX * footprint_m) ** 2, 0.0)
-    left = (rest.disagreement_m**2 + (0.1 * footprint_m) ** 2) / np.maximum(rest.effective, 1)
+    left = rest.disagreement_m**2 / np.maximum(rest.effective, 1) + rest.bent_m2
     return np.asarray(np.sqrt(places + left + alone))
 
 

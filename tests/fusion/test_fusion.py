@@ -7,15 +7,18 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
+from scipy import ndimage
+from scipy.spatial import cKDTree
 
 import lpcal
-from fusion_views import Scene, scene
+from fusion_views import DISTANCE_M, FOCAL_PX, Scene, scene
 from lpcal.api import fusing
 from lpcal.api.engines import engine_of
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.model_files import read_model, write_model
 from lpcal.fusion import align, tiles, vertices, volume
 from lpcal.fusion.consensus import outvoted
+from lpcal.fusion.missing import loops_of
 from lpcal.fusion.model import _fit, shared_covariance
 from lpcal.fusion.partners import everyone
 from lpcal.fusion.vertices import held_together, rested
@@ -69,6 +72,23 @@ def test_sigmas_are_those_of_the_errors_over_many_rigs() -> None:
         together.append(float(np.mean((Q @ (Q.T @ off_m)) ** 2)) / model.figures.shared_sigma_m**2)
     assert 0.5 < np.mean(squares) < 2, squares
     assert 0.4 < np.mean(together) < 2, together
+
+
+def test_a_rim_that_normals_hardly_know_has_the_sigma_of_it() -> None:
+    """Towards the rims of three views, where one or two see a place, slopes are off by 4 degrees and the normals say so."""
+    found, bent = scene(), []
+    for surface, side in zip(found.surfaces[:3], (1, -1, 1), strict=True):
+        from_edge_px = ndimage.distance_transform_edt(surface.mask)
+        slant = np.clip(-np.einsum("ijk,ijk->ij", np.nan_to_num(surface.normals), surface.rays_C), 0.3, 1)
+        off_m = side * np.radians(4.0) / slant**2 * np.maximum(8 - from_edge_px, 0) * DISTANCE_M / FOCAL_PX
+        std_deg = np.where(surface.mask & (from_edge_px < 8), np.float32(4.0), surface.normal_std_deg)
+        bent.append(replace(surface, depth=(surface.depth + off_m).astype(np.float32), normal_std_deg=std_deg))
+    model = lpcal.fuse(bent, step_m=0.003)
+    ends = model.vertices_A[np.unique(np.concatenate(loops_of(model.faces)))]
+    rim = cKDTree(ends).query(model.vertices_A)[0] < 0.006
+    off_m = np.abs(found.off_m(model.vertices_A))
+    assert np.mean(off_m[rim] < 2 * model.sigma_m[rim]) > 0.9
+    assert np.median(model.sigma_m[rim]) > 1.4 * np.median(model.sigma_m[~rim])
 
 
 def test_a_change_of_distance_counts_what_solving_again_changed() -> None:
