@@ -35,7 +35,9 @@ def unproject(pixels: Array, K: Array, distortion: Array) -> Array:
 
 def plane_of(pixels: Array, K: Array, distortion: Array) -> Array:
     """Plane coordinates (..., 2) of pixels (..., 2), undistorted."""
-    return undistort((np.asarray(pixels, dtype=float) - [K[0, 2], K[1, 2]]) / [K[0, 0], K[1, 1]], distortion)
+    plane = np.asarray(pixels, dtype=float) - K[:2, 2]
+    plane /= K[[0, 1], [0, 1]]
+    return undistort(plane, distortion)
 
 
 def distort(plane: Array, distortion: Array) -> Array:

@@ -26,19 +26,31 @@ def weighted(B: Array, signal: Array, weight: Array) -> tuple[Array, Array]:
         b, inverse = np.empty((P, 3)), np.empty((P, 3, 3))
         run(L, P, *(np.ascontiguousarray(one, float) for one in (B, signal, weight)), SINGULAR, b, inverse)
         return b, inverse
-    WB = weight[..., None] * B
-    normal_matrix = np.einsum("kpi,kpj->pij", WB, B)
-    inverse = inverse_3x3(normal_matrix)
-    return np.einsum("pij,pj->pi", inverse, np.einsum("kpi,kp->pi", WB, signal)), inverse
+    inverse = inverse_3x3(normal_matrix(B, weight))
+    return np.einsum("pij,pj->pi", inverse, np.einsum("kpi,kp->pi", B, weight * signal)), inverse
 
 
-def inverse_3x3(M: Array) -> Array:
-    """Inverse (P, 3, 3) of symmetric matrices M (P, 3, 3), by cofactors; NaN where singular."""
-    cofactors = np.stack([cross(M[:, 1], M[:, 2]), cross(M[:, 2], M[:, 0]), cross(M[:, 0], M[:, 1])], axis=1)
-    determinant = dot(M[:, 0], cofactors[:, 0])
-    scale = trace(M) ** 3
-    determinant = np.where(determinant > SINGULAR * scale, determinant, np.nan)
-    return np.asarray(cofactors / determinant[:, None, None])
+def normal_matrix(B: Array, weight: Array) -> Array:
+    """Sums (P, 3, 3) of the outer products of light vectors B (L, P, 3) with themselves, by weights (L, P)."""
+    columns = np.ascontiguousarray(np.moveaxis(B, 2, 0))
+    found = np.empty((B.shape[1], 3, 3))
+    for i in range(3):
+        weighted = weight * columns[i]
+        for j in range(i, 3):
+            found[:, i, j] = found[:, j, i] = np.einsum("kp,kp->p", weighted, columns[j])
+    return found
+
+
+def inverse_3x3(M: Array, singular: float = SINGULAR) -> Array:
+    """Inverse (P, 3, 3) of symmetric matrices M (P, 3, 3), by cofactors; NaN where the determinant is below this share of trace^3."""
+    a, b, c, _, d, e, _, _, f = np.ascontiguousarray(M.reshape(-1, 9).T)
+    upper = d * f - e * e, c * e - b * f, b * e - c * d, a * f - c * c, b * c - a * e, a * d - b * b
+    determinant = a * upper[0] + b * upper[1] + c * upper[2]
+    determinant = np.where(determinant > singular * (a + d + f) ** 3, determinant, np.nan)
+    inverse = np.empty((len(M), 9))
+    for cofactor, places in zip(upper, ((0,), (1, 3), (2, 6), (4,), (5, 7), (8,)), strict=True):
+        inverse[:, places] = (cofactor / determinant)[:, None]
+    return inverse.reshape(-1, 3, 3)
 
 
 def three_lights(B: Array, signal: Array, crossed: dict[tuple[int, int], Array], three: tuple[int, int, int]) -> Array:

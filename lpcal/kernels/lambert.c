@@ -329,17 +329,21 @@ KERNEL void lpcal_few(int64_t L, int64_t P, const double *B, const double *signa
 
 #define SOME 16
 
-/* B (L, Q, 3) of a table (P, nodes, L, 3) at log depths u of pixels (Q), cubic between nodes of u evenly apart, and the doubt of the nearest
-   node. */
-KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t P, int64_t Q, const float *table, const float *doubts, double first, double step,
-                        const double *u, const int64_t *pixel, double *B, float *doubt) {
-    (void)P;
+/* B (L, Q, 3) of a table (P, nodes, L, 3) at log depths u of pixels (Q), cubic between nodes of u evenly apart, or its `slope` by u; and the
+   doubt of the nearest node. */
+KERNEL void lpcal_cubic(int64_t L, int64_t nodes, int64_t slope, int64_t Q, const float *table, const float *doubts, double first,
+                        double step, const double *u, const int64_t *pixel, double *B, float *doubt) {
     for (int64_t q = 0; q < Q; q++) {
         double t = fmin(fmax((u[q] - first) / step, 0.0), (double)nodes - 1.001);
         int64_t node = (int64_t)t < 1 ? 1 : (int64_t)t > nodes - 3 ? nodes - 3 : (int64_t)t, nearest = (int64_t)(t + WHOLE - WHOLE);
         double f = t - (double)node, by = exponential(-2.0 * (first + t * step));
         double weight[4] = {-f * (f - 1) * (f - 2) / 6 * by, (f + 1) * (f - 1) * (f - 2) / 2 * by, -(f + 1) * f * (f - 2) / 2 * by,
                             (f + 1) * f * (f - 1) / 6 * by};
+        if (slope) { /* of the weights, and of by */
+            double change[4] = {-(3 * f * f - 6 * f + 2) / 6, (3 * f * f - 4 * f - 1) / 2, -(3 * f * f - 2 * f - 2) / 2,
+                                (3 * f * f - 1) / 6};
+            for (int j = 0; j < 4; j++) weight[j] = change[j] * by / step - 2 * weight[j];
+        }
         const float *at = table + (pixel[q] * nodes + node - 1) * 3 * L;
         for (int64_t from = 0; from < L; from += SOME) { /* some lights at a time: their numbers lie together in the table, not in B */
             int64_t some = L - from < SOME ? L - from : SOME;

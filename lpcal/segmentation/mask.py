@@ -128,8 +128,10 @@ def automatic(
     its planes are what is asked for.
     """
     if distance_m is not None:
-        some = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).round().astype(int))
-        fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
+        fewer, some = maps, list(range(len(lights)))
+        if len(lights) > MOST_LIGHTS:
+            some = np.linspace(0, len(lights) - 1, MOST_LIGHTS).round().astype(int).tolist()
+            fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
         found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room, drawn=drawn)
         if found is not None:
             return found

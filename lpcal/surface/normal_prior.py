@@ -185,7 +185,8 @@ def clues(scene: Scene, state: State) -> dict[str, Array]:
     def summed(at: slice) -> tuple[int, dict[str, Array]]:
         own = block[at]
         first = int(own.min())
-        return first, {name: np.bincount(own - first, one) for name, one in channels(scene, state, whole, at).items()}
+        own = own - first
+        return first, {name: np.bincount(own, one) for name, one in channels(scene, state, whole, at).items()}
 
     parts = bands.each(seen.pixels, len(seen.signal), summed)
     total = {name: np.zeros(len(count)) for name in parts[0][1]}
@@ -245,16 +246,15 @@ def _vectors(seen: Sight, lit: Lit, found: Estimate, n: Array, of_depth: Array, 
         "thrown from": thrown,
         "bright from": np.einsum("kp,kpi->pi", bright, lit.d) / np.maximum(bright.sum(axis=0), 1e-300)[:, None],
     }
-    turned = {name: about_rays(seen.rays_C, vectors[name]) for name in VECTORS}
-    return {f"{name} {axis}": value[:, k] for name, value in turned.items() for k, axis in enumerate("xyz")}
+    turned = about_rays(seen.rays_C, np.stack([vectors[name] for name in VECTORS]))
+    return {f"{name} {axis}": value[:, k] for name, value in zip(VECTORS, turned, strict=True) for k, axis in enumerate("xyz")}
 
 
 def _open(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
     """Covariance of the normals by the samples that agree, as a share of what is expected of one without any, about the rays."""
     variance = seen.sigma**2 + (field.SHARED * seen.signal) ** 2 + (field.SHARED * seen.signal.max(axis=0)) ** 2
-    B = lit.B
-    held = np.einsum("kp,kpi,kpj->pij", found.inliers / variance, B, B) * lambert.dot(b, b)[:, None, None]
-    covariance = np.linalg.inv(held * field.ANY_RAD**2 + np.eye(3))
+    weight = found.inliers / variance * (lambert.dot(b, b) * field.ANY_RAD**2)
+    covariance = lambert.inverse_3x3(lambert.normal_matrix(lit.B, weight) + np.eye(3), singular=0.0)
     turned = about_rays(seen.rays_C, about_rays(seen.rays_C, covariance.transpose(1, 0, 2)).transpose(2, 1, 0))  # (3, Q, 3)
     return {f"open {'xyz'[i]}{'xyz'[j]}": turned[i, :, j] for i in range(3) for j in range(i, 3)}
 
@@ -269,11 +269,13 @@ def _round_the_ray(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str
         left = left - found.gloss
     values = {name: np.where(seen.usable, np.clip(of / scale, -2, 2), 0.0) for name, of in (("shading", seen.signal), ("left", left))}
     d = about_rays(seen.rays_C, lit.d)
-    angle = np.arctan2(d[..., 0], d[..., 1])
+    once = d[..., 1] + 1j * d[..., 0]
+    once /= np.maximum(np.abs(once), 1e-300)
     out = {"left": values["left"].mean(axis=0), "left spread": values["left"].std(axis=0)}
     for name, some in WAVES.items():
         for m in some:
-            out |= {f"{name} {wave.__name__} {m}": (values[name] * wave(m * angle)).mean(axis=0) for wave in (np.sin, np.cos)}
+            mean = (values[name] * once**m).mean(axis=0)
+            out |= {f"{name} sin {m}": mean.imag, f"{name} cos {m}": mean.real}
     return out
 
 

@@ -153,7 +153,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
     settled = _pieces_placed(coarse, settled)
-    return _pieces_placed(scene, _until_settled(scene, _carried(blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
+    return _pieces_placed(scene, _until_settled(scene, _carried(scene, blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
 
 
 def _pieces_placed(scene: Scene, state: State) -> State:
@@ -194,17 +194,18 @@ def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *
     return state
 
 
-def _carried(blocks: Blocks, state: State) -> State:
+def _carried(scene: Scene, blocks: Blocks, state: State) -> State:
     """The state of the blocks at their pixels."""
     tilt_rad = None if state.field.tilt_rad is None else state.field.tilt_rad[blocks.of_pixel]
     whole = Field(blocks.between(state.field.b), blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
+    u = blocks.front(state.u, state.normals)
     return State(
-        blocks.front(state.u, state.normals),
+        u,
         blocks.edges(state.weight),
         lambert.unit(whole.b)[0],
         blocks.estimate(state.found),
         blocks.own(state.own),
-        blocks.lit(state.lit),
+        blocks.lit(scene.lit_at(np.exp(u)), state.lit),
         whole,
         state.reflects,
     )

@@ -6,7 +6,7 @@ the same in coarse pixels and takes a quarter of the time. Normals, albedo and s
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -107,15 +107,11 @@ class Blocks:
         found = np.where(known[place] == asked, weight[place], NEXT_TO_NOTHING) if len(known) else np.full(len(asked), NEXT_TO_NOTHING)
         return np.asarray(np.where(first == last, 1.0, found))
 
-    def lit(self, lit: Lit) -> Lit:
-        """The light at the pixels, linear between the blocks'."""
-
-        def vectors(values: Array) -> Array:
-            return np.stack(bands.shared(self.between, values))
-
-        thrown = None if lit.thrown is None else vectors(lit.thrown)
+    def lit(self, lights: Lit, lit: Lit) -> Lit:
+        """The light at the pixels: of the `lights` there, and of other surfaces linear between that of the blocks."""
+        thrown = None if lit.thrown is None else np.stack(bands.shared(self.between, lit.thrown))
         unseen = None if lit.unseen is None else self.between(lit.unseen)
-        return Lit(lambert.unit(vectors(lit.d))[0], self.between(lit.E.T).T.copy(), thrown, unseen)
+        return replace(lights, thrown=thrown, unseen=unseen)
 
     def estimate(self, found: Estimate) -> Estimate:
         """The estimate of each pixel's block from its shading."""

@@ -174,12 +174,8 @@ class LightTable:
 
     def at(self, u: Array, pixels: Indices) -> tuple[Array, Array]:
         """Light vectors (L, Q, 3) and their doubt (L, Q) at log depths u (Q,) of pixels (Q,)."""
-        if run := kernel("cubic"):
-            (P, nodes, L, _), Q = self.B.shape, len(u)
-            B, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
-            places = (np.ascontiguousarray(u, float), np.ascontiguousarray(pixels, np.int64))
-            run(L, nodes, P, Q, self.B, self.doubt, self.first, self.step, *places, B, doubt)
-            return B, doubt
+        if kernel("cubic"):
+            return self._asked(u, pixels, slope=False)
         t, f, first = self._between(u)
         weights = (-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6)
         z = np.exp(self.first + t * self.step)
@@ -188,11 +184,22 @@ class LightTable:
 
     def slope(self, u: Array, pixels: Indices) -> Array:
         """Derivatives (L, Q, 3) of the light vectors by log depth at log depths u (Q,) of pixels (Q,)."""
+        if kernel("cubic"):
+            return self._asked(u, pixels, slope=True)[0]
         t, f, first = self._between(u)
         weights = (-(3 * f * f - 6 * f + 2) / 6, (3 * f * f - 4 * f - 1) / 2, -(3 * f * f - 2 * f - 2) / 2, (3 * f * f - 1) / 6)
         z = np.exp(self.first + t * self.step)
         total = self._joined(pixels, first, weights) / (self.step * z[:, None, None] ** 2)
         return np.moveaxis(total, 0, 1) - 2 * self.at(u, pixels)[0]
+
+    def _asked(self, u: Array, pixels: Indices, *, slope: bool) -> tuple[Array, Array]:
+        """`at`, or `slope` and the doubt, by the kernel."""
+        (_, nodes, L, _), Q, run = self.B.shape, len(u), kernel("cubic")
+        assert run is not None
+        found, doubt = np.empty((L, Q, 3)), np.empty((L, Q), self.doubt.dtype)
+        places = (np.ascontiguousarray(u, float), np.ascontiguousarray(pixels, np.int64))
+        run(L, nodes, slope, Q, self.B, self.doubt, self.first, self.step, *places, found, doubt)
+        return found, doubt
 
     def _between(self, u: Array) -> tuple[Array, Array, Indices]:
         """Places (Q,) of log depths in steps of the table, how far they lie beyond their second node, and the first node that they ask."""

@@ -206,11 +206,15 @@ def room(radiance: Radiance) -> Image | None:
 def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
     """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
     height, width = shape[:2]
-    rays_C = np.empty((height, width, 3))
+    rays_C = np.zeros((height, width, 3))
+    rays_C[..., 2] = 1.0
+    if camera is None:
+        return rays_C
 
     def fill(rows: slice) -> None:
-        row, column = np.mgrid[rows, :width]
-        rays_C[rows] = rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), camera).reshape(-1, width, 3)
+        pixels = np.empty((rows.stop - rows.start, width, 2))
+        pixels[..., 0], pixels[..., 1] = np.arange(width), np.arange(rows.start, rows.stop)[:, None]
+        rays_C[rows, :, :2] = camera.slopes(pixels)
 
     bands.each(height, width, fill)
     return rays_C

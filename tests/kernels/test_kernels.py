@@ -292,7 +292,8 @@ def cubic(rng: np.random.Generator) -> Array:
     some = rng.permutation(700)[:500]
     B, doubt = table.at(np.log(0.08) + 2.5 * rng.random(500), some)
     of_some = table.at_pixels(some).at(np.full(250, -1.0), np.arange(500)[::2])[0]
-    return np.concatenate([B.ravel(), doubt.ravel(), of_some.ravel()])
+    rising = table.slope(np.log(0.08) + 2.5 * rng.random(500), some)
+    return np.concatenate([B.ravel(), doubt.ravel(), of_some.ravel(), rising.ravel() / 20])
 
 
 def solved(rng: np.random.Generator) -> Array:
