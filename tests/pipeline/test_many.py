@@ -142,20 +142,20 @@ def test_what_the_system_refuses_costs_its_own_capture_and_is_made_good(
 def test_a_disk_that_fills_while_a_surface_is_written_leaves_nothing_half(
     lpcal: Callable[..., tuple[int, str, str]], captures: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The eighth write and all after it are refused, as on a full disk."""
+    """The second image of the second surface and all after it are refused, as on a full disk."""
     from lpcal.formats import surface_files
 
     count = 0
-    encode = surface_files._write_png
+    encode = surface_files._write_image
 
     def full(path: Path, pixels: npt.NDArray[Any]) -> None:
         nonlocal count
         count += 1
-        if count > 4:
+        if count > 5:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         encode(path, pixels)
 
-    monkeypatch.setattr(surface_files, "_write_png", full)
+    monkeypatch.setattr(surface_files, "_write_image", full)
     code, told, warned = lpcal("reconstruct", *captures, "-c", "dome.yaml", "-o", "out", cwd=tmp_path)
     assert (code, "1 done, 2 failed" in told) == (3, True)
     assert warned.count("No space left on device") == 2
