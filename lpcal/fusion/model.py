@@ -158,6 +158,7 @@ def _fit(aligned: Aligned, place: int, share: float | None, first: PlacedView) -
         distance_change_m=float(np.nanmedian(change_m)),
         residual_m=float(np.median(rms)) if rms else None,
         H_AC=one.H_AC,
+        solved_again=one.view.depth is not first.depth,  # pieces and pixels that are left out leave a view's maps as they are
     )
 
 

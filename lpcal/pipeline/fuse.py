@@ -73,7 +73,7 @@ def fuse_folders(
     write_model(
         target, model, document, model_html(model) if page else None, refine_rig(calibration, model) if calibration and refine else None
     )
-    said = _said(target, model) + [f"without {', '.join(left)}: not placed"] * bool(left)
+    said = _said(target, model, again=again) + [f"without {', '.join(left)}: not placed"] * bool(left)
     said.append(f"written to {target}: {', '.join(sorted(path.name for path in target.iterdir()))}")
     return Outcome(said, {**summary_of(model), **document, "folder": str(target)}, list(model.warnings))
 
@@ -139,7 +139,7 @@ def surface_folders(captures: Sequence[Path], rig: Workspace | None) -> list[Pat
     return found
 
 
-def _said(target: Path, model: ObjectModel) -> list[str]:
+def _said(target: Path, model: ObjectModel, *, again: bool) -> list[str]:
     figures = model.figures
     used = [view for view in model.views if view.used]
     lines = [
@@ -152,6 +152,13 @@ def _said(target: Path, model: ObjectModel) -> list[str]:
     ]
     if figures.reflectance is not None:
         lines.append(f"views solved again with the light between the object's parts: its reflectance is about {figures.reflectance:.2f}")
+    kept = [view.name for view in used if again and not view.solved_again]
+    if kept:
+        which = "no view is" if len(kept) == len(used) else f"{', '.join(kept)}: not"
+        lines.append(
+            f"{which} solved again with the light between the object's parts: it needs the rig's calibration, and the capture as it was "
+            "reconstructed, with an ambient image"
+        )
     lines += [_line(view) for view in model.views]
     lines += [] if model.missing is None else missing_words(model.missing, model.frame)
     return lines + ([] if model.rig is None else rig_words(model.rig))

@@ -48,6 +48,8 @@ class ViewInModel:
     """Robust rms of its points from the other views' surfaces, along the normal."""
     H_AC: Array | None = None
     """(4, 4) the camera in the model's frame, as aligned."""
+    solved_again: bool = False
+    """Whether its capture was solved again with the light that the object's parts throw on each other."""
     pieces: tuple[PieceInModel, ...] = ()
     """Its connected pieces, and parts of them that breaks and seams cut off, which count on; none of a surface that was left out."""
 

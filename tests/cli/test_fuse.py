@@ -66,7 +66,11 @@ def test_where_a_user_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str],
         (rig / capture / "capture.yaml").touch()
     monkeypatch.chdir(tmp_path)
     assert main(["fuse", "rig/session/stop_00", "rig/session/stop_01", "rig/objects/2024-05-01", "-o", "model", "--step", "6mm"]) == 0
-    assert "written to model: mesh.glb" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "written to model: mesh.glb" in told
+    assert "no view is solved again with the light between the object's parts: it needs the rig's calibration" in told
+    assert main(["fuse", "rig/session/stop_00", "rig/session/stop_01", "-o", "model", "--step", "6mm", "--once"]) == 0
+    assert "solved again" not in capsys.readouterr().out
     assert main(["fuse", "rig/session", "-o", "model"]) == 3
     assert "name what is in it: rig/session/*" in capsys.readouterr().err
     assert main(["fuse", "rig/sesion/stop_00", "-o", "model"]) == 3

@@ -86,7 +86,7 @@ def test_a_session_by_the_commands_alone(tmp_path: Path) -> None:
     """
     session = made(tmp_path / "rig")
     found, off, normals_deg = session.model(tmp_path / "whole", [session.surface(k) for k in range(STOPS)])
-    assert all(view["used"] for view in found["views"])
+    assert all(view["used"] and view["solved_again"] for view in found["views"])
     assert rms_mm(off) < 0.5
     assert normals_deg < 1.2
     assert abs(found["figures"]["reflectance"] - np.nanmedian(session.albedo(0))) < 0.3  # by the light between parts
