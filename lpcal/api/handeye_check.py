@@ -305,6 +305,8 @@ def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings,
     if off:
         more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
+    for one, other in congruence.exchanged(H_OP, H_CB, agreed)[:NAMED]:
+        findings.warnings.append(f"{names[one]} fits the pose of {names[other]}, and that one its own: their poses are exchanged")
     carries: Carries = "board" if found.board_carried else "camera"
     findings.know(misplaced_m=agreed.scatter_m, views_off=tuple(off), carries=carries)
     size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, carries)

@@ -11,7 +11,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.camera_coefficients import central_camera, refuse_lens
 from lpcal.formats.mat_file import read_matrices
+from lpcal.formats.number_arrays import read_arrays
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Camera
 
@@ -38,8 +38,6 @@ LISTS = ("coeffs", "distortion", "distortion_coefficients", "distortion_coeffs",
 LENS_KEYS = ("model", "distortion_model", "camera_model", "lens_model", "projection")
 OTHER_LENSES = ("fish", "equi", "omni", "kannala", "inverse", "ftheta", "division", "fov", "eucm", "double", "spheric", "cylindric")
 """What names of lenses hold that lpcal does not project with."""
-MOST_BYTES = 4 << 20
-"""Bytes of the largest file of arrays that is read."""
 
 
 def refuse_other_lens(document: dict[str, Any], where: str, *, distorts: bool = True) -> None:
@@ -154,11 +152,6 @@ def arrays_of(path: Path) -> dict[str, Any]:
 
 
 def _of_npz(path: Path) -> dict[str, Array]:
-    needed = "a .npz of arrays of numbers"
-    try:
-        if sum(one.file_size for one in zipfile.ZipFile(path).infolist()) > MOST_BYTES:
-            raise InputError("too large for a camera", where=str(path), needed=needed, todo="is it the right file?")
-        with np.load(path, allow_pickle=False) as held:
-            return {name: np.asarray(held[name], float) for name in held.files if held[name].dtype.kind in "iuf"}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise InputError("cannot be read as numpy's arrays", where=str(path), needed=needed) from error
+    held = read_arrays(path, "a .npz of arrays of numbers")
+    arrays = held if isinstance(held, dict) else {"K": held}
+    return {name: np.asarray(value, float) for name, value in arrays.items() if value.dtype.kind in "iuf"}

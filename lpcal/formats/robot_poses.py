@@ -1,8 +1,15 @@
 """``mocap.poses``: one pose an image, without a clock.
 
-Either a csv whose names say the image, the position and the rotation, or rows of numbers in the images' order: 4x4 matrices, 16 (or 12)
-numbers a line or a row of four a line (a matrix may stand transposed, its translation in the last row), or six numbers a line where
-``mocap.rotation`` says what the last three are. A unit may follow a name: ``x_mm``, ``A [deg]``.
+Either a csv whose names say the position, the rotation and the image (without a column of images they are in the images' order), or rows
+of numbers in that order: 4x4 matrices, 16 (or 12) numbers a line or a row of four a line (a matrix may stand transposed, its translation
+in the last row), six numbers a line where ``mocap.rotation`` says what the last three are, or seven where ``mocap.quaternion`` says in
+what order the quaternion is. A unit may follow a name: ``x_mm``, ``A [deg]``. Or as robots' controllers and programs write them:
+
+- Universal Robots: ``p[x, y, z, rx, ry, rz]``, metres and a rotation vector in radians.
+- KUKA: ``{X 100.0, Y 0.0, Z 300.0, A 0.0, B 90.0, C 0.0}`` with or without a type before it, millimetres and degrees.
+- ABB: ``[[x, y, z], [q1, q2, q3, q4], ...]``, millimetres and a quaternion whose first number is the scalar.
+- Matrices in brackets, as numpy and MATLAB print them, and lists of them in JSON or YAML, or in a .npy or .npz: (N, 4, 4) or (N, 3, 4), or
+  one under each image's name.
 
 ========================  =============================================================================================
 columns                   rotation
@@ -24,6 +31,7 @@ from pathlib import Path
 import numpy as np
 
 from lpcal.errors import DegenerateError, DisagreementError, InputError
+from lpcal.formats.number_arrays import ARRAYS, matrix_rows, read_arrays
 from lpcal.formats.number_table import COMMENTS, is_number
 from lpcal.formats.pose_table import METRES
 from lpcal.formats.reading import reader
@@ -31,12 +39,25 @@ from lpcal.formats.text import read_text, with_commas
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+UR = re.compile(rf"p\s*\[\s*((?:{NUMBER}\s*,\s*){{5}}{NUMBER})\s*\]")
+KUKA = re.compile(
+    rf"\bX\s*=?\s*({NUMBER})\s*,\s*Y\s*=?\s*({NUMBER})\s*,\s*Z\s*=?\s*({NUMBER})\s*,\s*A\s*=?\s*({NUMBER})\s*,\s*B\s*=?\s*({NUMBER})\s*,\s*C\s*=?\s*({NUMBER})"
+)
+ABB = re.compile(rf"\[\s*\[((?:\s*{NUMBER}\s*,){{2}}\s*{NUMBER}\s*)\]\s*,\s*\[((?:\s*{NUMBER}\s*,){{3}}\s*{NUMBER}\s*)\]")
+BRACKETS = re.compile(r"[\[\](){};]|\barray\b")
 LAYOUT = "file, x_m, y_m, z_m, qx, qy, qz, qw, or 4x4 matrices in the images' order"
 RIGID = 5e-3
 """How far the product of a matrix and its transpose may be from the unit matrix: files keep four digits and more."""
 MOST_M = 20.0
 """Metres that no robot or room reaches: larger numbers without a unit are millimetres."""
 NAMES = {"file": ("file", "image", "filename", "name"), "x": ("x", "tx", "px"), "y": ("y", "ty", "py"), "z": ("z", "tz", "pz")}
+NOTHING = ("", "nan", "null", "none", "n/a", "na", "-")
+"""Words for no number: a row of them is an image without a pose."""
+NAMED = 3
+FROM_0, FROM_1 = ("q0", "q1", "q2", "q3"), ("q1", "q2", "q3", "q4")
+FEWEST_TOLD = 3
+"""Poses from which the size of all angles says something."""
 UNIT = re.compile(r"(.*?)(?:_|\s*[\[(]\s*)(m|cm|mm|rad|deg)\s*[\])]?$")
 
 
@@ -115,7 +136,7 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
     DegenerateError
         No pose but the identity.
     """
-    text = with_commas(read_text(path, LAYOUT), path)
+    text = with_commas(_plain(path), path)
     lines = [
         (number, line.strip())
         for number, line in enumerate(text.split("\n"), start=1)
@@ -125,10 +146,12 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
         raise InputError("empty", where=str(path), needed=LAYOUT)
     cells = [_cells(line) for _, line in lines]
     numbers = [number for number, _ in lines]
-    if not all(map(is_number, cells[0])):
+    if len(cells[0]) in {13, 17} and not is_number(cells[0][0]) and all(map(is_number, cells[0][1:])):
+        name, poses = "matrices by image", _named_matrices(cells, numbers, path, stated)
+    elif not all(map(is_number, cells[0])):
         name, poses = "csv with names, an image a row", _table(cells, numbers, path, stated)
-    elif len(cells[0]) == 6:
-        name, poses = "six numbers a line, in the images' order", _sixes(cells, numbers, path, stated)
+    elif len(cells[0]) in {6, 7}:
+        name, poses = f"{len(cells[0])} numbers a line, in the images' order", _by_place(cells, numbers, path, stated)
     else:
         name, poses = "matrices, in the images' order", _matrices(cells, numbers, path, stated)
     lost = tuple(int(row) for row in np.flatnonzero(np.all(poses.H - np.eye(4) == 0, axis=(1, 2))))
@@ -137,6 +160,30 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
         raise DegenerateError(f"all {len(lost)} poses are the identity", where=str(path), needed="a tracked body", todo="export it again")
     notes = (*poses.notes, *[f"{len(lost)} poses are the identity: lost"] * bool(lost))
     return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, notes, lost, name)
+
+
+def _plain(path: Path) -> str:
+    """A file of poses as text: a csv with names, or rows of numbers, line by line as in the file where it holds lines."""
+    if path.suffix.lower() not in ARRAYS:
+        return _made_plain(read_text(path, LAYOUT))
+    return matrix_rows(read_arrays(path, LAYOUT), path)
+
+
+def _made_plain(text: str) -> str:
+    """A controller's lines as a csv, brackets about numbers taken away; other text as it is."""
+    lines = text.split("\n")
+    for pattern, header in ((UR, "x_m,y_m,z_m,rx,ry,rz"), (KUKA, "x_mm,y_mm,z_mm,A,B,C"), (ABB, "x_mm,y_mm,z_mm,qw,qx,qy,qz")):
+        matches = [pattern.search(line) for line in lines]
+        if any(matches):
+            rows = [",".join(match.groups()).replace(" ", "") if match else "" for match in matches]
+            first = next(k for k, row in enumerate(rows) if row)
+            rows[first] = f"{header}\n{rows[first]}"
+            return "\n".join(rows)
+    bare = ["" if line.lstrip().startswith(COMMENTS) else BRACKETS.sub(" ", line).strip().rstrip(",") for line in lines]
+    told = [line for line in bare if line.strip()]
+    if told and any(BRACKETS.search(line) for line in lines) and not re.search(r"[A-DF-Za-df-z]", "".join(told)):
+        return "\n".join(re.sub(r"[\s,]+", " ", line) for line in bare)
+    return text
 
 
 def _cells(line: str) -> list[str]:
@@ -156,17 +203,22 @@ def _floats(cells: list[str], where: str) -> list[float]:
 def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
     """A csv with names."""
     names, units = _names(cells[0])
+    _number_quaternion(names, stated, f"{path}:{lines[0]}")
     triple = next((triple for triple in TRIPLES if set(triple) <= set(names)), None)
     turn = ("qx", "qy", "qz", "qw") if "qw" in names or triple is None else triple
-    lacking = [name for name in ("file", "x", "y", "z", *turn) if name not in names]
+    lacking = [name for name in ("x", "y", "z", *turn) if name not in names]
     if lacking:
         raise InputError(f"no column for {', '.join(lacking)}", where=f"{path}:{lines[0]}", needed=LAYOUT, todo="name the columns so")
     files: dict[str, int] = {}
-    rows = []
+    rows, told, left_out = [], [], []
     for row, line in zip(cells[1:], lines[1:], strict=True):
         if len(row) < len(cells[0]):
             raise InputError(f"{len(row)} cells", where=f"{path}:{line}", needed=f"{len(cells[0])}", todo="is the file cut off?")
-        name = row[names["file"]]
+        name = row[names["file"]] if "file" in names else f"row {line}"
+        values = [row[names[key]] for key in ("x", "y", "z", *turn)]
+        if "file" in names and all(value.lower() in NOTHING for value in values):
+            left_out.append(name)
+            continue
         if name in files:
             raise DisagreementError(
                 f"{name} stands in line {files[name]} already",
@@ -175,21 +227,20 @@ def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated)
                 todo="remove one of them",
             )
         files[name] = line
-        rows.append(_floats([row[names[key]] for key in ("x", "y", "z", *turn)], f"{path}:{line}"))
+        rows.append(_floats(values, f"{path}:{line}"))
+        told.append(line)
     numbers = np.array(rows).reshape(-1, 3 + len(turn))
     if not rows:
         raise InputError("no rows", where=str(path), needed="a row an image")
     x, notes = _metres(numbers[:, :3], units.get("x"), stated)
+    notes = (*notes, *[f"no pose of {', '.join(left_out[:NAMED])}{' and others' * (len(left_out) > NAMED)}"] * bool(left_out))
+    named = tuple(files) if "file" in names else None
     if turn[0] == "qx":
-        length = np.linalg.norm(numbers[:, 3:], axis=1)
-        wrong = np.flatnonzero(np.abs(length - 1) > 0.02)
-        if wrong.size:
-            found = f"a quaternion of length {length[wrong[0]]:.3g}"
-            raise InputError(found, where=f"{path}:{lines[1 + wrong[0]]}", needed="length 1", todo="is the row cut off?")
-        q = numbers[:, [4, 5, 6, 3]] if stated.quaternion == "wxyz" and names["qx"] < names["qw"] else numbers[:, 3:]
-        return ImagePoses(se3.transform(se3.rotation_from_quaternion(q), x), tuple(files), notes)
+        by_number = "q1" in names
+        q = numbers[:, [4, 5, 6, 3]] if stated.quaternion == "wxyz" and names["qx"] < names["qw"] and not by_number else numbers[:, 3:]
+        return ImagePoses(se3.transform(_of_quaternions(q, path, told), x), named, notes)
     R, said = _rotations(numbers[:, 3:], turn, units.get(turn[0]), stated, f"{path}:{lines[0]}")
-    return ImagePoses(se3.transform(R, x), tuple(files), (*notes, *said))
+    return ImagePoses(se3.transform(R, x), named, (*notes, *said))
 
 
 def _names(cells: list[str]) -> tuple[dict[str, int], dict[str, str]]:
@@ -207,6 +258,27 @@ def _names(cells: list[str]) -> tuple[dict[str, int], dict[str, str]]:
     return names, units
 
 
+def _number_quaternion(names: dict[str, int], stated: Stated, where: str) -> None:
+    """Give the columns q0 to q3, or q1 to q4, the names of what they hold: q0 is the scalar, q1 of four may be.
+
+    Raises
+    ------
+    InputError
+        They are q1 to q4, and nothing says which is the scalar.
+    """
+    if set(FROM_0) <= names.keys():
+        names |= {name: names[column] for name, column in zip(("qw", "qx", "qy", "qz"), FROM_0, strict=True)}
+    elif set(FROM_1) <= names.keys():
+        if stated.quaternion is None:
+            raise InputError(
+                "q1, q2, q3, q4: which of them is the scalar does not show",
+                where=where,
+                needed="the order of the quaternion",
+                todo="state mocap.quaternion in panel.yaml: wxyz (ABB: q1 is the scalar) | xyzw, or name the columns qx, qy, qz, qw",
+            )
+        names |= {f"q{axis}": names[column] for axis, column in zip(stated.quaternion, FROM_1, strict=True)}
+
+
 def _metres(x: Array, unit: str | None, stated: Stated) -> tuple[Array, tuple[str, ...]]:
     """Positions in metres, by what panel.yaml or the names say, or by their size."""
     if stated.units or unit in METRES:
@@ -219,6 +291,8 @@ def _metres(x: Array, unit: str | None, stated: Stated) -> tuple[Array, tuple[st
 def _rotations(v: Array, names: tuple[str, ...], unit: str | None, stated: Stated, where: str) -> tuple[Array, tuple[str, ...]]:
     """Rotations (N, 3, 3) of three numbers, by what panel.yaml says, the names and their unit."""
     kind = stated.rotation or TRIPLES[names]
+    if stated.rotation is None and unit == "rad" and names[0] == "a":
+        v, unit = np.rad2deg(v), "deg"
     if stated.rotation is None and unit in {"deg", "rad"}:
         kind = {"rotation_vector": {"deg": "rotation_vector_deg", "rad": "rotation_vector"}}.get(
             kind, {"deg": "rpy_deg", "rad": "rpy_rad"}
@@ -230,24 +304,66 @@ def _rotations(v: Array, names: tuple[str, ...], unit: str | None, stated: State
         raise InputError(
             found, where=where, needed="what they are", todo=f"state mocap.rotation in panel.yaml: {' | '.join(ROTATIONS)}, or name a unit"
         )
+    _refuse_radians(v, kind, where)
     return ROTATIONS[kind](v), (f"{', '.join(names)} read as {kind.replace('_', ' ')}",)
 
 
-def _sixes(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
-    """Six numbers a line: a position, and what panel.yaml says."""
-    if stated.rotation is None:
+def _refuse_radians(v: Array, kind: str, where: str) -> None:
+    """Refuse angles (N, 3) of some degrees at most: a body that turns by no more shows nothing, and radians are never larger.
+
+    Raises
+    ------
+    DisagreementError
+        They are.
+    """
+    if kind.endswith("_deg") and len(v) >= FEWEST_TOLD and np.abs(v).max() <= np.pi + 1e-3 and np.ptp(v, axis=0).max() > 0:
+        raise DisagreementError(
+            f"angles of {np.abs(v).max():.3g} at most, read as degrees ({kind.replace('_', ' ')})",
+            where=where,
+            needed="degrees: a body that turns by so little tells nothing",
+            todo="if they are radians, say so: mocap.rotation: rpy_rad or rotation_vector, or names such as A_rad",
+        )
+
+
+def _by_place(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
+    """Six or seven numbers a line: a position, and what panel.yaml says."""
+    count = len(cells[0])
+    if (stated.rotation if count == 6 else stated.quaternion) is None:
+        todo = f"mocap.rotation in panel.yaml: {' | '.join(ROTATIONS)}" if count == 6 else "mocap.quaternion in panel.yaml: xyzw | wxyz"
         raise InputError(
-            "six numbers a line: a position, and a rotation that nothing names",
+            f"{'six' if count == 6 else 'seven'} numbers a line: a position, and a rotation that nothing names",
             where=f"{path}:{lines[0]}",
-            needed="what the last three are",
-            todo=f"state mocap.rotation in panel.yaml: {' | '.join(ROTATIONS)}",
+            needed="what the last three are" if count == 6 else "the order of the quaternion",
+            todo=f"state {todo}",
         )
     for row, line in zip(cells, lines, strict=True):
-        if len(row) != 6:
-            raise InputError(f"{len(row)} numbers", where=f"{path}:{line}", needed="six, as in the first row", todo="is the file cut off?")
+        if len(row) != count:
+            needed = f"{count}, as in the first row"
+            raise InputError(f"{len(row)} numbers", where=f"{path}:{line}", needed=needed, todo="is the file cut off?")
     numbers = np.array([_floats(row, f"{path}:{line}") for row, line in zip(cells, lines, strict=True)])
     x, notes = _metres(numbers[:, :3], None, stated)
+    if count == 7:
+        q = numbers[:, [4, 5, 6, 3]] if stated.quaternion == "wxyz" else numbers[:, 3:]
+        return ImagePoses(se3.transform(_of_quaternions(q, path, lines), x), None, notes)
+    assert stated.rotation is not None
+    _refuse_radians(numbers[:, 3:], stated.rotation, str(path))
     return ImagePoses(se3.transform(ROTATIONS[stated.rotation](numbers[:, 3:]), x), None, notes)
+
+
+def _of_quaternions(q: Array, path: Path, lines: list[int]) -> Array:
+    """Rotations (N, 3, 3) of quaternions (N, 4), x y z w, that stand in these lines."""
+    length = np.linalg.norm(q, axis=1)
+    wrong = np.flatnonzero(np.abs(length - 1) > 0.02)
+    if wrong.size:
+        found = f"a quaternion of length {length[wrong[0]]:.3g}"
+        raise InputError(found, where=f"{path}:{lines[wrong[0]]}", needed="length 1", todo="is the row cut off?")
+    return se3.rotation_from_quaternion(q)
+
+
+def _named_matrices(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:
+    """An image's name and its matrix a line."""
+    poses = _matrices([row[1:] for row in cells], lines, path, stated)
+    return ImagePoses(poses.H, tuple(row[0] for row in cells), poses.notes)
 
 
 def _matrices(cells: list[list[str]], lines: list[int], path: Path, stated: Stated) -> ImagePoses:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -216,8 +217,12 @@ def _from_rests(workspace: Workspace, section: MocapSection, known: BoardPoses, 
 
 
 def _paired(poses: ImagePoses, images: list[str], path: Path) -> dict[str, Array]:
-    """Pose by image: by name where the file has names (whole, or the last part), else by order, which needs as many."""
-    if poses.files is None:
+    """Pose by image: by name where the file has names (whole, its last part, or that without its ending), else by order.
+
+    Names that only count, from 0 or 1, and as many as there are images, are an order, too.
+    """
+    counted = poses.files is not None and any(tuple(map(str, range(k, k + len(images)))) == poses.files for k in (0, 1))
+    if poses.files is None or counted:
         if len(poses.H) != len(images):
             raise DisagreementError(
                 f"{len(poses.H)} poses for {len(images)} images",
@@ -228,7 +233,9 @@ def _paired(poses: ImagePoses, images: list[str], path: Path) -> dict[str, Array
         return dict(zip(images, poses.H, strict=True))
     named = dict(zip(poses.files, poses.H, strict=True))
     last = {Path(name).name: H for name, H in named.items()}
-    found = {image: named.get(image, last.get(Path(image).name)) for image in images}
+    once = Counter(Path(image).stem for image in images)
+    bare = {image: last.get(Path(image).stem) if once[Path(image).stem] == 1 else None for image in images}
+    found = {image: named.get(image, last.get(Path(image).name, bare[image])) for image in images}
     return {image: H for image, H in found.items() if H is not None}
 
 

@@ -114,6 +114,11 @@ class Refused:
     todo: str
 
 
+def as_text(count: int) -> np.ndarray:
+    """The order (count,) in which numbers stand as text: 0, 1, 10, 11, 2."""
+    return np.argsort([str(k) for k in range(count)], kind="stable")
+
+
 REFUSED = {
     "mocap inverted": Refused(
         lambda f: moving_rig(f, moving(), H_OP=se3.inv(moving().stream.H_OP)), 6, "the mocap poses are inverted", "mocap.direction: H_PO"
@@ -184,6 +189,15 @@ REFUSED = {
     ),
     "pairing shifted by one": Refused(
         lambda f: image_rig(f, static(), np.roll(static().H_OP, 1, axis=0)), 6, "the pairing is shifted by 1", "mocap.poses"
+    ),
+    "poses in backward order": Refused(
+        lambda f: image_rig(f, static(), static().H_OP[::-1]), 6, "the poses are in backward order", "mocap.poses"
+    ),
+    "poses in the order of text": Refused(
+        lambda f: image_rig(f, static(), static().H_OP[as_text(len(static().H_OP))]), 6, "names as text (1, 10, 11, 2)", "mocap.poses"
+    ),
+    "images in the order of text": Refused(
+        lambda f: image_rig(f, static(), static().H_OP[np.argsort(as_text(len(static().H_OP)))]), 6, "names as text", "mocap.poses"
     ),
     "rotation about one axis only": Refused(
         lambda f: image_rig(f, turned_about_one_axis(static(), 0.6), turned_about_one_axis(static(), 0.6).H_OP),
@@ -317,6 +331,17 @@ WARNED = {
         "turned little about a second axis",
     ),
 }
+
+
+def test_poses_of_two_views_in_each_others_place_are_named(tmp_path: Path, lpcal: Callable[..., tuple[int, str, str]]) -> None:
+    H_OP = static().H_OP.copy()
+    H_OP[[3, 9]] = H_OP[[9, 3]]
+    H_OP[5, :3, 3] += [0.05, 0, 0]  # one that is off by itself
+    image_rig(tmp_path, static(), H_OP)
+    code, out, err = lpcal("check", cwd=tmp_path)
+    assert code == 0, out + err
+    assert "view_003.png fits the pose of view_009.png, and that one its own: their poses are exchanged" in out + err
+    assert err.count("exchanged") + out.count("exchanged") == 1
 
 
 @pytest.mark.parametrize(("command", "name"), by_turns(WARNED))

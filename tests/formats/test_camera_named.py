@@ -184,7 +184,7 @@ def test_numpys_arrays(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no image size"):
         read_camera_file(path)
     path.write_bytes(path.read_bytes()[:100])
-    with pytest.raises(InputError, match="cannot be read as numpy's arrays"):
+    with pytest.raises(InputError, match="cannot be read as arrays"):
         read_camera_file(path)
 
 

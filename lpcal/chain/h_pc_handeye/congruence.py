@@ -21,7 +21,7 @@ import numpy as np
 
 from lpcal.chain.h_pc_handeye.cures import cures
 from lpcal.errors import DisagreementError
-from lpcal.geometry import park
+from lpcal.geometry import park, se3
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Carries
 from lpcal.records.digits import fine
@@ -41,6 +41,8 @@ FAR_M = 1.0
 ALIKE = 3.0
 NEARER = 0.7
 MOST_VIEWS = 60
+MOST_OFF = 30
+"""Views off of which pairs are looked at: of more something else is wrong."""
 UNITS = {1000.0: "mm", 100.0: "cm", 25.4: "inches", 0.001: "1/mm", 0.01: "1/cm", 1 / 25.4: "1/inches"}
 
 
@@ -136,6 +138,23 @@ def refuse(H_OP: Array, H_CB: Array, agreed: park.Consensus, *, from_images: boo
         needed="H_OP, the body's pose in the room, in metres, its quaternion in the order stated, paired with the right image",
         todo=named.todo,
     )
+
+
+def exchanged(H_OP: Array, H_CB: Array, agreed: park.Consensus) -> list[tuple[int, int]]:
+    """Pairs of views that do not fit the closed form, but would with each other's pose."""
+    off = np.flatnonzero(~agreed.inliers)
+    if not 2 <= len(off) <= MOST_OFF:
+        return []
+    within_m = FITS * float(np.median(np.linalg.norm(H_CB[:, :3, 3], axis=1)))
+
+    def fit(pose: int, board: int) -> bool:
+        """Whether a board is where the others are, under a pose."""
+        placed = H_OP[pose] @ agreed.H_PC @ H_CB[board]
+        turn = se3.angle_rad(placed[:3, :3].T @ agreed.H_OB[:3, :3])
+        return bool(np.linalg.norm(placed[:3, 3] - agreed.H_OB[:3, 3]) < within_m and turn < ALIKE * FITS)
+
+    rows = off.tolist()
+    return [(i, j) for k, i in enumerate(rows) for j in rows[k + 1 :] if fit(i, j) and fit(j, i)]
 
 
 def board_size_warning(scale: float, sigma: float, H_PC: Array, carries: Carries = "camera") -> str | None:

@@ -19,6 +19,7 @@ from lpcal.geometry.arrays import Array
 SHIFTS = (1, -1, 2, -2, 3, -3)
 NEAR_WHOLE = 0.2
 """How far the numbers of M, its scale taken away, may be from whole ones: ten times what noise leaves in a session of twelve views."""
+PAIRS = "correct the images' names or times: mocap.poses or mocap.images"
 RIGHT_HANDED = "export the recording again in a right-handed frame (x forward, y left, z up, or y up: both are right-handed)"
 CONJUGATE = "transpose the matrices, or turn over the signs of qx, qy and qz,"
 type Cure = tuple[str | None, str, Array, Array]
@@ -59,7 +60,13 @@ def cures(H_OP: Array, H_CB: Array, *, in_order: bool, from_images: bool) -> Ite
         poses, boards = (H_OP[shift:], H_CB[:-shift]) if shift > 0 else (H_OP[:shift], H_CB[-shift:])
         if len(poses) >= 6:
             words = f"the pairing is shifted by {abs(shift)}: view k belongs to the pose of view k{shift:+d}"
-            yield words, "correct the images' names or times: mocap.poses or mocap.images", poses, boards
+            yield words, PAIRS, poses, boards
+    if in_order and len(H_OP) >= 6:
+        yield "the poses are in backward order", PAIRS, H_OP[::-1], H_CB
+        for first in (0, 1) if len(H_OP) > 10 else ():
+            by_text = np.argsort([str(k + first) for k in range(len(H_OP))], kind="stable")
+            for rows, which in ((by_text, "images"), (np.argsort(by_text), "poses")):
+                yield f"the {which} are in the order of their names as text (1, 10, 11, 2), the others are not", PAIRS, H_OP[rows], H_CB
 
 
 def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, Array]]:
