@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.detect.radiometry import NO_AMBIENT
+from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image
 from lpcal.integration.convention import hollow, mirrored
 from lpcal.records.calibration import Calibration
@@ -144,10 +145,10 @@ def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -
 
     def of(k: int) -> float:
         light = next(one for one in calibration.lights if one.name == radiance.lights[k])
-        d, E = light.field(x_C)
-        cosine, signal = np.sum(d * n, axis=1), _grey(radiance.signal[k][inside])
+        d, E = light.unit_field(x_C, single=True)
+        cosine, signal = lambert.dot(d, n), _grey(radiance.signal[k][inside])
         good = (cosine > LIT) & ~radiance.saturated[k][inside] & (signal > LIT * np.median(signal))
-        expected = albedo * _grey(E) * cosine
+        expected = albedo * E * (light.intensity.mean() * cosine)
         good &= np.isfinite(expected) & (expected > 0)
         return float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan
 

@@ -229,7 +229,7 @@ def _reconstructed(
     notes = (*notes_of(radiance.notes, surface), *fits, *contradicting(surface, radiance, calibration), *_far_stated(options, calibration))
     surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
-        _refuse_outside(surface, calibration, (*fits, *misfit_said(surface)))
+        _refuse_outside(surface, calibration, fits)
     return replace(surface, warnings=notes, sensor=settled.used)
 
 
@@ -267,7 +267,7 @@ def _far_stated(options: solver.Options, calibration: Calibration) -> tuple[str,
     return (f"the distance is stated as {1e3 * stated:.0f} mm, the lights are calibrated for {1e3 * working_m:.0f} mm: is its unit right?",)
 
 
-def _refuse_outside(surface: Surface, calibration: Calibration, doubts: tuple[str, ...]) -> None:
+def _refuse_outside(surface: Surface, calibration: Calibration, fits: tuple[str, ...]) -> None:
     """Refuse an object that near light puts far from where the lights are known.
 
     Raises
@@ -281,7 +281,9 @@ def _refuse_outside(surface: Surface, calibration: Calibration, doubts: tuple[st
     distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
     if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
         raise DegenerateError(
-            "; ".join((f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume", *doubts)),
+            "; ".join(
+                (f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume", *fits, *misfit_said(surface))
+            ),
             where=surface.name,
             needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
             todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",

@@ -224,12 +224,13 @@ class _Picture:
         """c (P,) of each arrangement, at the distance where it fits best."""
         asked = np.unique(np.linspace(0, len(lights) - 1, min(len(lights), MOST_LIGHTS)).astype(int))
         shown = [lights[k] for k in asked]
-        fields = {turn: [self._light(shown, turn, front_m) for front_m in fronts_m] for turn in {one.turn for one in arrangements}}
+        turns = {one.turn for one in arrangements}
+        fields = {turn: np.stack([self._light(shown, turn, front_m) for front_m in fronts_m], axis=1) for turn in turns}
         found = []
         for one in arrangements:
             images = one.images[asked]
-            signal, sigma, usable = (np.ascontiguousarray(kept[images]) for kept in (self.seen.signal, self.seen.sigma, self.seen.usable))
-            found.append(min((_misses(signal, sigma, usable, B) for B in fields[one.turn]), key=np.mean))
+            missed = _misses(self.seen.signal[images], self.seen.sigma[images], self.seen.usable[images], fields[one.turn])
+            found.append(missed[np.argmin(missed.mean(axis=1))])
         return found
 
     def _light(self, lights: Sequence[Light], turn: str | None, front_m: float) -> Array:
@@ -263,20 +264,26 @@ def _lattice(height: int, width: int) -> tuple[Indices, Indices]:
 
 
 def _misses(signal: Array, sigma: Array, usable: Mask, B: Array) -> Array:
-    """c (P,) of signals (L, P) under light vectors B (L, P, 3)."""
+    """c (N, P) of signals (L, P) under light vectors B (L, N, P, 3) of N fronts."""
+    signal, sigma, usable = signal[:, None], sigma[:, None], usable[:, None]
+
+    def fitted(signal: Array, weight: Array) -> Array:
+        flat = (np.reshape(one, (len(B), -1)) for one in (np.broadcast_to(signal, weight.shape), weight))
+        return lambert.weighted(B.reshape(len(B), -1, 3), *flat)[0].reshape(B.shape[1:])
+
     variance = np.maximum(sigma**2 + (MODEL * signal) ** 2, 1e-300)
     shading = np.where(usable, signal / np.maximum(lambert.length(B), 1e-300), 0.0)
     reached = usable & (shading > SHADOW * np.partition(shading, -2, axis=0)[-2]) & (signal > OUTLIER * sigma)
     plain = reached / variance
-    weight, g = plain, np.ones((len(signal), 1))
-    b = np.nan_to_num(lambert.weighted(B, signal, weight)[0])
+    g = np.ones((*B.shape[:2], 1))
+    b = np.nan_to_num(fitted(signal, plain))
     for _ in range(WEIGHED):
         shown = lambert.predicted(B, b)
         square = (signal - shown / g) ** 2 / variance
         weight = plain / (1 + square / OUTLIER2) ** 2
-        g = np.sum(weight * shown * signal, axis=1, keepdims=True) / np.maximum(np.sum(weight * signal**2, axis=1, keepdims=True), 1e-300)
-        g = np.clip(g / np.exp(np.mean(np.log(np.maximum(g, FACTORS[0] ** 2)))), *FACTORS)
-        again = lambert.weighted(B, g * signal, weight / g**2)[0]
+        g = np.sum(weight * shown * signal, axis=2, keepdims=True) / np.maximum(np.sum(weight * signal**2, axis=2, keepdims=True), 1e-300)
+        g = np.clip(g / np.exp(np.mean(np.log(np.maximum(g, FACTORS[0] ** 2)), axis=0)), *FACTORS)
+        again = fitted(g * signal, weight / g**2)
         b = np.where(np.isfinite(again), again, b)
     square = (signal - lambert.predicted(B, b) / g) ** 2 / variance
     return np.asarray(np.sum(np.where(usable, square / (1 + square / OUTLIER2), 0.0), axis=0) / np.maximum(usable.sum(axis=0), 1))
