@@ -62,7 +62,7 @@ SIGNATURES = {
     "plane": "i i i s d d f f n f f d f",
     "received": "i i i f f f f f f f i i f f i d d d d i i",
     "moved": "i i s n d f f",
-    "misfit": "i i f f b f i f f f",
+    "misfit": "i i f f b f i f i i f f",
     "multigrid": "i n m m f f f f f f s m d i f",
     "ring": "i i i s f f f i f f",
     "room_free": "i i f f b f s f d f i f f f f",

@@ -19,12 +19,13 @@ static double middle(const double ratio[][BLOCK], int64_t p, int64_t L, int64_t 
     return sorted[L - 1 - (sound > 1 ? sound - 1 : 0) / 2];
 }
 
-/* Mean square residual a degree of freedom (P), infinite where fewer than two samples count or the plane is missed; and how many count. */
+/* Mean square residual a degree of freedom (P), infinite where fewer than two samples count or the plane is missed; and how many count; of
+   pixels from the first to the last. */
 KERNEL void lpcal_misfit(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *m,
-                         int64_t shaded, const double *c, double *square, double *count) {
+                         int64_t shaded, const double *c, int64_t first, int64_t last, double *square, double *count) {
     double ratio[MOST_LIGHTS][BLOCK], model = c[MODEL], weak = c[WEAK];
-    for (int64_t first = 0; first < P; first += BLOCK) {
-        int64_t some = P - first < BLOCK ? P - first : BLOCK;
+    for (; first < last; first += BLOCK) {
+        int64_t some = last - first < BLOCK ? last - first : BLOCK;
         double top[BLOCK], hit[BLOCK], high[BLOCK], next[BLOCK], sound[BLOCK] = {0.0}, above[BLOCK] = {0.0}, below[BLOCK] = {0.0};
         double counted[BLOCK] = {0.0}, albedo[BLOCK], total[BLOCK] = {0.0};
         for (int p = 0; p < BLOCK; p++) {

@@ -28,8 +28,8 @@ from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Calibration
 from lpcal.records.outcome import Outcome, Progress, silent
 from lpcal.records.pictures import data_uri, png
-from lpcal.report.collection_page import COLLECTION_MARK, Row, collection_html
 from lpcal.report.pictures import shaded, shrink
+from lpcal.report.side_pages import COLLECTION_MARK, Row, collection_html
 
 if TYPE_CHECKING:  # where all is done here, no processes are asked for
     from lpcal.api.engines import Engine

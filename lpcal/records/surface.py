@@ -135,4 +135,4 @@ class Surface(Shown):
     @property
     def metric(self) -> bool:
         """Whether depths are metres; else, without a camera, they are pixels."""
-        return bool(self.rays_C[..., :2].any())
+        return any(row[:, :2].any() for row in self.rays_C)  # a camera's first row says so

@@ -13,6 +13,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
+from lpcal.view.crop import Crop
 
 STEPS = 200
 MARGIN = 2
@@ -105,10 +106,14 @@ def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
         depth = cv2.distanceTransform(side.astype(np.uint8), cv2.DIST_L2, 3)
         return np.asarray(depth, np.float32), _near(signal, depth)
 
-    (within, inner), (beyond, outer) = bands.shared(near, (mask, ~mask))
+    box, found = Crop.about(mask), mask.copy()
+    inside = box.of(mask)
+    signal, sigma = (one[:, box.rows, box.columns] for one in (signal, sigma))
+    (within, inner), (beyond, outer) = bands.shared(near, (inside, ~inside))
     step = (inner - outer) / sigma
     share = np.sum((signal - outer) / sigma * step, axis=0) / np.maximum(np.sum(step**2, axis=0), 1e-12)
-    return np.asarray(np.where((within <= BESIDE_PX) & (beyond <= BESIDE_PX), share > HALF, mask))
+    box.of(found)[...] = np.where((within <= BESIDE_PX) & (beyond <= BESIDE_PX), share > HALF, inside)
+    return found
 
 
 def _near(signal: Image, depth: Image) -> Image:

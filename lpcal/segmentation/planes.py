@@ -136,15 +136,10 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
 def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
     """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
     if len(m) <= FEW_LIGHTS and (run := kernel("misfit")):
-        constants = np.array([MODEL, SHADE, WEAK])
-
-        def of(at: slice) -> None:
-            some, white = seen.at(at), np.ascontiguousarray(m[:, at], float)
-            given = (*(np.ascontiguousarray(one, float) for one in (some.signal, some.sigma)), np.ascontiguousarray(some.usable))
-            run(*white.shape, *given, white, shaded, constants, square[at], count[at])
-
+        signal, sigma, white = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma, m))
+        given = (*m.shape, signal, sigma, np.ascontiguousarray(seen.usable), white, shaded, np.array([MODEL, SHADE, WEAK]))
         square, count = np.empty(seen.pixels), np.empty(seen.pixels)
-        bands.each(seen.pixels, len(m), of)
+        bands.each(seen.pixels, len(m), lambda at: run(*given, at.start, at.stop, square, count))
         return square, count
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count

@@ -19,13 +19,12 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.model import Missing, ModelFigures, NextStop, ObjectModel, ViewInModel
 from lpcal.records.pictures import data_uri
 from lpcal.records.surface import Component, Surface
-from lpcal.report.collection_page import Row, collection_html
 from lpcal.report.model_page import model_html
 from lpcal.report.page import render
 from lpcal.report.page_data import ImageVerdictData, WatchData
 from lpcal.report.relight_page import render as relight
 from lpcal.report.rig_report import PARTS, RigReport
-from lpcal.report.side_pages import diff_html
+from lpcal.report.side_pages import Row, collection_html, diff_html
 from marking import Served, capture_folder
 from relight_ball import ball, lights
 from report_rig import documents, report_of, surface
