@@ -31,6 +31,7 @@ SIGNATURES = {
     "behind": "i f i i f f f",
     "block_means": "i i i i i f f f",
     "blocks": "i i i i i i s s b f f f b",
+    "cheapest_cut": "i m f f m b b",
     "cluster": "i i f f f f d f f",
     "cluster_single": "i i f f f f d f f",
     "cluster_slope": "i i f f f f d f",

@@ -16,7 +16,7 @@ from scipy import ndimage
 from lpcal.detect import edge_profile, saddle
 from lpcal.geometry import camera, lambert, led_cluster, park, raster, se3
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.integration import integrate, multigrid, pieces
+from lpcal.integration import cuts, integrate, multigrid, pieces
 from lpcal.integration.integrate import Grid, system
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
@@ -173,6 +173,14 @@ def connected(rng: np.random.Generator) -> Array:
     mask = rng.random((60, 70)) < 0.8
     grid = Grid.of(mask)
     return pieces.connected(grid, rng.random(len(grid.a)) > 0.37).astype(float)
+
+
+def cheapest_cut(rng: np.random.Generator) -> Array:
+    found = []
+    for strength in (0.1, 1.0):
+        grid = Grid.of(rng.random((60, 70)) < 0.8)
+        found.append(cuts.cheapest(grid, strength * rng.standard_normal(len(grid.rows)), rng.exponential(size=len(grid.a))))
+    return np.concatenate(found).astype(float)
 
 
 def masks(rng: np.random.Generator) -> list[Mask]:
@@ -454,6 +462,7 @@ CASES: dict[Callable, tuple[float, set[str]]] = {
     between: (1e-12, {"lattice"}),
     thrown_fits: (1e-12, {"thrown_fits"}),
     connected: (0.0, {"connected"}),
+    cheapest_cut: (0.0, {"cheapest_cut"}),
     labelled: (0.0, {"labelled"}),
     nearest: (0.0, {"nearest"}),
     blurred: (1e-14, {"joined"}),
