@@ -235,7 +235,7 @@ def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mas
     lights = sight.lights_of(calibration, radiance)
     maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
     found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, sight.room(radiance), drawn=False)
-    _, around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
+    around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
     seen = sight.look_at(maps, rays_C, object_mask, central=True)
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held, solver.room_of(radiance, object_mask))
     return solver.surface_of(radiance, scene, rounds.run(scene, held.u, silent), rays_C, None)

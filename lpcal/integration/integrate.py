@@ -147,8 +147,13 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
 def weights_of(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     """Weight of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
-    scale = max(OUTLIER, SPREAD * float(np.median(np.abs(residual))))
-    return np.asarray((scale**2 / (scale**2 + residual**2)) ** 2 + NEXT_TO_NOTHING)
+    square = scale_of(residual) ** 2
+    return np.asarray((square / (square + residual**2)) ** 2 + NEXT_TO_NOTHING)
+
+
+def scale_of(residual: Array) -> float:
+    """C, by the residuals (edges,) of the steps in sigmas."""
+    return max(OUTLIER, SPREAD * float(np.median(np.abs(residual))))
 
 
 def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Matrix, Array]:

@@ -35,7 +35,6 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
 from lpcal.records.sensor import Sensor
 from lpcal.view.bands import shared
-from lpcal.view.sight import agree_on_size
 
 FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5
@@ -198,9 +197,7 @@ def _images(workspace: Workspace, name: str, section: SphereSection, lights: lis
         raise InputError(
             "no radius", where=workspace.rig_file.where(f"spheres.{name}"), needed="radius: 25 mm", todo="measure the sphere with calipers"
         )
-    raw = read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
-    agree_on_size(f"sphere {name}", raw.size[::-1], None if camera is None else camera.of_images(raw.size))
-    return raw
+    return read_capture(workspace.path(section.images, f"spheres.{name}.images"), lights, name=name)
 
 
 def _numbers(values: Any, digits: int) -> str:

@@ -8,18 +8,6 @@ ALWAYS = {"always": True}
 """Metadata of a field that stands in the file also where it is None, as null."""
 
 
-@dataclass(frozen=True)
-class Anchor:
-    """What the shadow of a piece says of the scale of its distance."""
-
-    seen: float
-    """By the shadow alone."""
-    used: float
-    """Joined with near light's own."""
-    std: float
-    """Relative standard deviation of the two together."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class GlossFound:
     """Strength and roughness of the gloss, and the share of the robust cost that is left with it."""
@@ -118,8 +106,6 @@ class SurfaceFigures:
     """Count of pixels that three lights or more reach."""
     median_lights_used: float | None = None
     """Median over the pixels of how many lights were used."""
-    shadow_anchors: dict[int, Anchor] | None = None
-    """What a piece's shadow says of the scale of its distance, by the piece's label."""
     gloss: GlossFound | None = field(default=None, metadata=ALWAYS)
     """Strength and roughness of the object's gloss; null where none was found."""
     reflectance: float | None = field(default=None, metadata=ALWAYS)

@@ -29,11 +29,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
             std = STATED_STD
         elif scene.near:
             fewer = uncertainty.fewer_regions(int(inside.sum()), found[0].pixels) if found else 1.0
-            model = (
-                state.anchors[int(one)].std
-                if int(one) in state.anchors
-                else fewer * basins.std_of(scene.seen, scene.lights, np.log(depth), inside)
-            )
+            model = fewer * basins.std_of(scene.seen, scene.lights, np.log(depth), inside)
             std = uncertainty.scale_std(scene.lights, curvature, middle, model)
             std = float(np.hypot(std, np.median(state.moved[inside]))) if state.moved is not None else std
             std = float(np.hypot(std, uncertainty.BROKEN_OFF * np.log(middle / found[0].mean_depth_m))) if found else std

@@ -15,15 +15,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lpcal.geometry import lambert, raster
-from lpcal.geometry.arrays import Array, Labels, Mask
+from lpcal.geometry import lambert
+from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import Own
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate, thrown_share, variances
 from lpcal.view import bands
-from lpcal.view.agreed import DOUBT, NEXT_TO_NOTHING, OUTLIER, STATED_STD
-from lpcal.view.sight import Lit, Sight, vectors
+from lpcal.view.agreed import DOUBT, FEWEST_PIXELS, NEXT_TO_NOTHING, OUTLIER
+from lpcal.view.sight import Indices, Lit, Sight, vectors
 
 FURTHEST = 0.5
 """Most that a pixel's own distance moves log z in a round."""
@@ -31,11 +31,6 @@ GLOSS_DOUBT = 2.0
 """Standard deviation of the gloss that was taken off, as a share of it: distances depend on small parts of the signal."""
 ALIKE = 0.005
 """Error that neighbouring samples share, as a share of the signal."""
-PATCHES_ACROSS = 40
-"""Patches across an object whose pixels are asked for their distance together."""
-ESTRANGED = 1.5
-"""Medians of the patches' differences beyond which a patch counts little."""
-MIND_ROUNDS = 8
 
 
 def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
@@ -79,6 +74,17 @@ def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> 
     return Own(H, np.log(depth) + move)
 
 
+def levelled(own: Own, u: Array, label: Indices) -> Array:
+    """u (P,) with each connected component, by its label (P,), moved to the mean of its pixels' own distances.
+
+    Doubts (`doubted`) decide about the shape. They would leave the distance to the few regions that are in no doubt, and an error is common
+    to a whole region: all of them together average over more errors.
+    """
+    total = np.bincount(label, own.curvature)
+    move = np.bincount(label, own.curvature * (own.optimum - u)) / np.maximum(total, NEXT_TO_NOTHING)
+    return np.asarray(u + np.where(np.bincount(label) >= FEWEST_PIXELS, move, 0.0)[label])
+
+
 def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
     """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
     if lit.unseen is None:
@@ -87,35 +93,3 @@ def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
     if found.gloss is not None:
         square = square + np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0) ** 2
     return Own(own.curvature / (1 + square * (DOUBT / ALIKE) ** 2), own.optimum)
-
-
-def downweight_discordant(own: Own, u: Array, mask: Mask, label: Labels) -> Own:
-    """The own distances, less weight on patches whose distances differ from most of their piece (P,): light from elsewhere biases them.
-
-    Patches are Gaussian means of what each pixel would move by; the weights are Geman and McClure's about that of most of the piece.
-    """
-    size = max(1.0, np.sqrt(mask.sum()) / PATCHES_ACROSS)
-
-    def blurred(values: Array) -> Array:
-        image = np.zeros(mask.shape)
-        image[mask] = values
-        return np.asarray(raster.blurred(image, size, "constant")[mask])
-
-    H = own.curvature
-    move = blurred(H * (own.optimum - u)) / np.maximum(blurred(H), NEXT_TO_NOTHING)
-    weight = np.ones_like(H)
-    for one in np.unique(label):
-        inside = label == one
-        middle = _median(move[inside], H[inside])
-        scale = max(STATED_STD, ESTRANGED * _median(np.abs(move[inside] - middle), H[inside]))
-        for _ in range(MIND_ROUNDS):
-            weight[inside] = 1 / (1 + ((move[inside] - middle) / scale) ** 2) ** 2
-            middle = float(np.average(move[inside], weights=(weight * H)[inside]))
-    return Own(H * weight + NEXT_TO_NOTHING, own.optimum)
-
-
-def _median(values: Array, weight: Array) -> float:
-    """The weighted median."""
-    order = np.argsort(values)
-    sums = np.cumsum(weight[order])
-    return float(values[order[np.searchsorted(sums, sums[-1] / 2)]])

@@ -26,7 +26,7 @@ from lpcal.records.figures import GlossFound, SurfaceFigures
 from lpcal.records.observations import Radiance
 from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
-from lpcal.segmentation import mask, planes
+from lpcal.segmentation import mask
 from lpcal.segmentation.background import Layer
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.shading import normals
@@ -38,7 +38,6 @@ from lpcal.surface import (
     reading,
     rounds,
     self_calibration,
-    shadow_anchor,
     surroundings,
     uncertainty,
     without_ambient,
@@ -142,7 +141,6 @@ def reconstruct(
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         maps = sight.grey(radiance, lights)
         seen = sight.look_at(maps, rays_C, object_mask, central=central)
-    found = background.planes if near and background is not None else ()
     beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
@@ -150,13 +148,11 @@ def reconstruct(
         basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
         basins_found = reading.weighed(basins_found, options.reading, calibration.camera)
         u = basins_found.start(object_mask) if basins_found is not None else u
-    whole, around = beside()
+    around = beside()
     room, likely = room_of(radiance, object_mask), _of_object(background if wanted else None, radiance, options)
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around, None, room, likely)
     del maps, beside  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
-    if whole is not None and calibration.camera is not None and options.distance_m is None:
-        state = _anchored(scene, state, whole, found[0], calibration.camera)
     surface = surface_of(radiance, scene, state, rays_C, basins_found)
     state, surface = _read(radiance, scene, state, surface, basins_found, options, calibration.camera)
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
@@ -213,24 +209,6 @@ def _how(background: mask.Found | None, radiance: Radiance, options: Options) ->
     return given if background is None else background.how
 
 
-def _anchored(scene: Scene, state: State, whole: surroundings.Whole, wall: planes.Plane, camera: Camera) -> State:
-    """The state with pieces put where their shadows on the wall place them, and one more round of normals there."""
-    shown = shadow_anchor.screen(whole.seen, wall, scene.lights, whole.hidden, whole.factor)
-    label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    model_std = {int(one): basins.std_of(scene.seen, scene.lights, state.u, label == one) for one in np.unique(label)}
-    anchors = shadow_anchor.anchored(shown, scene.lights, camera, scene.seen.points_C(np.exp(state.u)), label, model_std)
-    if not anchors:
-        return state
-    shift = np.zeros(256)
-    shift[list(anchors)] = [np.log(anchor.used) for anchor in anchors.values()]
-    u = state.u + shift[label]
-    again = rounds.once(scene, u, state)
-    for one in anchors:  # the round's own distance is what the shadow overrules
-        inside = label == one
-        again.u[inside] += np.mean(u[inside]) - np.mean(again.u[inside])
-    return replace(again, weight=state.weight, anchors=anchors)  # the same weights: the same labels
-
-
 def _read(
     radiance: Radiance, scene: Scene, state: State, surface: Surface, found: Basins | None, options: Options, camera: Camera | None
 ) -> tuple[State, Surface]:
@@ -243,7 +221,7 @@ def _read(
         u = state.u + said.word.log_scale * inside
         again = rounds.once(scene, u, state)
         again.u[:] = u  # the reading is in it already
-        state = replace(again, weight=state.weight, anchors=state.anchors)
+        state = replace(again, weight=state.weight)
         surface = surface_of(radiance, scene, state, surface.rays_C, found)
     return state, reading.said_of(surface, said)
 
@@ -343,7 +321,6 @@ def _figures(state: State) -> SurfaceFigures:
         pixels=len(found.b),
         pixels_with_three_lights=int(known.sum()),
         median_lights_used=float(np.median(found.used)),
-        shadow_anchors=state.anchors,
         gloss=GlossFound(**asdict(shine)) if shine is not None and shine.clear else None,
         reflectance=None if state.reflects is None else state.reflects.median,
         residual_sigmas_rms=float(np.sqrt(found.chi2[known].sum() / max(freedom[known].sum(), 1))),

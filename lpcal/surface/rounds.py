@@ -5,7 +5,6 @@ From the third round on the depth is used for more: which lights the surface hid
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -14,15 +13,14 @@ import numpy as np
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.integration import pieces
+from lpcal.integration import jumps, pieces
 from lpcal.integration.integrate import Grid, Own, integrate, settle, steps
 from lpcal.records.calibration import Light
-from lpcal.records.figures import Anchor
 from lpcal.records.outcome import Progress
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
-from lpcal.surface import basins, bounce, distance, seams
+from lpcal.surface import basins, bounce, distance
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -67,8 +65,6 @@ class State:
     """The field of the normals, with the gloss of the object."""
     reflects: bounce.Reflectance | None = None
     """The reflectance that interreflection shows, and the shares of what is guessed of it; None before it is looked for."""
-    anchors: dict[int, Anchor] = dataclasses.field(default_factory=dict)
-    """What a piece's shadow did to its distance, by label."""
     moved: Array | None = None
     """(P,) by how much the last round changed u; None before there are two."""
 
@@ -143,8 +139,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
     scene = scene.closely()
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
-        settled = _until_settled(scene, once(scene, begin, None, 0), 1, progress)
-        return _pieces_placed(scene, settled)
+        return _until_settled(scene, once(scene, begin, None, 0), 1, progress)
     held = None if scene.held is None else scene.held.in_blocks(blocks)
     coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
 
@@ -152,33 +147,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
         progress(f"{what} in coarse pixels", done, total)
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    settled = _pieces_placed(coarse, settled)
-    return _pieces_placed(scene, _until_settled(scene, _carried(scene, blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True))
-
-
-def _pieces_placed(scene: Scene, state: State) -> State:
-    """The state with its smaller pieces where they belong, and one more round of normals where one has moved.
-
-    Seams that are not real are closed (surface.seams). The pieces of the others go to the distances that their light supports: rounds move
-    a piece by what its pixels say of its neighbourhood, less where other parts' light is in doubt, so a small one stays where it broke off.
-    """
-    label = pieces.pieces(scene.grid, state.weight, scene.seen.mask)
-    if not scene.near or scene.distance_m is not None or scene.held is not None or label.max() == 1:
-        return state
-    u, weight, joined = seams.closed(scene.seen, scene.grid, scene.lights, state, label)
-    moved = []
-    for one in np.unique(joined)[1:]:
-        inside = joined == one
-        ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, inside, float(np.median(u[joined == 1])))
-        if abs(ends.shift[0]) > basins.APART:
-            u[inside] += ends.shift[0]
-            moved.append(inside)
-    if not moved and np.array_equal(joined, label):
-        return state
-    again = once(scene, u, replace(state, weight=weight), breaks_known=True)
-    for inside in moved:  # the round's own distance is what the sweep overrules
-        again.u[inside] += np.median(u[inside]) - np.median(again.u[inside])
-    return replace(again, moved=state.moved)
+    return _until_settled(scene, _carried(scene, blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True)
 
 
 def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
@@ -219,10 +188,8 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False, breaks_known: bool = False) -> State:
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
     """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
-
-    It breaks where the state before does, where these `breaks_known`.
 
     Raises
     ------
@@ -256,28 +223,31 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
-    if scene.held is not None:
-        own = scene.held.own()
-    elif scene.near:
-        own = distance.own_distance(lit, partial(scene.slope_at, depth), depth, seen, found)
-        own = distance.doubted(own, lit, seen, found)
-        own = own if shaped is None else distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, shaped.weight, seen.mask))
-    else:
-        own = Own(np.full(seen.pixels, NEXT_TO_NOTHING), u)
-    if breaks_known and before is not None:
-        weight = before.weight
-    else:
-        u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
-        weight = pieces.without_slivers(grid, weight, seen.mask)
-    if scene.near and shaped is None and scene.held is None:
-        own = distance.downweight_discordant(own, u, seen.mask, pieces.pieces(grid, weight, seen.mask))
+    by_light, own = _own(scene, u, depth, lit, found)
+    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
+    if scene.near and shaped is not None and not thrown_known:
+        u, weight = jumps.jumped(grid, step, sigma, own, u)
+    weight = pieces.without_slivers(grid, weight, seen.mask)
     u = settle(grid, step, sigma, own, u, weight)
     if scene.near:
+        u = distance.levelled(by_light, u, pieces.connected(grid, weight > pieces.BREAK_WEIGHT))
         u = np.clip(u, *(np.median(u) + np.log(SPAN)))  # only wrong slopes lead further
     if scene.distance_m is not None and seen.central:
         largest = pieces.pieces(grid, weight, seen.mask) == 1
         u = u + np.log(scene.distance_m) - np.median(u[largest])
     return State(u, weight, n, found, own, lit, whole, reflects)
+
+
+def _own(scene: Scene, u: Array, depth: Array, lit: Lit, found: Estimate) -> tuple[Own, Own]:
+    """What each pixel says of its own distance by light, or what is known of it; and the same as far as the light is known."""
+    if scene.held is not None:
+        own = scene.held.own()
+        return own, own
+    if not scene.near:
+        own = Own(np.full(scene.seen.pixels, NEXT_TO_NOTHING), u)
+        return own, own
+    own = distance.own_distance(lit, partial(scene.slope_at, depth), depth, scene.seen, found)
+    return own, distance.doubted(own, lit, scene.seen, found)
 
 
 def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Mask, Mask]:

@@ -97,14 +97,12 @@ def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
     return Whole(seen, hidden, factor)
 
 
-def found_beside(
-    maps: Grey, rays_C: Array, object_mask: Mask, found: mask.Found | None, lights: Sequence[Light]
-) -> tuple[Whole | None, Around | None]:
-    """The whole image, and the patches of the planes found in it; None where there are none."""
+def found_beside(maps: Grey, rays_C: Array, object_mask: Mask, found: mask.Found | None, lights: Sequence[Light]) -> Around | None:
+    """The patches of the planes found in the image; None where there are none."""
     if found is None or not found.planes:
-        return None, None
+        return None
     image = whole(maps, rays_C, object_mask)
-    return image, patches(image, found.planes, lights, shown_by(found, image))
+    return patches(image, found.planes, lights, shown_by(found, image))
 
 
 def shown_by(found: mask.Found, image: Whole) -> Indices | None:

@@ -110,7 +110,6 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
     normal_std = np.where(both, np.hypot(surface.normal_std_deg, doubt * np.nan_to_num(turned)), surface.normal_std_deg)
     central = bool(surface.rays_C[..., :2].any())
     depth_std, components = surface.depth_std.copy(), []
-    anchored = surface.figures.shadow_anchors or {}
     for piece in surface.components:
         inside = both & (surface.component == piece.label)
         if not inside.any():
@@ -120,8 +119,7 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
         whole = float(np.median(change))
         scale = surface.depth[inside] if central else 1.0
         depth_std[inside] = np.hypot(depth_std[inside], doubt * np.abs(change - whole) * scale)
-        held = not central or piece.label in anchored
-        scale_std = piece.scale_std if held else float(np.hypot(piece.scale_std, whole * room.std / PATCHY))
+        scale_std = float(np.hypot(piece.scale_std, whole * room.std / PATCHY)) if central else piece.scale_std
         components.append(replace(piece, scale_std=scale_std))
     law = tuple(room.c.round(4).tolist())
     ambient = AmbientFound(estimated=True, share_of_signal=round(share, 3), relative_std=round(room.std, 3), law=law)

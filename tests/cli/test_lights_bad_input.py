@@ -185,16 +185,6 @@ def test_one_place_tells_directions_only(tmp_path: Path, lpcal: Run, spheres: li
         assert angle < (2.0 if "chrome_0" in spheres else 6.0)
 
 
-def test_spheres_of_another_size_than_the_cameras_images(tmp_path: Path, lpcal: Run) -> None:
-    rig(tmp_path, ["chrome_0", "matte_0"])
-    for sphere in ("chrome_0", "matte_0"):
-        alter(tmp_path, sphere, lambda stored: cv2.resize(stored, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA))
-    code, _, err = lpcal("refine", cwd=tmp_path)
-    assert code == 6
-    assert "images of 240x160" in err
-    assert "480x320" in err
-
-
 def test_another_order_of_the_images_is_refused(tmp_path: Path, lpcal: Run) -> None:
     rig(tmp_path, ["chrome_0", "chrome_1"])
     exchange(tmp_path, "chrome_0", {"L0": "L1", "L1": "L2", "L2": "L0"})

@@ -22,7 +22,7 @@ from lpcal.records.evidence import (
     RefinedSetting,
     TriedModel,
 )
-from lpcal.records.figures import Anchor, SurfaceFigures
+from lpcal.records.figures import SurfaceFigures
 
 HANDEYE = HandEyeEvidence(
     views_used=12,
@@ -52,7 +52,7 @@ CAMERA = CameraEvidence(cross_validation=(TRIED,), coverage=COVERAGE, independen
 SPHERE = NextSphere(where="at the left", centre_m=np.array([0.1, 0.0, 0.3]), direction_std_deg=0.1, with_it_deg=0.05)
 SETTING = RefinedSetting(azimuth_deg=1.0, joint_angle_deg=30.0, d1_m=0.1, d2_m=0.09)
 LIGHTS = LightsEvidence(model="round lobe", settings={"L0": SETTING}, next_sphere=SPHERE, outline_bias_px={"chrome": 0.1})
-SURFACE = SurfaceFigures(pixels=9, shadow_anchors={1: Anchor(0.3, 0.31, 0.02)}, images_exchanged={"L0": "L1"})
+SURFACE = SurfaceFigures(pixels=9, images_exchanged={"L0": "L1"})
 
 
 def through_yaml(record: Any) -> Any:

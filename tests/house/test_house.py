@@ -21,7 +21,7 @@ MODULES = sorted((REPOSITORY / "lpcal").rglob("*.py"))
 MODULE_LINES, FUNCTION_LINES = 400, 60
 SURFACE_MODULES = 20
 """Modules of the surface stage beside its ``__init__``."""
-SURFACE_CONSTANTS = 251
+SURFACE_CONSTANTS = 246
 """Numeric constants of the surface stage and what it stands on at most, by tools/surface_constants.py; 60 would do."""
 MOST_SINGLE = 20.0
 """Per cent of the lines that may stand in modules that exactly one other module imports."""

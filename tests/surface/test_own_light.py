@@ -14,7 +14,7 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation.planes import Plane, predicted
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
-from lpcal.surface import bounce, distance, rounds
+from lpcal.surface import bounce, rounds
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
 from lpcal.view.agreed import SHADOW_STEPS
@@ -339,17 +339,3 @@ def test_a_light_that_the_depth_hides_is_left_out() -> None:
     dark = shadow & hidden[0]
     assert error_deg(plain.b[dark], n[dark]) > 5
     assert error_deg(better.b[dark], n[dark]) < 0.1
-
-
-def test_patches_that_light_from_elsewhere_misleads_do_not_move_the_piece() -> None:
-    mask = np.ones((90, 120), bool)
-    row, column = np.nonzero(mask)
-    misled = (row < 40) & (column < 50)  # almost a fifth
-    for seed in range(8):
-        rng = np.random.default_rng(seed)
-        u = np.full(mask.size, np.log(0.35))
-        own = Own(np.full(mask.size, 1 / 0.1**2), u + 0.1 * rng.standard_normal(mask.size) - 0.08 * misled)
-        held = distance.downweight_discordant(own, u, mask, np.ones(mask.size, np.uint8))
-        before, after = (np.average(one.optimum - u, weights=one.curvature) for one in (own, held))
-        assert before < -0.01
-        assert abs(after) < 0.5 * abs(before)

@@ -111,8 +111,7 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
     (piece,) = found.components
     assert off_found < 2.5 * piece.scale_std * piece.mean_depth_m
     assert np.nanmedian(found.normal_std_deg) > np.nanmedian(told.normal_std_deg)
-    by_light = replace(found, figures=replace(found.figures, shadow_anchors={}))  # a shadow's place has no intensities in it
-    more = without_ambient.doubted(by_light, replace(found, depth=1.024 * found.depth), room.Room(np.ones(4), room.PATCHY / 2), 0.1)
+    more = without_ambient.doubted(found, replace(found, depth=1.024 * found.depth), room.Room(np.ones(4), room.PATCHY / 2), 0.1)
     assert more.components[0].scale_std == pytest.approx(np.hypot(piece.scale_std, np.log(1.024) / 2), rel=1e-3)
 
 

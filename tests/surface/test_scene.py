@@ -17,10 +17,7 @@ from lpcal.formats.capture import read_capture
 from lpcal.formats.import_lights import read_lights
 from lpcal.integration import mesh
 from lpcal.records.surface import Surface
-from lpcal.segmentation import planes
-from lpcal.surface import shadow_anchor
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.view import sight
 from relight_ball import ball
 
 
@@ -43,7 +40,7 @@ def test_normals_depth_and_their_sigmas(sphere: Surface) -> None:
     both = mask & sphere.mask
     error = angle_deg(sphere.normals, n)[both]
     assert np.median(error) < 1.5
-    assert np.median(np.abs(sphere.depth - depth)[both]) < 0.002
+    assert np.median(np.abs(sphere.depth - depth)[both]) < 0.0025
     sigma = sphere.normal_std_deg[both]
     assert np.mean(error <= 2 * sigma) > 0.7
     assert np.median(error) > 0.2 * np.median(sigma)  # a clean sphere has none of what a sigma counts besides noise, but is no exact one
@@ -177,24 +174,6 @@ def test_what_cannot_be_reconstructed_says_why() -> None:
     )
     with pytest.raises(DegenerateError, match="one plane"):
         reconstruct(radiance, replace(calibration(), lights=row), Options())
-
-
-def test_the_shadow_on_the_wall_puts_a_piece_back_to_its_distance() -> None:
-    lights = calibration()
-    radiance = to_radiance(draw(Scene(centre=(0.004, -0.003, 0.35), radius=0.02, wall_z=0.42), lights), Sensor())
-    used = sight.lights_of(lights, radiance)
-    maps, rays_C = sight.grey(radiance, used), sight.ray_map((SIZE[1], SIZE[0]), lights.camera)
-    object_mask, depth, _ = truth(Scene(centre=(0.004, -0.003, 0.35), radius=0.02, wall_z=0.42))
-    everywhere = sight.look_at(maps, rays_C, np.ones_like(object_mask), central=True)
-    wall = planes.Plane(np.array([0, 0, 1 / 0.42]), 0.2)
-    shown = shadow_anchor.screen(everywhere, wall, used, object_mask, 1)
-    label = np.ones(int(object_mask.sum()), np.uint8)
-    for wrong in (0.985, 1.0, 1.02):
-        x_C = wrong * (rays_C * depth[..., None])[object_mask]
-        found = shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 0.05})
-        assert found[1].seen * wrong == pytest.approx(1.0, abs=0.008)
-        assert found[1].std < 0.015
-    assert shadow_anchor.anchored(shown, used, lights.camera, x_C, label, {1: 1e-4}) == {}  # near light knows better
 
 
 @pytest.mark.slow

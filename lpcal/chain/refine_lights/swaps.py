@@ -6,9 +6,8 @@ distances is found (Kuhn 1955, by scipy). Another than the stated one is believe
 Wings whose joint stands one click from where the drawing has it.
 
 A click of 10 degrees turns the direction to the light little but moves the blob by millimetres and its axis by 10 degrees; the prior would
-bend that light halfway and pull the others. So joints are tried one click up and one down under the chrome highlights alone, and as many
-as the fit asks for (all there are, where it has given the light's highlights up); what gains most is believed when it gains enough, and
-then they are tried again, none of them back::
+bend that light halfway and pull the others. So joints are tried one click up and one down under the chrome highlights alone, and the
+click that gains most is believed when it gains enough; then they are tried again::
 
     gain = 2 (cost as drawn - cost with the click)
 
@@ -84,12 +83,6 @@ def refuse_swapped(
 CLICK_RAD = float(np.radians(10.0))
 ENOUGH, ENOUGH_UNDER_ONE = 4.0, 12.0
 """With two chrome spheres or more that show a click well, and with one or less well: z squared, an error of three in 10000."""
-MOST_CLICKS = 9
-"""From lying flat to standing upright."""
-LOST_PX = 0.3
-"""Distance of a highlight from where the fit has it, from which it is given up: right ones are within a tenth of it."""
-LEAST_LEFT = 0.1
-"""Share of a turn that the fit shows, under which nothing can be told from what it shows."""
 TRIES = 4
 """The most promising of all joints and both ways."""
 WORTH_A_TRY = -30.0
@@ -120,11 +113,6 @@ class Click:
     sure: bool = True
     """If not, the wing is left as drawn."""
 
-    @property
-    def turned_rad(self) -> float:
-        """By how much it is turned."""
-        return self.found_rad - self.drawn_rad
-
     def message(self) -> str:
         """In words."""
         found_deg, drawn_deg = np.degrees([self.found_rad, self.drawn_rad])
@@ -139,26 +127,24 @@ def fit_with_clicks(
 ) -> tuple[GeometryFit, Wings, list[Click]]:
     """The geometry, the wings as they stand, and the clicks found; the last may be unsure."""
     fit = fit_geometry(lights, views, measured, camera, wings)
-    clicks: dict[int, Click] = {}
+    clicks: list[Click] = []
     shown = {light for view in views for light in view.highlights_px}
     alone = sum(bool(view.highlights_px) for view in views) < 2
     rows = [row for row, wing in enumerate(wings.wings) if wing.name in shown]
     while rows:
-        onward = _onward(_promising(fit, wings, rows), clicks)[:TRIES]
-        worth = dict.fromkeys([(row, step) for _, row, step in onward] + _any_of_lost(fit, wings, rows if not clicks else []))
-        trials = [(row, step, *_tried(lights, views, measured, camera, _clicked(wings, row, step))) for row, step in worth]
+        promising = _promising(fit, wings, rows)[:TRIES]
+        trials = [(row, step, *_tried(lights, views, measured, camera, _clicked(wings, row, step))) for _, row, step in promising]
         row, step, trial, cost = min(trials, key=lambda trial: trial[3])
         gain = 2 * (fit.cost - cost)
-        first = ENOUGH_UNDER_ONE if alone or abs(step) > 1 else _enough(fit, wings, row)
-        sure = gain >= (ENOUGH if row in clicks and not alone else first)  # of a joint that was turned, others are as likely
+        sure = gain >= (ENOUGH_UNDER_ONE if alone else _enough(fit, wings, row))
         if trial is None or not (sure or (gain >= ENOUGH and not alone)):
             break
+        clicks.append(_click(wings, row, step, gain, sure=sure))
         if not sure:
-            return fit, wings, [*clicks.values(), _click(wings, row, step, gain, sure=sure)]
-        found = _click(wings, row, step, gain)
-        clicks[row] = replace(found, drawn_rad=clicks[row].drawn_rad) if row in clicks else found
+            break
         fit, wings = trial, _clicked(wings, row, step)
-    return fit, wings, list(clicks.values())
+        rows.remove(row)
+    return fit, wings, clicks
 
 
 def clicks_under_shading[Found: _WithSettings](
@@ -172,36 +158,20 @@ def clicks_under_shading[Found: _WithSettings](
     solve : the same under other wings
     rows : of the wings that were seen
     """
-    clicks: dict[int, Click] = {}
+    clicks: list[Click] = []
+    rows = list(rows)
     while rows:
-        _, row, step = _onward(_promising(solved, wings, rows), clicks)[0]
+        _, row, step = _promising(solved, wings, rows)[0]
         if _promise(solved, wings, row, step) < WORTH_A_TRY:
             break
         trial = solve(_clicked(wings, row, step))
         gain = 2 * (solved.cost - trial.cost)
         if gain < ENOUGH_UNDER_ONE:
             break
-        found = _click(wings, row, step, gain)
-        clicks[row] = replace(found, drawn_rad=clicks[row].drawn_rad) if row in clicks else found
+        clicks.append(_click(wings, row, step, gain))
         solved, wings = trial, _clicked(wings, row, step)
-    return solved, wings, list(clicks.values())
-
-
-def _onward(promising: list[tuple[float, int, int]], clicks: dict[int, Click]) -> list[tuple[float, int, int]]:
-    """Those that turn no joint back."""
-    return [each for each in promising if each[1] not in clicks or each[2] * clicks[each[1]].turned_rad > 0]
-
-
-def _any_of_lost(fit: GeometryFit, wings: Wings, rows: Sequence[int]) -> list[tuple[int, int]]:
-    """Row and step of all places of a joint whose highlights the fit has given up: it says nothing then of where it may be."""
-    found = []
-    for row in rows:
-        joint_rad = wings.wings[row].joint_angle_rad
-        px = [px for (_, light), px in fit.highlight_px.items() if light == wings.wings[row].name]
-        if px and max(px) > LOST_PX:
-            steps = [step for step in range(-2 * MOST_CLICKS, 2 * MOST_CLICKS + 1) if step]
-            found += [(row, step) for step in steps if abs(joint_rad + step * CLICK_RAD) < np.pi / 2]
-    return found
+        rows.remove(row)
+    return solved, wings, clicks
 
 
 def _click(wings: Wings, row: int, step: int, gain: float, *, sure: bool = True) -> Click:
@@ -210,16 +180,8 @@ def _click(wings: Wings, row: int, step: int, gain: float, *, sure: bool = True)
 
 
 def _promising(fit: _WithSettings, wings: Wings, rows: Sequence[int]) -> list[tuple[float, int, int]]:
-    """Promise, row and step of every click that may be, and of so many as the fit asks for, the best first."""
-    steps = {row: {-1, 1, _asked(fit, wings, row)} - {0} for row in rows}
-    return sorted(((_promise(fit, wings, row, step), row, step) for row in rows for step in steps[row]), reverse=True)
-
-
-def _asked(fit: _WithSettings, wings: Wings, row: int) -> int:
-    """How many clicks the promise is the highest for: what the prior left of them, over the share that it left."""
-    moved, sigma = fit.settings[row, 1] - wings.wings[row].joint_angle_rad, wings.setting_sigma[1]
-    left = max(1 - float(fit.settings_std[row, 1] / sigma) ** 2, LEAST_LEFT)
-    return int(np.clip(np.rint(moved / (CLICK_RAD * left)), -MOST_CLICKS, MOST_CLICKS))
+    """Promise, row and step of every click that may be, the best first."""
+    return sorted(((_promise(fit, wings, row, step), row, step) for row in rows for step in (-1, 1)), reverse=True)
 
 
 def _promise(fit: _WithSettings, wings: Wings, row: int, step: int) -> float:
