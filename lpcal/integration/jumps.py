@@ -24,7 +24,7 @@ from lpcal.integration import cuts
 from lpcal.integration.integrate import Grid, Own, scale_of, settle, weights_of
 from lpcal.integration.pieces import BREAK_WEIGHT
 
-QUANTILES = (0.1, 0.3, 0.5, 0.7, 0.9)
+QUANTILES = (0.2, 0.5, 0.8)
 """Those of the jumps at the present breaks that are tried: they say by how much parts of the surface may be off."""
 SETTLES = 4
 """Times that weights and depth are computed after jumps, which leaves a thousandth of what mended edges have still to give."""
