@@ -257,7 +257,9 @@ def test_what_cannot_be_compared(lpcal: Run, rig: Path) -> None:
     solved(lpcal, rig)
     code, _, err = lpcal("intrinsics", "--rig", rig, "--compare", rig / "none.yaml")
     assert (code, "no such camera file" in err) == (3, True)
-    (rig / "big.cameramodel").write_text("{'lensmodel': 'LENSMODEL_PINHOLE', 'intrinsics': [900, 900, 511, 383], 'imagersize': [1024, 768]}")
+    (rig / "big.cameramodel").write_text(
+        "{'lensmodel': 'LENSMODEL_PINHOLE', 'intrinsics': [900, 900, 511, 383], 'imagersize': [1024, 768]}"
+    )
     code, _, err = lpcal("intrinsics", "--rig", rig, "--compare", rig / "big.cameramodel")
     assert (code, "1024x768" in err) == (6, True)
     assert lpcal("intrinsics", "one.png", "--rig", rig, "--compare", rig / "big.cameramodel")[0] == 2
