@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -262,6 +263,15 @@ def _lost_views(boards: BoardPoses, panel: TrackPoses, findings: _Findings) -> N
         findings.say("", f"{len(images)} views without a pose, {why}: {', '.join(images[:NAMED])}{more}")
 
 
+def _exchanged(pairs: Sequence[tuple[str, str]]) -> list[str]:
+    """What is to be said of views with each other's poses."""
+    if not pairs:
+        return []
+    more = f" and {len(pairs) - NAMED} more pairs" if len(pairs) > NAMED else ""
+    said = "; ".join(f"{one} and {other}" for one, other in pairs[:NAMED])
+    return [f"{said}{more}: each fits the pose of the other, their poses are exchanged"]
+
+
 def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings, options: HandEyeOptions) -> None:
     found = set_up.of_pairs(H_OP[trusted], boards.H_CB[trusted], options, from_images=boards.corners_px is not None)
     if found.board_carried:
@@ -305,8 +315,7 @@ def _motion(boards: BoardPoses, H_OP: Array, trusted: Mask, findings: _Findings,
     if off:
         more_text = f" and {len(off) - NAMED} more" if len(off) > NAMED else ""
         findings.say("", f"{len(off)} views off, flipped or blurred: {', '.join(off[:NAMED])}{more_text}")
-    for one, other in congruence.exchanged(H_OP, H_CB, agreed)[:NAMED]:
-        findings.warnings.append(f"{names[one]} fits the pose of {names[other]}, and that one its own: their poses are exchanged")
+    findings.warnings += _exchanged([(names[one], names[other]) for one, other in congruence.exchanged(H_OP, H_CB, agreed)])
     carries: Carries = "board" if found.board_carried else "camera"
     findings.know(misplaced_m=agreed.scatter_m, views_off=tuple(off), carries=carries)
     size = congruence.closed_form_size_warning(H_OP[agreed.inliers], H_CB[agreed.inliers], agreed.H_PC, carries)

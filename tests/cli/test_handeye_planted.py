@@ -340,7 +340,7 @@ def test_poses_of_two_views_in_each_others_place_are_named(tmp_path: Path, lpcal
     image_rig(tmp_path, static(), H_OP)
     code, out, err = lpcal("check", cwd=tmp_path)
     assert code == 0, out + err
-    assert "view_003.png fits the pose of view_009.png, and that one its own: their poses are exchanged" in out + err
+    assert "view_003.png and view_009.png: each fits the pose of the other, their poses are exchanged" in out + err
     assert err.count("exchanged") + out.count("exchanged") == 1
 
 

@@ -96,8 +96,8 @@ def test_it_imports_only_what_it_uses(rig: Path, quick: Path) -> None:
     )
     ended = subprocess.run([sys.executable, "-c", program], cwd=rig, capture_output=True, text=True, check=True)
     imported = ended.stdout.rpartition("imported: ")[2].split()
-    assert {"numpy", "tifffile"} <= set(imported)
-    unused = {"matplotlib", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "trimesh", "networkx"}
+    assert "numpy" in imported
+    unused = {"matplotlib", "tifffile", "casadi", "pycolmap", "mrcal", "reportlab", "ezc3d", "rosbags", "trimesh", "networkx"}
     unused |= {"scipy"} if kernel("joined") else set()  # it does what no kernel does
     assert not unused & set(imported)
 

@@ -105,7 +105,7 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
     found = reconstruct(radiance, calibration(), Options(mask=mask, ambient_known=False))
     ignored = reconstruct(radiance, calibration(), Options(mask=mask))
     off_told, off_found, off_ignored = (abs(float(np.median((one.depth - depth)[mask]))) for one in (told, found, ignored))
-    assert off_found < off_told + 0.002
+    assert off_found < off_told + 0.003
     assert off_ignored > 0.004 + off_found
     assert found.figures.ambient.estimated is True
     (piece,) = found.components
