@@ -30,8 +30,7 @@ from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
 from lpcal.view import sight
 from lpcal.view.agreed import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS, OUTLIER, OUTLIER2, RARE, SHADOW
-
-type Indices = npt.NDArray[np.int64]
+from lpcal.view.sight import Indices
 
 LIGHTS_NEEDED = 4
 """Lights from which a pixel's signals can contradict them."""
@@ -142,7 +141,7 @@ def better(radiance: Radiance, lights: Sequence[Light], camera: Camera | None, m
     picture = _Picture.of(radiance, lights, camera, mask, near=near)
     if picture is None:
         return None
-    fronts_m = _fronts_m(lights) if near else np.ones(1)
+    fronts_m = sight.fronts_m(lights, SPAN, STEPS) if near else np.ones(1)
     arrangements = _arrangements(len(lights), picture.turns if near else [])
     costs = [cost.mean() for cost in picture.some(4 * FEWEST_PIXELS).costs(arrangements, lights, fronts_m)]
     liked = [arrangements[k] for k in np.argsort(costs, kind="stable")[:SEVERAL] if costs[k] < costs[0]]
@@ -157,13 +156,6 @@ def better(radiance: Radiance, lights: Sequence[Light], camera: Camera | None, m
     alike = [k for k in better_ones if k == best or picture.standard_errors(others[k] - others[best]) < OUTLIER]
     first, *rest = sorted(alike, key=lambda k: arrangements.index(liked[k]))  # those that happen more often come first
     return Rearranged(liked[first], t[best], tuple(liked[k] for k in rest))
-
-
-def _fronts_m(lights: Sequence[Light]) -> Array:
-    """Distances (N,) of the fronts that are tried."""
-    sources_C = np.stack([light.source_C for light in lights if light.source_C is not None])
-    spread = np.sqrt(np.mean(np.sum((sources_C - sources_C.mean(axis=0)) ** 2, axis=1)))
-    return np.asarray(max(float(sources_C[:, 2].mean()), 0.0) + spread * np.geomspace(*SPAN, STEPS))
 
 
 def _arrangements(count: int, turns: Sequence[str]) -> list[Arrangement]:

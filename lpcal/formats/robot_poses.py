@@ -56,7 +56,7 @@ NOTHING = ("", "nan", "null", "none", "n/a", "na", "-")
 """Words for no number: a row of them is an image without a pose."""
 NAMED = 3
 FROM_0, FROM_1 = ("q0", "q1", "q2", "q3"), ("q1", "q2", "q3", "q4")
-FEWEST_TOLD = 3
+FEWEST_POSES = 3
 """Poses from which the size of all angles says something."""
 UNIT = re.compile(r"(.*?)(?:_|\s*[\[(]\s*)(m|cm|mm|rad|deg)\s*[\])]?$")
 
@@ -180,8 +180,8 @@ def _made_plain(text: str) -> str:
             rows[first] = f"{header}\n{rows[first]}"
             return "\n".join(rows)
     bare = ["" if line.lstrip().startswith(COMMENTS) else BRACKETS.sub(" ", line).strip().rstrip(",") for line in lines]
-    told = [line for line in bare if line.strip()]
-    if told and any(BRACKETS.search(line) for line in lines) and not re.search(r"[A-DF-Za-df-z]", "".join(told)):
+    filled = [line for line in bare if line.strip()]
+    if filled and any(BRACKETS.search(line) for line in lines) and not re.search(r"[A-DF-Za-df-z]", "".join(filled)):
         return "\n".join(re.sub(r"[\s,]+", " ", line) for line in bare)
     return text
 
@@ -210,7 +210,7 @@ def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated)
     if lacking:
         raise InputError(f"no column for {', '.join(lacking)}", where=f"{path}:{lines[0]}", needed=LAYOUT, todo="name the columns so")
     files: dict[str, int] = {}
-    rows, told, left_out = [], [], []
+    rows, row_lines, left_out = [], [], []
     for row, line in zip(cells[1:], lines[1:], strict=True):
         if len(row) < len(cells[0]):
             raise InputError(f"{len(row)} cells", where=f"{path}:{line}", needed=f"{len(cells[0])}", todo="is the file cut off?")
@@ -228,7 +228,7 @@ def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated)
             )
         files[name] = line
         rows.append(_floats(values, f"{path}:{line}"))
-        told.append(line)
+        row_lines.append(line)
     numbers = np.array(rows).reshape(-1, 3 + len(turn))
     if not rows:
         raise InputError("no rows", where=str(path), needed="a row an image")
@@ -238,7 +238,7 @@ def _table(cells: list[list[str]], lines: list[int], path: Path, stated: Stated)
     if turn[0] == "qx":
         by_number = "q1" in names
         q = numbers[:, [4, 5, 6, 3]] if stated.quaternion == "wxyz" and names["qx"] < names["qw"] and not by_number else numbers[:, 3:]
-        return ImagePoses(se3.transform(_of_quaternions(q, path, told), x), named, notes)
+        return ImagePoses(se3.transform(_of_quaternions(q, path, row_lines), x), named, notes)
     R, said = _rotations(numbers[:, 3:], turn, units.get(turn[0]), stated, f"{path}:{lines[0]}")
     return ImagePoses(se3.transform(R, x), named, (*notes, *said))
 
@@ -316,7 +316,7 @@ def _refuse_radians(v: Array, kind: str, where: str) -> None:
     DisagreementError
         They are.
     """
-    if kind.endswith("_deg") and len(v) >= FEWEST_TOLD and np.abs(v).max() <= np.pi + 1e-3 and np.ptp(v, axis=0).max() > 0:
+    if kind.endswith("_deg") and len(v) >= FEWEST_POSES and np.abs(v).max() <= np.pi + 1e-3 and np.ptp(v, axis=0).max() > 0:
         raise DisagreementError(
             f"angles of {np.abs(v).max():.3g} at most, read as degrees ({kind.replace('_', ' ')})",
             where=where,

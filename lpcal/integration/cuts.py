@@ -11,6 +11,7 @@ from lpcal.kernels.library import kernel
 CENTS = 1e5
 """What a unit of cost is in whole numbers, for a library that counts in these."""
 MOST = 2**31 - 1
+"""Largest of these numbers: the library counts in 32 bits."""
 
 
 def cheapest(grid: Grid, taken: Array, parted: Array) -> Mask:

@@ -337,9 +337,7 @@ BRIGHT = 0.2
 
 def distance_m(maps: sight.Grey, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:
     """The distance along the camera's axis at which the signals fit best, by pixels of the mask, else by bright ones."""
-    sources_C = np.stack([light.source_C for light in lights if light.source_C is not None])
-    spread = float(np.sqrt(np.mean(np.sum((sources_C - sources_C.mean(axis=0)) ** 2, axis=1))))
-    sweep = max(float(sources_C[:, 2].mean()), 0.0) + spread * np.geomspace(*SPAN, STEPS)
+    sweep = sight.fronts_m(lights, SPAN, STEPS)
     brightest = maps.signal.max(axis=0)
     asked = brightest > BRIGHT * np.percentile(brightest, 99) if mask is None or not mask.any() else mask
     seen = sight.look_at(maps, rays_C, asked, central=True)

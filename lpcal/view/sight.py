@@ -255,6 +255,13 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
     return d, E
 
 
+def fronts_m(lights: Sequence[Light], span: tuple[float, float], steps: int) -> Array:
+    """Distances (steps,) along the camera's axis at which flat fronts are tried: from the lights on, `span` in shares of their spread."""
+    sources_C = np.stack([light.source_C for light in lights if light.source_C is not None])
+    spread = float(np.sqrt(np.mean(np.sum((sources_C - sources_C.mean(axis=0)) ** 2, axis=1))))
+    return np.asarray(max(float(sources_C[:, 2].mean()), 0.0) + spread * np.geomspace(*span, steps))
+
+
 def light_slopes(lights: Sequence[Light], x_C: Array) -> Array:
     """How the light vectors (L, P, 3) of points x_C (P, 3) change with the logarithm of their depth along their rays."""
     return np.stack([light.slope(x_C) for light in lights])

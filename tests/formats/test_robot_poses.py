@@ -89,7 +89,7 @@ def test_arrays_in_order(tmp_path: Path, suffix: str, rows: int) -> None:
 def test_arrays_by_name(tmp_path: Path, suffix: str) -> None:
     path, named = tmp_path / f"robot{suffix}", {f"view_{k}.png": H for k, H in enumerate(poses())}
     if suffix == ".npz":
-        np.savez(path, **named)  # type: ignore[arg-type]
+        np.savez(path, allow_pickle=False, **named)
     else:
         path.write_text(json.dumps({name: H.tolist() for name, H in named.items()}))
     found = read_robot_poses(path)
