@@ -58,6 +58,8 @@ class Asked:
     integrator: str
     distance_m: float | None
     reading_m: float | None = None
+    arrangement_stated: bool = False
+    """Whether the images are taken as their names say, whatever they themselves show."""
 
 
 type Solve = Callable[[RawCapture, Calibration, Asked, list[Solved]], Surface]

@@ -1,4 +1,4 @@
-"""Notes on a surface: its distance with what else it may be, and what in it is in doubt."""
+"""Notes on a surface: its distance with what else it may be, what in it is in doubt; and its refusal where no light is known."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from lpcal.detect.radiometry import NO_AMBIENT
+from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image
 from lpcal.integration.convention import hollow, mirrored
@@ -15,6 +16,8 @@ from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.view import bands
 
+OUTSIDE = (0.5, 2.0)
+"""Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
 VAGUE_DEG = 6.0
 """Median doubt of the normals, degrees an axis, from which the lights are asked about: a surface so poorly known is of no use."""
 MASK_IN_DOUBT = 0.02
@@ -22,6 +25,39 @@ MASK_IN_DOUBT = 0.02
 ten wrong masks have them and 8 % of the right ones, of which two of five have an IoU under .95."""
 LEAST_HIT = 0.33
 """Odds of having met the object under which a distance sensor's reading is said to be left out."""
+
+
+def far_stated(stated_m: float | None, calibration: Calibration) -> tuple[str, ...]:
+    """In words, where a stated distance is far out of the working volume, as one in another unit is."""
+    working_m = calibration.d_object_m
+    if stated_m is None or working_m is None or OUTSIDE[0] * working_m < stated_m < OUTSIDE[1] * working_m:
+        return ()
+    return (
+        f"the distance is stated as {1e3 * stated_m:.0f} mm, the lights are calibrated for {1e3 * working_m:.0f} mm: is its unit right?",
+    )
+
+
+def refuse_outside(surface: Surface, calibration: Calibration, fits: tuple[str, ...]) -> None:
+    """Refuse an object that near light puts far from where the lights are known.
+
+    Raises
+    ------
+    DegenerateError
+        Its distance is out of OUTSIDE times the working distance.
+    """
+    working_m = calibration.d_object_m
+    if calibration.camera is None or working_m is None or not any(light.source_C is not None for light in calibration.lights):
+        return
+    distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
+    if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
+        raise DegenerateError(
+            "; ".join(
+                (f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume", *fits, *misfit_said(surface))
+            ),
+            where=surface.name,
+            needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
+            todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",
+        )
 
 
 def notes_of(known: tuple[str, ...], surface: Surface) -> tuple[str, ...]:

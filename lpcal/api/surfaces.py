@@ -25,13 +25,13 @@ from lpcal.api.curve import settle_sensor
 from lpcal.api.full_size import SOLVED, Asked, in_full_size
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
-from lpcal.api.surface_notes import contradicting, misfit_said, notes_of
+from lpcal.api.surface_notes import contradicting, far_stated, notes_of, refuse_outside
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
 from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient
 from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
-from lpcal.errors import DegenerateError, InputError
+from lpcal.errors import InputError
 from lpcal.formats.full_size import made_coarse
 from lpcal.geometry.arrays import Image, Mask
 from lpcal.integration import convention
@@ -51,12 +51,9 @@ from lpcal.surface import reconstruct as solver
 from lpcal.surface.reading import reading_of
 from lpcal.view.crop import Crop
 
-OUTSIDE = (0.5, 2.0)
-"""Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
 DISTANCE_M = 0.35
 """Metres at which an object is put where neither a calibration nor the caller says how far away it is: the LightPanel's own distance."""
 type Green = Literal["auto", "as-is", "flipped"]
-
 UNMEASURED = "normals give the shape; the distance, and that of pieces to each other, is not measured"
 
 
@@ -78,6 +75,7 @@ def reconstruct(
     ambient_exposure_s: npt.ArrayLike | None = None,
     sensor: StatedSensor | Statements = (),
     placement: Placement | None = None,
+    arrangement: Literal["auto", "stated"] = "auto",
     name: str = "capture",
     progress: Progress = silent,
 ) -> Surface:
@@ -118,6 +116,8 @@ def reconstruct(
         calibration say. A sequence stands for all that is said, by who says it.
     placement : Placement, optional
         Where it was taken, of `place`; the surface keeps it.
+    arrangement : {"auto", "stated"}
+        Images that clearly fit their lights in another order, or turned, are refused; "stated" takes them as they are and says so.
     name : str
         What the capture is called in messages, where `images` is an array.
     progress : callable, optional
@@ -156,7 +156,7 @@ def reconstruct(
         lights = [light.name for light in calibration.with_lights().lights]
     mask_given = None if isinstance(mask, str) else np.asarray(mask)
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
-    refuse_unknown_words(mask, method, integrator, keep, distance_m)
+    refuse_unknown_words(mask, method, integrator, keep, distance_m, arrangement)
     refuse_unknown_lights(raw, calibration)
     refuse_hints(Hints(box, tuple((int(x), int(y)) for x, y in points)), raw.size[::-1], raw.name)
     asked = Asked(
@@ -168,6 +168,7 @@ def reconstruct(
         integrator=integrator,
         distance_m=distance_m or (None if calibration.distance_sensor is not None else raw.distance_m),
         reading_m=raw.distance_m if calibration.distance_sensor is not None else None,
+        arrangement_stated=arrangement == "stated",
     )
     calibration = calibration.of_images(raw.size)
     saying = _saying(sensor, raw, calibration)
@@ -198,9 +199,14 @@ def _reconstructed(
         The object has more samples than are solved at once, and nothing is kept.
     """
     settled = settle_sensor(raw, calibration, saying)
-    used, said = settled.used.sensor, (*settled.notes, *contradictions(saying))
+    used, said, given, hints, method = (
+        settled.used.sensor,
+        (*settled.notes, *contradictions(saying)),
+        asked.given,
+        asked.hints,
+        asked.method,
+    )
     refuse_bright_ambient(raw, used)
-    given, hints, method = asked.given, asked.hints, asked.method
     automatic = asked.automatic and given is None
     wanted = raw.mask if automatic else given
     if method not in WAYS:
@@ -224,12 +230,18 @@ def _reconstructed(
         most_samples=SOLVED if kept is None else None,
     )
     radiance = _linear(raw, used, said, part, use_mask=automatic)
-    fits = refuse_rearranged(radiance, calibration, radiance.mask if options.mask is None else options.mask)
+    shown = radiance.mask if options.mask is None else options.mask
+    fits = refuse_rearranged(radiance, calibration, shown, stated=asked.arrangement_stated or raw.arrangement_stated)
     surface = solver.reconstruct(radiance, calibration, options, progress, kept)
-    notes = (*notes_of(radiance.notes, surface), *fits, *contradicting(surface, radiance, calibration), *_far_stated(options, calibration))
+    notes = (
+        *notes_of(radiance.notes, surface),
+        *fits,
+        *contradicting(surface, radiance, calibration),
+        *far_stated(options.distance_m if options.near else None, calibration),
+    )
     surface = surface if part is None else part.put_back(surface)
     if options.near and options.distance_m is None:
-        _refuse_outside(surface, calibration, fits)
+        refuse_outside(surface, calibration, fits)
     return replace(surface, warnings=notes, sensor=settled.used)
 
 
@@ -257,37 +269,6 @@ def _saying(sensor: StatedSensor | Statements, raw: RawCapture, calibration: Cal
         return sensor
     first = [] if isinstance(sensor, tuple | list) else [(BY_CALLER, given_records.sensor(sensor))]
     return [*first, (BY_CAPTURE, raw.sensor), ("the calibration", stated_in(calibration))]
-
-
-def _far_stated(options: solver.Options, calibration: Calibration) -> tuple[str, ...]:
-    """In words, where a stated distance is far out of the working volume, as one in another unit is."""
-    stated, working_m = options.distance_m, calibration.d_object_m
-    if not options.near or stated is None or working_m is None or OUTSIDE[0] * working_m < stated < OUTSIDE[1] * working_m:
-        return ()
-    return (f"the distance is stated as {1e3 * stated:.0f} mm, the lights are calibrated for {1e3 * working_m:.0f} mm: is its unit right?",)
-
-
-def _refuse_outside(surface: Surface, calibration: Calibration, fits: tuple[str, ...]) -> None:
-    """Refuse an object that near light puts far from where the lights are known.
-
-    Raises
-    ------
-    DegenerateError
-        Its distance is out of OUTSIDE times the working distance.
-    """
-    working_m = calibration.d_object_m
-    if calibration.camera is None or working_m is None or not any(light.source_C is not None for light in calibration.lights):
-        return
-    distance_m = max(surface.components, key=lambda piece: piece.pixels).mean_depth_m
-    if not OUTSIDE[0] * working_m < distance_m < OUTSIDE[1] * working_m:
-        raise DegenerateError(
-            "; ".join(
-                (f"the object seems to stand {1e3 * distance_m:.0f} mm away, outside the working volume", *fits, *misfit_said(surface))
-            ),
-            where=surface.name,
-            needed=f"an object about {1e3 * working_m:.0f} mm away, where the lights are calibrated",
-            todo="put it there, or state its distance with --distance, or take the lights as distant ones with --lights distant",
-        )
 
 
 @staged("integration")

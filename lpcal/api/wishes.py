@@ -15,7 +15,9 @@ WAYS = ("near", "distant")
 """lpcal's own method, by how lights act."""
 
 
-def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str, keep: str, distance_m: float | None) -> None:
+def refuse_unknown_words(
+    mask: npt.ArrayLike | str, method: str, integrator: str, keep: str, distance_m: float | None, arrangement: str = "auto"
+) -> None:
     """Refuse words that mean nothing, and a distance that is none."""
     if distance_m is not None and not 0 < distance_m < float("inf"):
         raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
@@ -31,6 +33,8 @@ def refuse_unknown_words(mask: npt.ArrayLike | str, method: str, integrator: str
         )
     if keep not in {"object", "support", "all"}:
         raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
+    if arrangement not in {"auto", "stated"}:
+        raise InputError(repr(arrangement), where="arrangement", needed='"auto" or "stated"')
 
 
 def refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:

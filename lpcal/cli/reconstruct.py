@@ -33,6 +33,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--gamma", metavar="G", help="stored = linear^(1/G), or srgb for photographs, where nothing else states it")
     parser.add_argument("--black-level", metavar="SHARE", help="the stored number of no light, of full scale, such as 0.8%%")
     parser.add_argument("--white-level", metavar="SHARE", help="the stored number at which the sensor saturates, of full scale")
+    parser.add_argument(
+        "--arrangement",
+        choices=("auto", "stated"),
+        default="auto",
+        help="whether images that fit their lights better in another order, or turned, are refused (auto) or taken as they are",
+    )
     parser.add_argument("--use", metavar="L0,L3", help="take only these lights")
     parser.add_argument(
         "--mesh-frame",
@@ -73,6 +79,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         outputs=_outputs(options.outputs, pages=not options.no_pages),
         jobs=jobs,
         placed_mesh=options.mesh_frame == "placed",
+        arrangement=options.arrangement,
     )
     if not options.captures:
         rig: Workspace | None = open_workspace(options)

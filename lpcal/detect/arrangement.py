@@ -52,6 +52,9 @@ SAID = 4.0
 """Standard errors from which another arrangement is spoken of: of 85 drawn scenes that are right it came to 3.7 at most."""
 SEVERAL = 4
 """Arrangements that are looked at closely: those that some pixels like best."""
+ARRANGEMENT = "arrangement: stated"
+"""What capture.yaml says, or --arrangement stated, where the images are as their names say, whatever they themselves show."""
+IN_ORDER = "rename the images, put the light list's lines right, or say in capture.yaml, under images:, which is which light's"
 TEXT_ORDER = 10
 """Lights over which an order by name as text (1, 10, 11, 2) is another than by number."""
 TURNS: dict[str, Callable[[npt.NDArray[Any]], npt.NDArray[Any]]] = {
@@ -97,17 +100,18 @@ class Rearranged:
         return 0.5 * (1 + erf(self.t * OUTLIER / CERTAIN / sqrt(2)))
 
 
-def refuse_rearranged(radiance: Radiance, calibration: Calibration, mask: Mask | None = None) -> tuple[str, ...]:
+def refuse_rearranged(radiance: Radiance, calibration: Calibration, mask: Mask | None = None, *, stated: bool = False) -> tuple[str, ...]:
     """Stop where the images clearly fit their lights in another arrangement; a note where that is less clear.
 
     Parameters
     ----------
     mask : (H, W) the object's pixels, where they are known; else all that are lit
+    stated : the user says that the images are as their names say, so that a contradiction is a note alone
 
     Raises
     ------
     DisagreementError
-        They do, by more than CERTAIN standard errors; or they are of another size than the calibrated camera's.
+        They do, by more than CERTAIN standard errors, and nobody states otherwise; or their size is not the calibrated camera's.
     DegenerateError
         Fewer than three lights, or all in a plane.
     """
@@ -118,6 +122,8 @@ def refuse_rearranged(radiance: Radiance, calibration: Calibration, mask: Mask |
         return ()
     ways = " or ".join(one.said(radiance.lights) for one in (found.arrangement, *found.alike[:1]))
     fits = f"the images fit the lights better {ways}: odds {min(100 * found.odds, 99.9):.3g} %"
+    if stated:
+        return (f"{fits}; taken as they are, as {ARRANGEMENT} says",)
     if found.t < CERTAIN:
         return (f"{fits}; are their names and order those of the lights, and the pictures the right way up?",)
     turned = found.arrangement.turn is not None
@@ -127,9 +133,7 @@ def refuse_rearranged(radiance: Radiance, calibration: Calibration, mask: Mask |
         needed="pictures as the calibrated camera gives them, not turned or mirrored"
         if turned
         else "each image under its own light's name",
-        todo="export the images anew without turning them"
-        if turned
-        else "rename the images, put the lines of the light list right, or say in capture.yaml, under images:, which is which light's",
+        todo=("export the images anew without turning them" if turned else IN_ORDER) + f"; if they are right, state {ARRANGEMENT}",
     )
 
 

@@ -96,6 +96,7 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
         claim=claim,
         white_level=full.white_level,
         distance_m=section.distance,
+        arrangement_stated=section.arrangement == "stated",
         place=stated_place(section, folder),
         notes=(*said, *more, *full.notes, *negatives(reader.least, full.divisor)),
     )

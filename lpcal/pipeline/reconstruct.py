@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from lpcal import __version__
 from lpcal.api.sensor import BY_CAPTURE, BY_COMMAND, stated_in
@@ -87,6 +87,7 @@ class Wishes:
     """What the rig's panel.yaml says of it."""
     recorded: Recorded = NO_RIG
     """The rig's recording of its tracked bodies."""
+    arrangement: Literal["auto", "stated"] = "auto"
     placed_mesh: bool = False
     """Whether the meshes of a capture that is placed are in the room, or in the body that the object rides on."""
 
@@ -148,17 +149,17 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
         hashes = hashes_of(task, calibration_path)
     digest = made_from_of(task, wishes, hashes)
     calibration = calibration.of_images(raw.size)
-    hints = wishes.hints
     made = partial(
         reconstruct,
         raw,
         calibration,
-        box=hints.box,
-        points=hints.points,
+        box=wishes.hints.box,
+        points=wishes.hints.points,
         keep=wishes.keep,
         distance_m=wishes.distance_m,
         sensor=saying,
         placement=placement,
+        arrangement=wishes.arrangement,
         progress=progress,
     )
     read = time.perf_counter()
@@ -167,9 +168,9 @@ def reconstruct_one(task: Task, calibration: Calibration, calibration_path: Path
     surface = replace(surface, warnings=(*surface.warnings, *said))
     solved = time.perf_counter()
     document = summary_document(surface, task, hashes, wishes, {"reading": read - begun, "solving": solved - read})
-    both_ways = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
+    near = wishes.near and wishes.method is None and calibration.lights[0].source_C is not None
     with cores(wishes.jobs):
-        distant = made(mask=surface.mask, method="distant") if document["flatness"] and both_ways and raw.full is None else None
+        distant = made(mask=surface.mask, method="distant") if document["flatness"] and near and raw.full is None else None
     document |= ({} if distant is None else {"flatness_distant": flatness(distant)}) | {"made_from": digest}
     progress(f"{task.name}: writing", 0, 1)
     page = partial(render, surface, calibration, distant)
@@ -373,17 +374,16 @@ def integrate_file(
     surface = integrate(values, camera, inside, distance_m=distance_m, green=green, integrator=integrator, name=normals.stem)
     *remarks, _ = surface.warnings
     seconds = round(time.perf_counter() - begun, 2)
-    inputs = {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None}
     figures = document_of(surface.figures)
     document = summary_of(surface) | {
         "convention": figures.pop("convention"),
         "counts_and_residuals": figures,
         "times_s": {"solving": seconds},
-        "inputs": inputs,
+        "inputs": {path.name: sha256(path) for path in (normals, calibration, mask) if path is not None},
     }
     write_surface(target, surface, document)
-    count = len(surface.components)
-    line = f"{surface.name}: {surface.mask.sum()} px in {count} piece{'s' * (count != 1)}, depth in {document['units']}, {seconds:.1f} s"
+    pieces = len(surface.components)
+    line = f"{surface.name}: {surface.mask.sum()} px in {pieces} piece{'s' * (pieces != 1)}, depth in {document['units']}, {seconds:.1f} s"
     return Outcome([f"{line} -> {from_here(target)}", *(f"  {note}" for note in remarks)], {"surfaces": [document]})
 
 

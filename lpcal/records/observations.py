@@ -297,6 +297,8 @@ class RawCapture(Shown):
     """The panel's distance from the object, as capture.yaml says it."""
     place: StatedPlace = field(default_factory=StatedPlace)
     """Where and when it was taken, as capture.yaml says it."""
+    arrangement_stated: bool = False
+    """Whether capture.yaml says that the images are as their names say, whatever they themselves show."""
     notes: tuple[str, ...] = ()
     """What was made of the files, in words."""
     full: FullImages | None = None

@@ -340,6 +340,8 @@ class CaptureSection(Section):
 
     images: dict[str, str] = {}
     """Light: the file that shows it, where files are not called after their lights."""
+    arrangement: Literal["auto", "stated"] = "auto"
+    """Whether images that fit their lights better in another order, or turned, are refused, or taken as stated."""
 
     @field_validator("lights", mode="before")
     @classmethod

@@ -170,3 +170,18 @@ def test_what_is_less_clear_is_a_note() -> None:
             continue
     assert said
     assert all("odds" in note and "fit the lights better" in note for note in said)
+
+
+def test_who_states_that_the_images_are_right_is_told_and_not_refused() -> None:
+    lights = calibration()
+    raw = in_order(drawn(6), np.roll(np.arange(6), 1))
+    with pytest.raises(DisagreementError, match="if they are right, state arrangement: stated"):
+        library.reconstruct(raw, lights)
+    by_caller = library.reconstruct(raw, lights, distance_m=0.35, arrangement="stated")
+    by_capture = library.reconstruct(replace(raw, arrangement_stated=True), lights, distance_m=0.35)
+    for surface in (by_caller, by_capture):
+        assert any("fit the lights better" in note and "taken as they are" in note for note in surface.warnings)
+    right = library.reconstruct(drawn(6), lights, arrangement="stated")
+    assert not any("fit the lights better" in note for note in right.warnings)
+    with pytest.raises(library.errors.InputError, match="'ask'"):
+        library.reconstruct(raw, lights, arrangement="ask")

@@ -62,6 +62,12 @@ def test_sixteen_bits_and_colour_in_their_order(folder: Path) -> None:
     assert found.step == pytest.approx(1 / 65535)
 
 
+def test_whether_the_images_are_stated_to_be_right(folder: Path) -> None:
+    assert not read_capture(folder, LIGHTS).arrangement_stated
+    (folder / "capture.yaml").write_text("arrangement: stated\n")
+    assert read_capture(folder, LIGHTS).arrangement_stated
+
+
 def test_a_subset_by_capture_yaml_and_by_use(folder: Path) -> None:
     (folder / "L1.png").unlink()
     (folder / "capture.yaml").write_text("lights: [L0, L2]\n")
@@ -80,6 +86,7 @@ def test_a_subset_by_capture_yaml_and_by_use(folder: Path) -> None:
         (lambda f: (f / "capture.yaml").write_text("exposure: 20\n"), InputError, "bare number"),
         (lambda f: (f / "capture.yaml").write_text("exposur: 20 ms\n"), InputError, "exposur"),
         (lambda f: (f / "capture.yaml").write_text("lights: [L0, L7]\n"), DisagreementError, "L7"),
+        (lambda f: (f / "capture.yaml").write_text("arrangement: ok\n"), InputError, "arrangement"),
     ],
 )
 def test_what_is_wrong_is_said(folder: Path, spoil: Callable[..., Any], error: type[Exception], words: str) -> None:
