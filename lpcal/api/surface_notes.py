@@ -10,7 +10,7 @@ from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image
-from lpcal.integration.convention import hollow, mirrored
+from lpcal.integration.convention import exchanged, hollow, mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
@@ -149,7 +149,12 @@ def misfit_said(surface: Surface) -> tuple[str, ...]:
             f"the normals are known to {doubt_deg:.0f} deg only (median, an axis): the images do not fit the lights; are their names, "
             "order and axes those of the images?"
         )
-    if mirrored(surface.normals, surface.mask, surface.rays_C):
+    if way := exchanged(surface.normals, surface.mask, surface.rays_C):
+        said.append(
+            f"the normals look outwards along the object's outline only if {way}: so the columns of the light list (lpcal takes x right, "
+            "y up, z to the camera) or the images seem to be"
+        )
+    elif mirrored(surface.normals, surface.mask, surface.rays_C):
         said.append(
             "the normals are of a surface only with x or y turned over: an axis of the light list seems flipped "
             "(lpcal takes x right, y up), the images mirrored, or the lights in backward order"

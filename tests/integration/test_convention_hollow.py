@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lpcal.integration.convention import hollow
+from lpcal.integration.convention import curl, exchanged, hollow
 
 
 def ball(radius: float, at: tuple[float, float] = (60.0, 50.0)) -> tuple[np.ndarray, np.ndarray]:
@@ -39,3 +39,21 @@ def test_reliefs_parts_in_the_picture_and_specks_say_nothing() -> None:
     assert not hollow(inside_out[40:60, 50:70], mask[40:60, 50:70])  # no outline in sight
     assert not hollow(inside_out, ball(3.0)[1])
     assert not hollow(flat, np.zeros_like(everywhere))
+
+
+SWAPPED = np.array([[0, 1], [1, 0]], np.float32)
+QUARTER = np.array([[0, -1], [1, 0]], np.float32)
+
+
+@pytest.mark.parametrize(
+    ("turn", "said"),
+    [(SWAPPED, "exchanged"), (-SWAPPED, "exchanged"), (QUARTER, "90 degrees"), (QUARTER.T, "90 degrees")],
+)
+def test_exchanged_or_turned_axes_are_named(turn: np.ndarray, said: str) -> None:
+    n, mask = ball(30.0)
+    rays = np.zeros((*mask.shape, 3)) + np.array([0.0, 0.0, 1.0])
+    n += np.random.default_rng(0).normal(0, 0.05, n.shape).astype(np.float32)
+    assert exchanged(n, mask, rays) is None
+    n[..., :2] = n[..., :2] @ turn.T
+    assert curl(n, mask, rays).likeness > 0.3 or "90" in said  # the curl alone takes a saddle for a surface, too
+    assert (exchanged(n, mask, rays) or "").endswith(said)
