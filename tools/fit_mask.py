@@ -30,8 +30,8 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation import background, clues, flats, layers, mask, room_light
 from lpcal.segmentation.clues import View
 from lpcal.view import network, sight
-from lpcal.view.agreed import CERTAIN, COARSE_PIXELS
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
+from lpcal.view.constants import CERTAIN, COARSE_PIXELS
 
 FOLDS = 4
 EPOCHS, BATCH = 64, 8

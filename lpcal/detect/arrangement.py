@@ -29,7 +29,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
 from lpcal.view import sight
-from lpcal.view.agreed import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS, OUTLIER, OUTLIER2, RARE, SHADOW
+from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS, OUTLIER, OUTLIER2, OUTLIER_RATE, SHADOW
 from lpcal.view.sight import Indices
 
 LIGHTS_NEEDED = 4
@@ -201,7 +201,7 @@ class _Picture:
         thin = replace(radiance, signal=radiance.signal[some], sigma=radiance.sigma[some], saturated=radiance.saturated[some], mask=None)
         maps = sight.grey(thin, lights)
         bright = sight.strength(maps)
-        asked = mask[some[1:]] if mask is not None else bright > RARE * np.percentile(bright, 99)
+        asked = mask[some[1:]] if mask is not None else bright > OUTLIER_RATE * np.percentile(bright, 99)
         asked = asked & (bright > 0)
         if asked.sum() < FEWEST_PIXELS:
             return None

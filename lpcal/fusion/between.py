@@ -37,7 +37,7 @@ NEAR = 3.0
 """Patches nearer to each other than so many times that see each other: between them no ray can be followed."""
 STEP = 0.5
 """Steps along a ray, in cells."""
-GRAZING = 0.05
+LEAST_COSINE = 0.05
 """Cosine under which patches say nothing of each other: their own normals are not that good."""
 AT_ONCE = 128
 """Patches whose light is gathered at a time."""
@@ -198,7 +198,7 @@ def _factors(x_A: Array, n_A: Array, area: Array, cells: Cells) -> Image:
         square = np.maximum(lambert.dot(e, e), 1e-18)
         e /= np.sqrt(square)[..., None]
         leaving = -np.einsum("pqi,qi->pq", e, n_A)
-        p, q = np.nonzero((leaving > GRAZING) & (np.einsum("pqi,pi->pq", e, n_A[some]) > GRAZING))
+        p, q = np.nonzero((leaving > LEAST_COSINE) & (np.einsum("pqi,pi->pq", e, n_A[some]) > LEAST_COSINE))
         far = np.flatnonzero(square[p, q] > (NEAR * off_m) ** 2)
         blocked = np.zeros(len(p), bool)
         blocked[far] = cells.between(out_A[some][p[far]], out_A[q[far]])

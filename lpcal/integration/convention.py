@@ -20,7 +20,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
-from lpcal.view.agreed import CERTAIN, FEWEST_PIXELS, GRAZING, RARE, RIM_PX
+from lpcal.view.constants import CERTAIN, FEWEST_PIXELS, LEAST_COSINE, OUTLIER_RATE, RIM_PX
 from lpcal.view.sight import ray_map
 
 CLEAR = 0.3
@@ -160,7 +160,7 @@ def curl(normals_C: Image, mask: Mask, rays_C: Array) -> Curl:
     n = normals_C.astype(float)
     facing = -np.einsum("...i,...i->...", n, rays_C)
     length = lambert.length(n) * lambert.length(rays_C)
-    good = mask & (facing > GRAZING * length)
+    good = mask & (facing > LEAST_COSINE * length)
     size = np.where(good, facing, 1.0)
     if rays_C[..., :2].any():
         along, down = (np.gradient(rays_C, axis=axis) for axis in (1, 0))
@@ -194,7 +194,7 @@ def _asked(p: Array, q: Array, good: Mask) -> Curl:
         return Curl(0.0, 0.0, 0.0, 0.0)
     median = float(np.median(np.abs(a - b)[whole]))
     size = np.abs(np.concatenate([a[whole], b[whole]]))
-    top = float(np.percentile(size, 100 * (1 - RARE)))  # depth breaks are rarer in any map worth integrating
+    top = float(np.percentile(size, 100 * (1 - OUTLIER_RATE)))  # depth breaks are rarer in any map worth integrating
     a, b = (np.where(whole, np.clip(one, -top, top), 0.0) for one in (a, b))
     beside, below = a[:, :-1] * a[:, 1:], b[:-1] * b[1:]
     twist = np.sqrt(max(float(beside.sum()), 0.0) * max(float(below.sum()), 0.0))
@@ -219,11 +219,11 @@ def _refuse_swapped(name: str, normals_C: Image, mask: Mask, rays_C: Array) -> N
     n = normals_C[mask]
     facing = -np.einsum("pi,pi->p", n, rays_C[mask])
     towards = float(np.mean(facing > 0))
-    if max(towards, 1 - towards) >= 1 - RARE and np.median(np.abs(facing)) > GRAZING:
+    if max(towards, 1 - towards) >= 1 - OUTLIER_RATE and np.median(np.abs(facing)) > LEAST_COSINE:
         return
     shares = [max(float(np.mean(n[:, k] > 0)), float(np.mean(n[:, k] < 0))) for k in range(2)]
     k = int(np.argmax(shares))
-    if shares[k] > 1 - RARE and float(np.median(np.abs(n[:, k]))) > float(np.median(np.abs(n[:, 2]))):
+    if shares[k] > 1 - OUTLIER_RATE and float(np.median(np.abs(n[:, k]))) > float(np.median(np.abs(n[:, 2]))):
         raise DisagreementError(
             f"the {('red', 'green')[k]} channel has one sign all over the map and the blue one is near 0: the channels are swapped",
             where=name,

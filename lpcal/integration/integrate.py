@@ -25,7 +25,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration import multigrid
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
-from lpcal.view.agreed import GRAZING, NEXT_TO_NOTHING, OUTLIER
+from lpcal.view.constants import LEAST_COSINE, OUTLIER, REGULARISATION
 from lpcal.view.sight import Indices
 
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
@@ -79,7 +79,7 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
         found = np.empty(len(grid.a)), np.empty(len(grid.a))
         tilt2 = np.zeros(len(normals)) if tilt_rad is None else np.ascontiguousarray(tilt_rad**2, float)
         given = (np.ascontiguousarray(one, float) for one in (normals, rays_C))
-        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, GRAZING, *found)
+        run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, LEAST_COSINE, *found)
         return found
     mean = normals[grid.a] + normals[grid.b]
     mean /= np.maximum(lambert.length(mean)[..., None], 1e-12)
@@ -87,18 +87,18 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
     if tilt_rad is not None:
         error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
     if not central:
-        slope = np.minimum(mean[:, 2], -GRAZING)
+        slope = np.minimum(mean[:, 2], -LEAST_COSINE)
         return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
-    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -GRAZING)
-    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -GRAZING)
+    towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -LEAST_COSINE)
+    towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -LEAST_COSINE)
     return np.log(towards_a / towards_b), np.hypot(off, error * lambert.length(r_b - r_a) / (towards_a * towards_b))
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
     """The step (edges,) from ray a to ray b on planes of normals n (edges, 3)."""
-    return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -GRAZING) / np.minimum(lambert.dot(n, r_b), -GRAZING)))
+    return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -LEAST_COSINE) / np.minimum(lambert.dot(n, r_b), -LEAST_COSINE)))
 
 
 def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
@@ -124,7 +124,7 @@ def _integrated(
     u, weight = np.array(start, float), np.empty_like(by_pixel[0])
     work_space = grid.pyramid.work_space(7)
     given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
-    robustly = (multigrid.PRECISION, OUTLIER, SPREAD, NEXT_TO_NOTHING)
+    robustly = (multigrid.PRECISION, OUTLIER, SPREAD, REGULARISATION)
     levels, way = (len(sizes), sizes, cells, stretches), (multigrid.MOST, grid.pyramid.way)
     run(*levels, *given, fresh, len(strengths), np.array(strengths), *robustly, u, weight, *work_space, *way)
     first = finest.to_the_right
@@ -139,7 +139,7 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
     """
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
     u = multigrid.solve(A, right, start)
-    if own.curvature.max() > NEXT_TO_NOTHING:
+    if own.curvature.max() > REGULARISATION:
         return u
     return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))
 
@@ -148,7 +148,7 @@ def weights_of(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
     """Weight of each edge, by how well u keeps its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
     square = scale_of(residual) ** 2
-    return np.asarray((square / (square + residual**2)) ** 2 + NEXT_TO_NOTHING)
+    return np.asarray((square / (square + residual**2)) ** 2 + REGULARISATION)
 
 
 def scale_of(residual: Array) -> float:

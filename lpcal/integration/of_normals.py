@@ -29,7 +29,7 @@ from lpcal.integration.integrate import Grid, steps, system
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.surface import Component, Surface
-from lpcal.view.agreed import FEWEST_PIXELS, GRAZING, NEXT_TO_NOTHING
+from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION
 from lpcal.view.sight import ray_map
 
 UNKNOWN_DISTANCE = 0.5
@@ -128,7 +128,7 @@ def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: boo
     for k in range(ONE_SIDED_ROUNDS + ROUNDS):
         first = k < ONE_SIDED_ROUNDS
         of_a, of_b = w_a * pull_a, w_b * pull_b
-        weight = np.maximum(of_a + of_b if first else np.sqrt(w_a * w_b) * (pull_a + pull_b), NEXT_TO_NOTHING * (pull_a + pull_b))
+        weight = np.maximum(of_a + of_b if first else np.sqrt(w_a * w_b) * (pull_a + pull_b), REGULARISATION * (pull_a + pull_b))
         step = (of_a * step_a + of_b * step_b) / np.maximum(of_a + of_b, 1e-12) if first else middle
         A, right = system(grid, weight, step, hold, origin)
         u = multigrid.solve(A, right, u, precision=PRECISION)
@@ -145,12 +145,12 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
     """Steps (edges,) by the normal of a and of b, and ``(t / h)^2`` of both."""
     n_a, n_b = normals[grid.a], normals[grid.b]
     if not central:
-        t_a, t_b = np.maximum(-n_a[:, 2], GRAZING), np.maximum(-n_b[:, 2], GRAZING)
+        t_a, t_b = np.maximum(-n_a[:, 2], LEAST_COSINE), np.maximum(-n_b[:, 2], LEAST_COSINE)
         along_a, along_b = (np.where(grid.horizontal, n[:, 0], n[:, 1]) for n in (n_a, n_b))
         return along_a / t_a, along_b / t_b, t_a**2, t_b**2
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     own_a, own_b, across_a, across_b = (
-        np.maximum(-np.einsum("ei,ei->e", n, r), GRAZING) for n, r in ((n_a, r_a), (n_b, r_b), (n_a, r_b), (n_b, r_a))
+        np.maximum(-np.einsum("ei,ei->e", n, r), LEAST_COSINE) for n, r in ((n_a, r_a), (n_b, r_b), (n_a, r_b), (n_b, r_a))
     )
     h = lambert.length(r_b - r_a)
     return np.log(own_a / across_a), np.log(across_b / own_b), (own_a / h) ** 2, (own_b / h) ** 2

@@ -13,7 +13,7 @@ from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
 from lpcal.view import bands
-from lpcal.view.agreed import FEWEST_PIXELS, NEXT_TO_NOTHING, RIM_PX, SMALLEST_SHARE
+from lpcal.view.constants import FEWEST_PIXELS, REGULARISATION, RIM_PX, SMALLEST_SHARE
 from lpcal.view.sight import Indices
 
 BREAK_WEIGHT = 0.02
@@ -35,7 +35,7 @@ def fill(grid: Grid, values: Array, known: Mask) -> Array:
     here, there = np.concatenate([grid.a, grid.b]), np.concatenate([grid.b, grid.a])
     rim = ~known[here] & known[there]
     here, there = number[here[rim]], there[rim]
-    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + NEXT_TO_NOTHING, float)
+    hold = np.asarray(np.bincount(here, minlength=len(unknown)) + REGULARISATION, float)
     A = Matrix(pyramid, hold, np.ones(len(pyramid.levels[0].a)))
     found = np.where(known[:, None], values, 0.0)
     for channel in range(values.shape[1]):
@@ -86,7 +86,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
     sliver = ~np.isin(label, kept)
     touched = sliver[grid.a] | sliver[grid.b]
     same = joined[grid.a] == joined[grid.b]
-    return np.where(touched, np.where(same, 1.0, NEXT_TO_NOTHING), weight)
+    return np.where(touched, np.where(same, 1.0, REGULARISATION), weight)
 
 
 def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:

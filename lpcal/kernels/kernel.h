@@ -119,7 +119,7 @@ static inline double square(double x) { return x * x; }
 
 static inline double greater(double a, double b) { return a > b ? a : b; }
 
-#define STEEPEST 0.03 /* GRAZING of view/agreed.py */
+#define STEEPEST 0.03 /* LEAST_COSINE of view/constants.py */
 #define TAU_HALF 3.14159265358979323846
 
 /* Gloss of a light from d at a normal n, seen from v: see shading/gloss.py (lobe); all its quotients in one. */

@@ -24,7 +24,7 @@ from lpcal.records.surface import Surface
 from lpcal.report.packing import deflate
 from lpcal.report.page_data import BendData
 from lpcal.report.pictures import bounds
-from lpcal.view.agreed import FEWEST_PIXELS
+from lpcal.view.constants import FEWEST_PIXELS
 
 CELLS = 96
 """Cells along the longer side of the coarse grid: the bend of a wrong light model is smooth."""

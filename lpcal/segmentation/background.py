@@ -19,7 +19,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.segmentation import clues
 from lpcal.segmentation.clues import View
-from lpcal.view.agreed import UNLIKELY
+from lpcal.view.constants import UNLIKELY
 from lpcal.view.network import Network
 
 FITTED = Path(__file__).with_name("mask_network.npz")

@@ -22,8 +22,8 @@ from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, flats, samples
 from lpcal.segmentation.clues import SPARED, View
 from lpcal.view import bands
-from lpcal.view.agreed import UNLIKELY
 from lpcal.view.coarse import LightTable
+from lpcal.view.constants import UNLIKELY
 from lpcal.view.sight import Indices, strength
 
 FREE_PRICE = 10.0

@@ -18,8 +18,8 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.clues import View
-from lpcal.view.agreed import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
+from lpcal.view.constants import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.sight import Grey, Sight, strength
 
 MEDIUM_PIXELS = 110_000

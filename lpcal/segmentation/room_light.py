@@ -23,8 +23,8 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import flats, layers, room_samples
 from lpcal.segmentation.clues import SPARED
-from lpcal.view.agreed import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
+from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
 from lpcal.view.sight import Grey, second, strength
 
 FEW_PIXELS = COARSE_PIXELS // 4

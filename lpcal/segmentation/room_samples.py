@@ -18,8 +18,8 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import samples
-from lpcal.view.agreed import OUTLIER2, SHADOW
 from lpcal.view.coarse import RoomPrior
+from lpcal.view.constants import OUTLIER2, SHADOW
 from lpcal.view.sight import second
 
 SPREAD = 0.35

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
-from lpcal.view.agreed import OUTLIER2, SHADOW
+from lpcal.view.constants import OUTLIER2, SHADOW
 from lpcal.view.sight import second
 
 MODEL = 0.03

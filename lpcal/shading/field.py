@@ -32,7 +32,7 @@ from lpcal.kernels.library import kernel
 from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
 from lpcal.view import bands
-from lpcal.view.agreed import DOUBT, GRAZING, OUTLIER2
+from lpcal.view.constants import DOUBT, LEAST_COSINE, OUTLIER2
 from lpcal.view.sight import Lit, Sight
 
 TURN = 0.15
@@ -121,7 +121,7 @@ def solve(
         own_samples, right = _gathered(seen, lit, b, v, hidden, shine, warmth)
         b = _System.at(grid, b, own_samples).solved(right, b)
         towards, albedo = lambert.dot(b, v), lambert.length(b)
-        b = b + np.maximum(GRAZING * albedo - towards, 0.0)[:, None] * v
+        b = b + np.maximum(LEAST_COSINE * albedo - towards, 0.0)[:, None] * v
         if last and warmth == 1.0 and np.linalg.norm(b - so_far) <= STILL * np.linalg.norm(b):
             break
 

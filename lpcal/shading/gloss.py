@@ -25,7 +25,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.view import bands
-from lpcal.view.agreed import DOUBT, GRAZING, MANY_PIXELS, NEIGHBOURS, NEXT_TO_NOTHING, OUTLIER2, RARE, UNLIKELY
+from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER2, OUTLIER_RATE, REGULARISATION, UNLIKELY
 from lpcal.view.sight import Lit
 
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
@@ -33,8 +33,8 @@ ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
 MIRRORED = tuple(np.geomspace(0.01, 1.0, 21))
 """F0 that are tried: a quarter apart, from less than any matter's to a mirror's."""
 COMMON_F0, COMMON_SPREAD = 0.045, 0.5
-"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08. Metals are RARE: they
-have any F0 with equal odds."""
+"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08. Metals are the
+outliers (OUTLIER_RATE): they have any F0 with equal odds."""
 CLEAR = 0.95
 """Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
 
@@ -63,7 +63,7 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
     h /= np.maximum(lambert.length(h)[..., None], 1e-9)
     a2 = roughness**2
     nh, nd = lambert.dot(h, n), lambert.dot(d, n)
-    nv = np.maximum(lambert.dot(v, n), GRAZING)
+    nv = np.maximum(lambert.dot(v, n), LEAST_COSINE)
     D = a2 / (np.pi * (np.maximum(nh, 0) ** 2 * (a2 - 1) + 1) ** 2)
 
     def smith(cosine: Array) -> Array:
@@ -78,12 +78,12 @@ def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
     h /= np.maximum(lambert.length(h)[..., None], 1e-9)
     a2 = roughness**2
     nh, nd = np.maximum(lambert.dot(h, n), 0.0), np.maximum(lambert.dot(d, n), 0.0)
-    nv = np.maximum(lambert.dot(v, n), GRAZING)
+    nv = np.maximum(lambert.dot(v, n), LEAST_COSINE)
     q = nh**2 * (a2 - 1) + 1
     D, s_d, s_v = a2 / (np.pi * q**2), np.sqrt(a2 + (1 - a2) * nd**2), np.sqrt(a2 + (1 - a2) * nv**2)
     S, V = 2 * nd / (nd + s_d + 1e-12), 0.5 / (nv + s_v)
     by_h, by_d = 4 * D * nh * (1 - a2) / q * S * V, D * 2 * a2 / (s_d * (nd + s_d) ** 2 + 1e-12) * V
-    by_v = np.where(nv > GRAZING, -D * S * V * (1 + (1 - a2) * nv / s_v) / (nv + s_v), 0.0)
+    by_v = np.where(nv > LEAST_COSINE, -D * S * V * (1 + (1 - a2) * nv / s_v) / (nv + s_v), 0.0)
     found = np.where(nd > 0, by_h, 0.0)[..., None] * h + np.where(nd > 0, by_d, 0.0)[..., None] * d + by_v[..., None] * v
     return np.asarray(found - np.einsum("kpi,pi->kp", found, n)[..., None] * n)
 
@@ -111,14 +111,14 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: A
     found = bands.shared(of, ROUGHNESSES)
     cost = np.stack([each for _, each in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
-    prior = ((1 - RARE) * common / common.sum() + RARE / len(F0)) / len(ROUGHNESSES)
+    prior = ((1 - OUTLIER_RATE) * common / common.sum() + OUTLIER_RATE / len(F0)) / len(ROUGHNESSES)
     evidence = (matte - cost) / (2 * NEIGHBOURS)
     most = max(float(evidence.max()), 0.0)
     odds = prior * np.exp(evidence - most)
     glossy = float(odds.sum() / (odds.sum() + np.exp(-most)))
     if glossy < UNLIKELY:
         return None
-    odds = np.where(odds > NEXT_TO_NOTHING * odds.max(), odds, 0.0)
+    odds = np.where(odds > REGULARISATION * odds.max(), odds, 0.0)
     odds = odds / odds.sum()
     strength = glossy * float(np.exp(np.sum(odds * np.log(ks))))
     width = float(np.exp(np.sum(odds * np.log(ROUGHNESSES)[:, None])))

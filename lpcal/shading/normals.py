@@ -22,7 +22,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
-from lpcal.view.agreed import GRAZING, OUTLIER, OUTLIER2, SHADOW
+from lpcal.view.constants import LEAST_COSINE, OUTLIER, OUTLIER2, SHADOW
 from lpcal.view.sight import LIGHTS_NEEDED, Indices, Lit, Sight, vectors
 
 MODEL = 0.015
@@ -157,7 +157,7 @@ def thrown_share(lit: Lit, found: Estimate) -> Array:
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The best three, then least squares on the inliers, in rounds."""
     if run := kernel("few"):
-        return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER2, ROUNDS, LIGHTS_NEEDED, -GRAZING, lambert.SINGULAR))
+        return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER2, ROUNDS, LIGHTS_NEEDED, -LEAST_COSINE, lambert.SINGULAR))
     b = _best_three(signal, B, usable, variance)
     inliers = usable & (_square_residual(signal, B, b, variance) < OUTLIER2)
     for _ in range(ROUNDS):
@@ -169,7 +169,7 @@ def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) 
 def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
     """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
     if run := kernel("many"):
-        ranks, ends = (TRIMMED, TRIMMED, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER2, LIGHTS_NEEDED, -GRAZING, lambert.SINGULAR)
+        ranks, ends = (TRIMMED, TRIMMED, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER2, LIGHTS_NEEDED, -LEAST_COSINE, lambert.SINGULAR)
         return _run(run, (signal, B, usable, variance, rays_C), (*ranks, *ends, np.empty(8 * MANY_LANES * len(signal))))
     b = _middle_of_the_ranks(signal, B, usable)
     for _ in range(WEIGHT_ROUNDS):
@@ -195,7 +195,7 @@ def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Arra
     """The estimate with its inliers and misfit; b is NaN where too few agree or the normal looks away."""
     square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
     inliers = usable & (square < OUTLIER2)
-    towards = lambert.dot(b, rays_C) < -GRAZING * lambert.length(b) * lambert.length(rays_C)
+    towards = lambert.dot(b, rays_C) < -LEAST_COSINE * lambert.length(b) * lambert.length(rays_C)
     good = (inliers.sum(axis=0) >= LIGHTS_NEEDED) & towards
     return Estimate(
         np.where(good[:, None], b, np.nan),

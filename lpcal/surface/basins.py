@@ -31,8 +31,8 @@ from lpcal.shading import normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance
 from lpcal.view import bands, coarse
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.coarse import LightTable
+from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.crop import Crop
 from lpcal.view.sight import Grey, Indices, Lit, Sight, light_vectors, look_at
 

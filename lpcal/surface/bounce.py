@@ -32,7 +32,7 @@ from lpcal.surface import relief as body
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches
 from lpcal.view import bands
-from lpcal.view.agreed import DOUBT, GRAZING, MANY_PIXELS, NEIGHBOURS, NEXT_TO_NOTHING, RARE, RIM_PX
+from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER_RATE, REGULARISATION, RIM_PX
 from lpcal.view.sight import Indices, Lit, Sight
 
 STEPS = 6
@@ -184,7 +184,7 @@ class LitEvidence:
     def cost(self, x: Array) -> Array:
         """Twice the negative logarithm of the likelihood (N,) of strengths (N, 3), all relative to that of the seen parts at x0."""
         unit = max(float(self.x0[0]), 1e-12)
-        curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + NEXT_TO_NOTHING * np.eye(3)
+        curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + REGULARISATION * np.eye(3)
         middle = np.linalg.solve(curvature, self.slope * unit / LIT_NEIGHBOURS)
         doubt = DOUBT * max(1 + float(middle[0]), 0.0)
         off = (x - self.x0) / unit - middle
@@ -222,20 +222,20 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
     if run := kernel("thrown_fits"):
         found = np.empty(len(strengths))
         given = (np.ascontiguousarray(one, float) for one in (strengths, parts, signal, noise2, top))
-        run(len(strengths), len(signal), *given, DOUBT, RARE, found)
+        run(len(strengths), len(signal), *given, DOUBT, OUTLIER_RATE, found)
         return found
     fits = []
     for one in strengths:
         thrown = one @ parts
         variance = noise2 + (DOUBT * thrown) ** 2
         density = np.exp(-((signal - thrown) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
-        fits.append(np.log((1 - RARE) * density + RARE / top).sum())
+        fits.append(np.log((1 - OUTLIER_RATE) * density + OUTLIER_RATE / top).sum())
     return np.array(fits)
 
 
 def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
     """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
-    dark = hidden | (lambert.dot(lit.d, n) < -GRAZING)
+    dark = hidden | (lambert.dot(lit.d, n) < -LEAST_COSINE)
     found = np.zeros_like(dark)
     for k, one in enumerate(dark):
         found[k] = raster.shrunk(np.asarray(seen.map(one, False), bool), RIM_PX)[seen.mask]
@@ -245,7 +245,7 @@ def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
 def _areas(seen: Sight, depth: Array, n: Array) -> Array:
     """Area (P,) of the surface that each pixel sees."""
     length = lambert.length(seen.rays_C)
-    towards = np.maximum(-lambert.dot(n, seen.rays_C) / length, GRAZING)
+    towards = np.maximum(-lambert.dot(n, seen.rays_C) / length, LEAST_COSINE)
     _, columns = np.nonzero(seen.mask)
     step = lambert.length(np.diff(seen.rays_C, axis=0))[np.diff(columns) == 1]
     pixel = float(np.median(step)) if step.size else 1e-3
@@ -261,7 +261,7 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
         between = (*relief.front.shape, relief.front, relief.pixel_of_ray, STEPS, body.TOLERANCE, body.THICKNESS)
 
         def of_band(some: slice) -> None:
-            run(*found.shape[:2], len(of.x_C), *patches, found, *between, GRAZING, OFF, some.start, some.stop)
+            run(*found.shape[:2], len(of.x_C), *patches, found, *between, LEAST_COSINE, OFF, some.start, some.stop)
 
         bands.each(len(at.x_C), bands.SAMPLES // BLOCK, of_band)
         return found
@@ -270,7 +270,7 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
         square = np.maximum(lambert.dot(e, e), 1e-18)
         e /= np.sqrt(square)[..., None]
         leaving = -np.einsum("pqi,qi->pq", e, of.n)
-        face = (np.einsum("pqi,pi->pq", e, at.n[some]) > GRAZING) & (leaving > GRAZING)
+        face = (np.einsum("pqi,pi->pq", e, at.n[some]) > LEAST_COSINE) & (leaving > LEAST_COSINE)
         p, q = np.nonzero(face)
         off = np.minimum(OFF * at.x_C[some][p, 2] / np.sqrt(square[p, q]), 0.5)[:, None]
         way = of.x_C[q] - at.x_C[some][p]

@@ -15,7 +15,7 @@ from lpcal.records.surface import Alternative, Component
 from lpcal.surface import basins, uncertainty
 from lpcal.surface.basins import Basins
 from lpcal.surface.rounds import Scene, State
-from lpcal.view.agreed import STATED_STD, UNLIKELY
+from lpcal.view.constants import STATED_STD, UNLIKELY
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Basins | None) -> tuple[Component, ...]:

@@ -22,7 +22,7 @@ from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate, thrown_share, variances
 from lpcal.view import bands
-from lpcal.view.agreed import DOUBT, FEWEST_PIXELS, NEXT_TO_NOTHING, OUTLIER
+from lpcal.view.constants import DOUBT, FEWEST_PIXELS, OUTLIER, REGULARISATION
 from lpcal.view.sight import Indices, Lit, Sight, vectors
 
 FURTHEST = 0.5
@@ -49,7 +49,7 @@ def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: 
 def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> Own:
     """The same by light vectors B (L, P, 3) and their slope by u."""
     if run := kernel("own_distance"):
-        constants = np.array([normals.MODEL, GLOSS_DOUBT, NEXT_TO_NOTHING, FURTHEST, OUTLIER, lambert.SINGULAR])
+        constants = np.array([normals.MODEL, GLOSS_DOUBT, REGULARISATION, FURTHEST, OUTLIER, lambert.SINGULAR])
         gloss = np.zeros(0) if found.gloss is None else found.gloss
         curvature, optimum = np.empty(seen.pixels), np.empty(seen.pixels)
         light, at, sigma, off, b, z = (np.ascontiguousarray(one, float) for one in (B, slope, seen.sigma, gloss, found.b, depth))
@@ -68,7 +68,7 @@ def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> 
     inverse = lambert.inverse_3x3(np.einsum("kpi,kpj->pij", A, A))
     inverse = np.nan_to_num(inverse)
     J_free = J - np.einsum("kpi,pij,pj->kp", A, inverse, np.einsum("kpi,kp->pi", A, J))
-    H = np.sum(J_free**2, axis=0) + NEXT_TO_NOTHING
+    H = np.sum(J_free**2, axis=0) + REGULARISATION
     most = np.minimum(FURTHEST, OUTLIER / np.sqrt(H))
     move = np.clip(-np.sum(J_free * r, axis=0) / H, -most, most)
     return Own(H, np.log(depth) + move)
@@ -81,7 +81,7 @@ def levelled(own: Own, u: Array, label: Indices) -> Array:
     to a whole region: all of them together average over more errors.
     """
     total = np.bincount(label, own.curvature)
-    move = np.bincount(label, own.curvature * (own.optimum - u)) / np.maximum(total, NEXT_TO_NOTHING)
+    move = np.bincount(label, own.curvature * (own.optimum - u)) / np.maximum(total, REGULARISATION)
     return np.asarray(u + np.where(np.bincount(label) >= FEWEST_PIXELS, move, 0.0)[label])
 
 

@@ -33,7 +33,7 @@ from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground
 from lpcal.surface.rounds import FULL_ROUNDS, Scene
 from lpcal.view import bands, sight
-from lpcal.view.agreed import GRAZING, NEXT_TO_NOTHING, OUTLIER2
+from lpcal.view.constants import LEAST_COSINE, OUTLIER2, REGULARISATION
 from lpcal.view.crop import MARGIN_PX
 from lpcal.view.sight import Lit
 
@@ -211,7 +211,7 @@ class Full:
         step, sigma = steps(grid, n, rays_C[inside], central=central)
         loose = self.ground.at(self.ground.loose, *tile.outer)[inside]
         hold = 1 / (SCREEN * self.ground.factor * float(np.median(sigma))) ** 2
-        own = Own(np.where(loose, NEXT_TO_NOTHING * hold, hold), begin)
+        own = Own(np.where(loose, REGULARISATION * hold, hold), begin)
         u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
         u = settle(grid, step, sigma, own, u, weight)
         holds = np.zeros((2, *inside.shape), bool)
@@ -276,7 +276,7 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
 def _albedo_by(n: Array, seen: sight.Sight, lit: Lit, hidden: Mask | None) -> Array:
     """Albedo (P,) in the signals' units by normals (P, 3): the samples' factor on the shading, then of those that agree."""
     shading = np.maximum(lambert.dot(lit.d, n), 0.0) * lit.E
-    counted = seen.usable & (shading > GRAZING * shading.max(axis=0))
+    counted = seen.usable & (shading > LEAST_COSINE * shading.max(axis=0))
     if hidden is not None:
         counted &= ~hidden
     weight = counted * shading**2

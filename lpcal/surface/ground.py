@@ -13,7 +13,7 @@ from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading.normals import thrown_share
 from lpcal.surface import normal_prior, rounds
 from lpcal.surface.rounds import Scene, State
-from lpcal.view.agreed import GRAZING
+from lpcal.view.constants import LEAST_COSINE
 from lpcal.view.sight import Indices, Lit
 
 
@@ -94,12 +94,12 @@ class Ground:
         n, u = self.at(self.n, rows, columns), self.at(self.u, rows, columns)
         if self.rays_C[..., :2].any():
             there = self.at(self.rays_C, rows, columns)
-            towards = (np.minimum(np.einsum("hwi,hwi->hw", n, ray), -GRAZING) for ray in (there, rays_C))
+            towards = (np.minimum(np.einsum("hwi,hwi->hw", n, ray), -LEAST_COSINE) for ray in (there, rays_C))
             first, last = towards
             return np.asarray(u + np.log(first / last))
         row, column = np.meshgrid(np.arange(rows.start, rows.stop), np.arange(columns.start, columns.stop), indexing="ij")
         middle = self.factor * self.nearest[:, *np.ix_(*self.place(rows, columns))] + (self.factor - 1) / 2
-        slope = np.minimum(n[..., 2], -GRAZING)
+        slope = np.minimum(n[..., 2], -LEAST_COSINE)
         return np.asarray(self.factor * u - (n[..., 0] * (column - middle[1]) + n[..., 1] * (row - middle[0])) / slope)
 
 

@@ -21,7 +21,7 @@ from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading import field, normals
 from lpcal.shading.normals import Estimate
 from lpcal.view import bands
-from lpcal.view.agreed import MANY_PIXELS
+from lpcal.view.constants import MANY_PIXELS
 from lpcal.view.network import Network
 from lpcal.view.sight import Lit, Sight
 

@@ -10,8 +10,8 @@ s::
 
     p(s) ~ N(log s; 0, w^2) [ h N(r; t_hit(s), v) + (1 - h) / REACH ]
 
-with h = 1 - RARE where the beam meets the piece at all, else 0: it may have met the wall, a thread, nothing. So a reading that no distance
-of the object explains moves nothing, and says so; where light allows several distances, each is weighed by the sum of its p(s).
+with h = 1 - OUTLIER_RATE where the beam meets the piece at all, else 0: it may have met the wall, a thread, nothing. So a reading that no
+distance of the object explains changes nothing, and says so; where light allows several distances, each is weighted by the sum of its p(s).
 Source: the mixture of a rangefinder's hit and its random readings, Thrun, Burgard & Fox, Probabilistic Robotics (2005), chapter 6.
 """
 
@@ -27,7 +27,7 @@ from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
 from lpcal.records.surface import Alternative, Component, Surface
 from lpcal.surface.basins import APART, INDEPENDENT, Basins, odds_of
-from lpcal.view.agreed import OUTLIER, RARE, STATED_STD, UNLIKELY
+from lpcal.view.constants import OUTLIER, OUTLIER_RATE, STATED_STD, UNLIKELY
 
 REACH_M = 2.0
 """Metres over which a reading of something else may lie: as far as such sensors reach."""
@@ -97,8 +97,8 @@ def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
     light = light / light.sum()
     meets = np.isfinite(t_hit)
     near = np.where(meets, np.nan_to_num(np.exp(-0.5 * ((r - np.where(meets, t_hit, 0.0)) / std_m) ** 2)), 0.0)
-    met = (1 - RARE) * near / (std_m * np.sqrt(2 * np.pi))
-    elsewhere = np.where(meets, RARE, 1.0) / REACH_M
+    met = (1 - OUTLIER_RATE) * near / (std_m * np.sqrt(2 * np.pi))
+    elsewhere = np.where(meets, OUTLIER_RATE, 1.0) / REACH_M
     evidence, hit = float(np.sum(light * (met + elsewhere))), float(np.sum(light * met))
     odds = hit / evidence
     weight = light * met / max(hit, 1e-300)

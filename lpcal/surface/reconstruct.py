@@ -47,7 +47,7 @@ from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
 from lpcal.view import bands, sight
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS
+from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS
 from lpcal.view.sight import Sight
 
 AGREE_DEG = float(np.degrees(NORMAL_ERROR_RAD))

@@ -26,7 +26,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.view import bands
-from lpcal.view.agreed import GRAZING, MANY_PIXELS, SHADOW_STEPS
+from lpcal.view.constants import LEAST_COSINE, MANY_PIXELS, SHADOW_STEPS
 from lpcal.view.sight import Indices, Sight, light_vectors, powers
 
 TOLERANCE = 0.003
@@ -117,7 +117,7 @@ def thrown_by_sides(x_C: Array, n: Array, relief: Relief, albedo: Array, lights:
     at, way = of % count, ways.reshape(-1, 3)[of]
     column, row, _ = relief.pixels(y_C)
     shown = albedo[row, column] * _shading(y_C, way, relief, lights)
-    weight = way / np.maximum(lambert.dot(way, n[at]), GRAZING)[:, None]
+    weight = way / np.maximum(lambert.dot(way, n[at]), LEAST_COSINE)[:, None]
     J = np.stack([np.stack([np.bincount(at, of_light * axis, count) for axis in weight.T], axis=-1) for of_light in shown])
     return J / DIRECTIONS, np.bincount(at, minlength=count) / DIRECTIONS
 

@@ -25,8 +25,8 @@ from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
 from lpcal.view import bands, sight
-from lpcal.view.agreed import FEWEST_PIXELS, GRAZING, NEXT_TO_NOTHING, SHADOW_STEPS, STATED_STD
 from lpcal.view.coarse import SPAN
+from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION, SHADOW_STEPS, STATED_STD
 from lpcal.view.crop import Crop
 from lpcal.view.sight import Lit, Sight
 
@@ -244,7 +244,7 @@ def _own(scene: Scene, u: Array, depth: Array, lit: Lit, found: Estimate) -> tup
         own = scene.held.own()
         return own, own
     if not scene.near:
-        own = Own(np.full(scene.seen.pixels, NEXT_TO_NOTHING), u)
+        own = Own(np.full(scene.seen.pixels, REGULARISATION), u)
         return own, own
     own = distance.own_distance(lit, partial(scene.slope_at, depth), depth, scene.seen, found)
     return own, distance.doubted(own, lit, scene.seen, found)
@@ -258,7 +258,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
     albedo = lambert.length(before.field.b)
-    expected = albedo * lit.E * np.maximum(lambert.dot(lit.d, before.normals), GRAZING)
+    expected = albedo * lit.E * np.maximum(lambert.dot(lit.d, before.normals), LEAST_COSINE)
     dark = ~(seen.signal > SHADED * expected)
     by_object, by_any = np.zeros_like(dark), np.zeros_like(dark)
 

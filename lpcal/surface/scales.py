@@ -16,7 +16,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import Grid, Own
 from lpcal.shading.normals import Estimate
 from lpcal.view import bands
-from lpcal.view.agreed import GRAZING, NEXT_TO_NOTHING
+from lpcal.view.constants import LEAST_COSINE, REGULARISATION
 from lpcal.view.sight import Indices, Lit, Sight
 
 PIXELS = 8000
@@ -93,8 +93,8 @@ class Blocks:
     def front(self, u: Array, n: Array) -> Array:
         """log depth (P,), each block taken for a flat piece: by its u (Q,) and its normal n (Q, 3)."""
         n = n[self.of_pixel]
-        here = np.minimum(lambert.dot(n, self.coarse.rays_C[self.of_pixel]), -GRAZING)
-        return np.asarray(u[self.of_pixel] + np.log(here / np.minimum(lambert.dot(n, self.seen.rays_C), -GRAZING)))
+        here = np.minimum(lambert.dot(n, self.coarse.rays_C[self.of_pixel]), -LEAST_COSINE)
+        return np.asarray(u[self.of_pixel] + np.log(here / np.minimum(lambert.dot(n, self.seen.rays_C), -LEAST_COSINE)))
 
     def edges(self, weight: Array) -> Array:
         """Weights (edges,) of the pixels' edges, by those of the blocks': 1 within a block."""
@@ -104,7 +104,7 @@ class Blocks:
         order = np.argsort(known)
         asked = first * count + last
         place = order[np.minimum(np.searchsorted(known, asked, sorter=order), len(known) - 1)]
-        found = np.where(known[place] == asked, weight[place], NEXT_TO_NOTHING) if len(known) else np.full(len(asked), NEXT_TO_NOTHING)
+        found = np.where(known[place] == asked, weight[place], REGULARISATION) if len(known) else np.full(len(asked), REGULARISATION)
         return np.asarray(np.where(first == last, 1.0, found))
 
     def lit(self, lights: Lit, lit: Lit) -> Lit:

@@ -38,7 +38,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, RARE
+from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER_RATE
 from lpcal.view.sight import Lit, Sight, vectors
 
 CONDITION = 1e5
@@ -154,7 +154,7 @@ def _shown(seen: Sight, S: Array) -> tuple[Array, Array, Array] | None:
     count = len(S)
     usable = normals.candidates(some, np.ones(some.signal.shape))
     rank = np.argsort(np.argsort(np.where(usable, some.signal, -np.inf), axis=0), axis=0)
-    weight = usable & (rank >= min(int(normals.TRIMMED * count), count - LIGHTS_NEEDED)) & (rank < count - int(RARE * count))
+    weight = usable & (rank >= min(int(normals.TRIMMED * count), count - LIGHTS_NEEDED)) & (rank < count - int(OUTLIER_RATE * count))
     good = weight.sum(axis=0) >= LIGHTS_NEEDED
     B = np.repeat(S[:, None], some.pixels, axis=1)
     good[good] = spans(weight[:, good].astype(float), B[:, good])

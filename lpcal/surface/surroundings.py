@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import mask, planes
 from lpcal.surface.relief import Relief
-from lpcal.view.agreed import RIM_PX, SHADOW_STEPS
+from lpcal.view.constants import RIM_PX, SHADOW_STEPS
 from lpcal.view.sight import Grey, Indices, Sight, light_vectors, look_at
 
 BEYOND = 0.6

@@ -24,7 +24,7 @@ from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
 from lpcal.shading.normals import Estimate, thrown_share
-from lpcal.view.agreed import RIM_PX
+from lpcal.view.constants import RIM_PX
 from lpcal.view.sight import Lit
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)

@@ -34,7 +34,7 @@ from lpcal.segmentation import background, mask, planes, room_light, room_sample
 from lpcal.segmentation.room_light import FEW_PIXELS, SHARED, USUAL_STD, RoomLight
 from lpcal.shading import normals
 from lpcal.view import sight
-from lpcal.view.agreed import FEWEST_PIXELS, MANY_PIXELS, NEXT_TO_NOTHING, OUTLIER, OUTLIER2
+from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER, OUTLIER2, REGULARISATION
 from lpcal.view.sight import Grey, Sight, light_vectors, look_at
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
@@ -241,7 +241,7 @@ def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None,
     d, E = light_vectors(lights, seen.points_C(depth))
     found = room_samples.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
     b, length = found.b, np.maximum(lambert.length(found.b), 1e-20)
-    known = np.maximum(found.information, NEXT_TO_NOTHING)
+    known = np.maximum(found.information, REGULARISATION)
     rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], 1 + (found.A / length / light.room.level - 1) / known
     own2 = room_samples.SPREAD**2 * (1 - known) / known
     prior = np.diag([light.level_std**-2, *3 * [TILT**-2]])
@@ -255,7 +255,7 @@ def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None,
         law = np.linalg.solve(weighted.T @ rows + prior, weighted.T @ ratio + right)
     c, mean = light.room.level * law, (length @ rows) / length.sum()
     by_parts = weighted.T @ rows * FEW_PIXELS / seen.mask.size
-    of_law = float(np.sqrt(mean @ np.linalg.solve(by_parts + prior, mean))) / max(float(mean @ law), NEXT_TO_NOTHING)
+    of_law = float(np.sqrt(mean @ np.linalg.solve(by_parts + prior, mean))) / max(float(mean @ law), REGULARISATION)
     A = np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
     thrown = room_samples.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
     return Room(c, float(np.hypot(np.hypot(LAW_STD, of_law), thrown))), A

@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.view import bands
-from lpcal.view.agreed import CERTAIN
+from lpcal.view.constants import CERTAIN
 
 PLACE = 40.0
 """Pixels that are a unit of a place in the picture."""

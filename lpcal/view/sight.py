@@ -17,7 +17,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
 from lpcal.view import bands
-from lpcal.view.agreed import GRAZING
+from lpcal.view.constants import LEAST_COSINE
 
 type Indices = npt.NDArray[np.int64]
 
@@ -139,7 +139,7 @@ def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]
             f"{len(lights)} light{'s' * (len(lights) != 1)}", where=radiance.name, needed="three lights at least", todo="take more images"
         )
     spread = np.linalg.svd(np.stack([light.direction_C for light in lights]), compute_uv=False)
-    if spread[2] < GRAZING * spread[0]:
+    if spread[2] < LEAST_COSINE * spread[0]:
         raise DegenerateError(
             "all lights lie in one plane with the object",
             where=f"{radiance.name}, lights {', '.join(radiance.lights)}",

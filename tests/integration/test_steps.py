@@ -4,7 +4,7 @@ import numpy as np
 
 from lpcal.integration.integrate import NORMAL_ERROR_RAD, Grid, Own, integrate, settle, steps
 from lpcal.integration.pieces import BREAK_WEIGHT
-from lpcal.view.agreed import NEXT_TO_NOTHING
+from lpcal.view.constants import REGULARISATION
 
 SIDE = 40
 MASK = np.ones((SIDE, SIDE), bool)
@@ -55,7 +55,7 @@ def test_a_large_front_without_distances_of_its_own_stays_where_it_began() -> No
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     step, sigma = steps(grid, n, rays_C, central=True)
     begin = np.full(len(n), -1.0)
-    own = Own(np.full(len(n), NEXT_TO_NOTHING), begin)
+    own = Own(np.full(len(n), REGULARISATION), begin)
     u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
     u = settle(grid, step, sigma, own, u, weight)
     assert abs(u.mean() - begin.mean()) < 1e-6

@@ -17,7 +17,7 @@ from lpcal.shading.field import Field
 from lpcal.surface import bounce, rounds
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
-from lpcal.view.agreed import SHADOW_STEPS
+from lpcal.view.constants import SHADOW_STEPS
 from lpcal.view.sight import Lit, Sight
 
 FOCAL = 260.0

@@ -6,7 +6,7 @@ import pytest
 from lpcal.integration.integrate import Grid
 from lpcal.surface import scales
 from lpcal.surface.scales import Blocks
-from lpcal.view.agreed import NEXT_TO_NOTHING
+from lpcal.view.constants import REGULARISATION
 from lpcal.view.sight import Sight
 
 SHAPE = (60, 80)
@@ -70,7 +70,7 @@ def test_breaks_stand_between_blocks_where_they_were(blocks: scales.Blocks) -> N
     assert np.all(weight[across] == 0.01)
     assert np.all(np.isin(weight[~across], [0.7, 1.0]))
     assert np.all(weight[blocks.of_pixel[blocks.grid.a] == blocks.of_pixel[blocks.grid.b]] == 1.0)
-    assert NEXT_TO_NOTHING not in weight
+    assert REGULARISATION not in weight
 
 
 def test_few_pixels_are_not_joined() -> None:
