@@ -27,13 +27,6 @@ CLEAR = 0.3
 """Likeness, of 1, from which the direction is taken as decided."""
 WILD = 0.5
 """Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
-EXCHANGED = (
-    ("x and y are exchanged", np.array([[0, 1], [1, 0]])),
-    ("x and y are exchanged", np.array([[0, -1], [-1, 0]])),
-    ("x and y are turned by 90 degrees", np.array([[0, -1], [1, 0]])),
-    ("x and y are turned by 90 degrees", np.array([[0, 1], [-1, 0]])),
-)
-"""What may have been done to normals' x and y, and what undoes it."""
 BLOCKS = (1, 4, 12)
 """Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
 
@@ -115,13 +108,15 @@ def exchanged(normals_C: Image, mask: Mask, rays_C: Array) -> str | None:
     along = _along_outline(normals_C, mask)
     if along is None:
         return None
-    gains = [float(np.sum(turn * along)) for _, turn in EXCHANGED]
-    words, turn = EXCHANGED[int(np.argmax(gains))]
+    swap, quarter = np.eye(2)[::-1], np.array([[0, -1], [1, 0]])
+    ways = [(swap, "exchanged"), (-swap, "exchanged"), (quarter, "turned by 90 degrees"), (-quarter, "turned by 90 degrees")]
+    gains = [float(np.sum(turn * along)) for turn, _ in ways]
+    turn, words = ways[int(np.argmax(gains))]
     if max(gains) < CLEAR or max(gains) < float(np.trace(along)) + CLEAR:
         return None
     undone = normals_C.copy()
     undone[..., :2] = normals_C[..., :2] @ turn.T.astype(normals_C.dtype)
-    return words if curl(undone, mask, rays_C).likeness > -CLEAR else None
+    return f"x and y are {words}" if curl(undone, mask, rays_C).likeness > -CLEAR else None
 
 
 def _along_outline(normals_C: Image, mask: Mask) -> Array | None:
