@@ -11,7 +11,7 @@ import pytest
 import lpcal
 from lpcal.api.compared import slopes_of
 from lpcal.methods import Shading
-from lpcal.view.sight import ray_map
+from lpcal.view.pixel_list import ray_map
 
 Y, X = np.mgrid[-1.1:1.1:60j, -1.1:1.1:60j]
 BALL = X**2 + Y**2 < 0.9

@@ -28,7 +28,7 @@ from lpcal.geometry import lambert
 from lpcal.records.calibration import Calibration
 from lpcal.records.sensor import StatedSensor
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 KINDS: dict[str, tuple[Recipe, bool]] = {
     "equal": (Recipe(), False),
@@ -63,7 +63,7 @@ def errors(drawn: Drawn, settled: Settled) -> tuple[float, float, float, float, 
     own = reconstruct(radiance, drawn.calibration, options)
     held = reconstruct(radiance, known(drawn.calibration, np.ones(len(drawn.intensity))), options)
     true = reconstruct(radiance, known(drawn.calibration, drawn.intensity), options)
-    signal = sight.grey(radiance, drawn.calibration.lights).signal[:, drawn.mask].astype(float)
+    signal = pixel_list.grey(radiance, drawn.calibration.lights).signal[:, drawn.mask].astype(float)
     S = np.stack([light.direction_C for light in drawn.calibration.lights])
     plain = np.full(drawn.normals.shape, np.nan)
     plain[drawn.mask] = lambert.unit(np.linalg.lstsq(S, signal, rcond=None)[0].T)[0]

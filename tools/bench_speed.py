@@ -33,7 +33,7 @@ from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Calibration, Light
 from lpcal.shading import normals
 from lpcal.surface import uncertainty
-from lpcal.view.sight import Sight
+from lpcal.view.pixel_list import PixelList
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = ROOT / "docs/benchmarks.md"
@@ -192,7 +192,7 @@ def robust_normals() -> Row:
     signal = 0.5 * lambert.predicted(B, n) + 2e-3 * rng.standard_normal((lights, pixels))
     signal[rng.random(signal.shape) < 0.05] += 0.4
     signal[rng.random(signal.shape) < 0.05] *= 0.1
-    seen = Sight(
+    seen = PixelList(
         np.ones((200, 200), bool), np.tile([0.0, 0, 1], (pixels, 1)), signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True
     )
     usable = normals.candidates(seen, np.ones(signal.shape))

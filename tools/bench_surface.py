@@ -26,7 +26,7 @@ from lpcal.geometry import lambert
 from lpcal.records.calibration import Light
 from lpcal.records.observations import Radiance
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 DATA = Path(os.environ.get("LPCAL_DATA", Path(__file__).resolve().parents[2] / "shared/data")) / "surface"
 COUNTS = (6, 8, 10, 16, 24, 48, 96)
@@ -67,7 +67,7 @@ def spread(lights: list[Light]) -> list[Light]:
 
 def plain_normals(radiance: Radiance, lights: Sequence[Light], mask: np.ndarray) -> np.ndarray:
     """Normals (P, 3) of a mask by plain least squares on all samples."""
-    signal = sight.grey(radiance, lights).signal[:, mask].astype(float)
+    signal = pixel_list.grey(radiance, lights).signal[:, mask].astype(float)
     B = np.repeat(np.stack([light.direction_C for light in lights])[:, None], mask.sum(), axis=1)
     return lambert.unit(lambert.weighted(B, signal, np.ones(signal.shape))[0])[0]
 
@@ -94,7 +94,7 @@ def smooth(words: list[str]) -> None:
         radiance = to_radiance(read_capture(folder, [light.name for light in calibration.lights]), Sensor())
         found = reconstruct(radiance, calibration, Options())
         plain = np.full(found.normals.shape, np.nan)
-        plain[found.mask] = plain_normals(radiance, sight.lights_of(calibration, radiance), found.mask)
+        plain[found.mask] = plain_normals(radiance, pixel_list.lights_of(calibration, radiance), found.mask)
         own, other = share_apart(found.normals, found.mask), share_apart(plain, found.mask)
         print(f"{name:<12}{found.mask.sum():>8}{own:>9.2f}{other:>9.2f}{own / other:>7.2f}", flush=True)
         if out is not None:
@@ -113,7 +113,7 @@ def errors(folder: Path, names: list[str] | None) -> list[float]:
     with np.load(folder / "normal_gt.npz") as stored:
         truth = stored[stored.files[0]] * [1, -1, -1]
     mask = found.mask & (np.linalg.norm(truth, axis=-1) > 0.5)
-    plain = plain_normals(radiance, sight.lights_of(calibration, radiance), mask)
+    plain = plain_normals(radiance, pixel_list.lights_of(calibration, radiance), mask)
 
     own, other = (
         np.degrees(2 * np.arcsin(np.clip(np.linalg.norm(n - truth[mask], axis=-1) / 2, 0, 1))) for n in (found.normals[mask], plain)

@@ -20,7 +20,7 @@ from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.surface import basins
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 RIGHT = 0.1
 """Difference of log distances within which a basin is the right one."""
@@ -33,11 +33,11 @@ def ends_of(scene: Path) -> tuple[basins.Basins, float] | None:
     calibration = read_calibration(scene / "calibration.yaml")
     raw = read_capture(scene / "capture", [light.name for light in calibration.lights], name=scene.name, use=None)
     radiance = to_radiance(raw, settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor)
-    if sight.room(radiance) is None or calibration.d_object_m is None:
+    if pixel_list.room(radiance) is None or calibration.d_object_m is None:
         return None
-    lights, true = sight.lights_of(calibration, radiance), np.load(scene / "truth/surface.npz")
-    mask, rays_C = true["mask"].astype(bool), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    found = basins.search(sight.grey(radiance, lights), rays_C, mask, lights, calibration.d_object_m)
+    lights, true = pixel_list.lights_of(calibration, radiance), np.load(scene / "truth/surface.npz")
+    mask, rays_C = true["mask"].astype(bool), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    found = basins.search(pixel_list.grey(radiance, lights), rays_C, mask, lights, calibration.d_object_m)
     return None if found is None else (found, float(np.median(np.log(true["depth"][mask & (true["depth"] > 0)]))))
 
 

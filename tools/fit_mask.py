@@ -29,7 +29,7 @@ from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, clues, flats, layers, mask, room_light
 from lpcal.segmentation.clues import View
-from lpcal.view import network, sight
+from lpcal.view import network, pixel_list
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS
 
@@ -81,7 +81,7 @@ class Example:
 class Seen:
     """A scene as the mask sees it, and its truth."""
 
-    maps: sight.Grey
+    maps: pixel_list.SignalMaps
     rays_C: np.ndarray
     lights: tuple[Light, ...]
     distance_m: float
@@ -96,9 +96,9 @@ class Seen:
         names = [light.name for light in calibration.lights]
         raw = read_capture(scene / "capture", names, name=scene.name, use=names[some])
         radiance = to_radiance(raw, settle_sensor(raw, calibration, [("calibration", stated_in(calibration))]).used.sensor)
-        lights, distance_m = sight.lights_of(calibration, radiance), calibration.d_object_m or 0.35
-        maps = sight.grey(radiance, lights)
-        rays_C, room = sight.ray_map(radiance.signal.shape[1:3], calibration.camera), sight.room(radiance)
+        lights, distance_m = pixel_list.lights_of(calibration, radiance), calibration.d_object_m or 0.35
+        maps = pixel_list.grey(radiance, lights)
+        rays_C, room = pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera), pixel_list.room(radiance)
         if room is None:
             maps = room_light.taken_away(maps, room_light.found(maps, rays_C, lights, distance_m))
         return Seen(maps, rays_C, lights, distance_m, room, np.load(scene / "truth/surface.npz")["mask"])

@@ -82,7 +82,7 @@ def spread(rows: Sequence[int]) -> list[int]:
     return [rows[k] for k in np.unique(np.linspace(0, len(rows) - 1, COUNTED_IMAGES).round().astype(int))] if rows else []
 
 
-def look_at(
+def list_pixels(
     shown: Shown, rows: Sequence[int], board: Board, done: Callable[[int], None], marks_px: Mapping[int, Array] | None = None
 ) -> dict[int, Sighting]:
     """The board in some of the images, by their rows; `marks_px` are its outermost corners (4, 2) where a person marked them."""

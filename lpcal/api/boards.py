@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from lpcal.api.board_search import grey_of, look_at, refuse_another_board, refuse_two_sizes
+from lpcal.api.board_search import grey_of, list_pixels, refuse_another_board, refuse_two_sizes
 from lpcal.api.staged import staged
 from lpcal.chain.h_cb_board import BoardPose, fit_board_pose
 from lpcal.chain.k_camera import board_shape, solve_camera
@@ -88,7 +88,7 @@ def find_boards(
         raise DisagreementError(f"{len(called)} names for {len(grey)} images", where="names", needed="one name an image")
     sizes = [(one.shape[1], one.shape[0]) for one in grey]
     refuse_two_sizes(called, sizes)
-    seen = look_at(grey.__getitem__, range(len(grey)), board, lambda done: progress("board", done, len(grey)))
+    seen = list_pixels(grey.__getitem__, range(len(grey)), board, lambda done: progress("board", done, len(grey)))
     views = BoardViews(sizes[0], tuple(seen[row].named(called[row]) for row in range(len(grey))))
     refuse_another_board(grey.__getitem__, views, board)
     return views

@@ -24,7 +24,7 @@ from lpcal.records.observations import Radiance
 from lpcal.records.surface import Component, Surface
 from lpcal.segmentation import mask as masks
 from lpcal.segmentation.mask import Hints
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 OWN = "lpcal"
 """The name of lpcal's own integrator."""
@@ -60,15 +60,15 @@ def reconstruct(
     InputError
         There is no method of this name, or it returns something else than (P, 3) numbers.
     """
-    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
-    lights = sight.lights_of(calibration, radiance)
-    maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    pixel_list.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
+    lights = pixel_list.lights_of(calibration, radiance)
+    maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
     near = calibration.camera is not None and any(light.source_C is not None for light in lights)
     if object_mask is None:
-        object_mask = masks.automatic(maps, rays_C, lights, distance_m if near else None, hints, sight.room(radiance)).mask
-    seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
+        object_mask = masks.automatic(maps, rays_C, lights, distance_m if near else None, hints, pixel_list.room(radiance)).mask
+    seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=calibration.camera is not None)
     focus_C = None if near else np.array([0.0, 0.0, distance_m])
-    d, E = sight.light_vectors(lights, seen.rays_C * distance_m, focus_C)
+    d, E = pixel_list.light_vectors(lights, seen.rays_C * distance_m, focus_C)
     function = of_name(method, methods.NORMALS, "method")
     assert function is not None
     b = np.asarray(function(methods.Shading(seen.signal, seen.sigma, seen.usable, d * E[..., None])), dtype=float)
@@ -101,7 +101,7 @@ def integrated(name: str, normals_C: Image, mask: Mask, camera: Camera | None, d
     function = of_name(integrator, methods.INTEGRATORS, "integrator", OWN)
     if function is None:
         return surface_of_normals(name, normals_C, mask, camera, distance_m)
-    rays_C = sight.ray_map(mask.shape, camera)
+    rays_C = pixel_list.ray_map(mask.shape, camera)
     u = np.asarray(function(slopes_of(normals_C, rays_C, central=camera is not None), mask), dtype=float)
     if u.shape != mask.shape or not np.isfinite(u[mask]).all():
         raise InputError(f"{u.shape} from the integrator {integrator}", where="integrator", needed=f"{mask.shape}, finite in the mask")

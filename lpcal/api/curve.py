@@ -17,7 +17,7 @@ from lpcal.records.calibration import Calibration
 from lpcal.records.observations import RawCapture
 from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor, ToneClaim
 from lpcal.surface.self_calibration import unmeasured
-from lpcal.view.sight import light_vectors, rays_at
+from lpcal.view.pixel_list import light_vectors, rays_at
 
 PIXELS = 1500
 """Pixels that are looked at, spread over the brighter half of the picture."""

@@ -27,9 +27,9 @@ from lpcal.surface import full_size as solver
 from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground, between
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
-from lpcal.view import sight
+from lpcal.view import pixel_list
 from lpcal.view.bands import shared
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 SOLVED = 10_000_000
 """Samples, lights times pixels of an object, that are solved at once: the solver's lists take 200 bytes of each."""
@@ -120,7 +120,7 @@ def in_full_size(raw: RawCapture, calibration: Calibration, asked: Asked, solve:
             needed="near or distant",
             todo="compare on a smaller picture",
         )
-    sight.agree_on_size(raw.name, full.size, calibration.camera)
+    pixel_list.agree_on_size(raw.name, full.size, calibration.camera)
     kept: list[Solved] = []
     mask = asked.given if asked.given is not None else full.mask if asked.automatic else np.ones(full.size, bool)
     given = None if asked.given is None else coarse_mask(asked.given, full.factor)
@@ -138,7 +138,7 @@ def enlarged(
     ground = Ground.of(solved.scene, solved.state, coarse.rays_C, coarse.normals, full.factor)
     radiance_of = _parts(raw, full, sensor, solved)
     inside = _outlined(full, coarse, radiance_of, solved) if mask is None else mask
-    colours = None if solved.radiance.signal.ndim == 3 else sight.colour_weight(solved.radiance, solved.scene.lights)
+    colours = None if solved.radiance.signal.ndim == 3 else pixel_list.colour_weight(solved.radiance, solved.scene.lights)
     whole = solver.Full(radiance_of, inside, calibration.camera, solved.scene, solved.state.field.gloss, ground, colours)
     found = whole.solve(progress)
     solver.finished(whole, found, AGREE_DEG, uncertainty.calibration_deg(solved.scene.lights))
@@ -190,7 +190,7 @@ def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, s
         first = share > 0.5
         said = np.where(first, 2.0, -2.0).astype(np.float32)
         said[~raster.shrunk(first, far, beyond=True) & ~raster.shrunk(~first, far, beyond=True)] = 0.0
-        bright = sight.strength(sight.grey(radiance_of(*tile.outer), solved.scene.lights))
+        bright = pixel_list.strength(pixel_list.grey(radiance_of(*tile.outer), solved.scene.lights))
         picture = np.log(np.maximum(bright, max(0.01 * float(np.percentile(bright, 99)), 1e-9))).astype(np.float32)
         return cut.total_variation(np.where(said == 0, np.where(first, 1e-3, -1e-3), said).astype(np.float32), picture, STIFFNESS)[
             tile.within

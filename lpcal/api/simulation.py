@@ -29,7 +29,7 @@ from lpcal.simulate.motion import Session, plan
 from lpcal.simulate.recipe import Recipe
 from lpcal.simulate.sensor import Response, Stored
 from lpcal.simulate.tracking import Recording, record
-from lpcal.view.sight import ray_map
+from lpcal.view.pixel_list import ray_map
 
 FLAT_LEVEL = 0.6
 """Share of full scale at which an evenly lit target is taken for the true flat field, well under saturation."""

@@ -28,7 +28,7 @@ from lpcal.records.sensor import Sensor
 from lpcal.records.shown import Shown
 from lpcal.shading import normals
 from lpcal.simulate.captures import Conditions, capture, ring
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 PAPER = Conditions()
 PLAIN: Final = "plain least squares"
@@ -101,8 +101,8 @@ def trial(conditions: Conditions, seed: int = 0, *, plain: bool = False) -> Tria
     except DegenerateError:
         return Trial(float("nan"), float("nan"))
     lights = ring(conditions)
-    seen = sight.look_at(sight.grey(radiance, lights), sight.ray_map(mask.shape, None), mask, central=False)
-    d, E = sight.light_vectors(lights, seen.rays_C, np.array([0.0, 0.0, 1.0]))
+    seen = pixel_list.list_pixels(pixel_list.grey(radiance, lights), pixel_list.ray_map(mask.shape, None), mask, central=False)
+    d, E = pixel_list.light_vectors(lights, seen.rays_C, np.array([0.0, 0.0, 1.0]))
     B = d * E[..., None]
     b = (
         lambert.weighted(B, seen.signal, np.ones(seen.signal.shape))[0]

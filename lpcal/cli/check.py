@@ -33,7 +33,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """
     from lpcal.api.handeye_check import check_handeye
     from lpcal.formats.record_documents import document_of
-    from lpcal.pipeline.distance import look_at
+    from lpcal.pipeline.distance import list_pixels
     from lpcal.pipeline.handeye_inputs import gather, section_of, with_recording
 
     workspace = with_recording(open_workspace(options), options.recording)
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
         carries=section.carries,
         inverted=section.direction == "H_PO",
     )
-    said, strange = look_at(workspace, given.boards)
+    said, strange = list_pixels(workspace, given.boards)
     wrong = [*(_in_the_rig(error, workspace) for error in found.wrong), *strange]
     notes = found.notes if given.stream is not None else (*found.notes[:1], *(("", note) for note in given.notes), *found.notes[1:])
     name = section.file if section.poses is None else section.poses

@@ -28,9 +28,9 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
-from lpcal.view import sight
+from lpcal.view import pixel_list
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS, OUTLIER, OUTLIER2, OUTLIER_RATE, SHADOW
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 LIGHTS_NEEDED = 4
 """Lights from which a pixel's signals can contradict them."""
@@ -115,8 +115,8 @@ def refuse_rearranged(radiance: Radiance, calibration: Calibration, mask: Mask |
     DegenerateError
         Fewer than three lights, or all in a plane.
     """
-    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
-    lights = sight.lights_of(calibration, radiance)
+    pixel_list.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
+    lights = pixel_list.lights_of(calibration, radiance)
     found = better(radiance, lights, calibration.camera, mask)
     if found is None:
         return ()
@@ -145,7 +145,7 @@ def better(radiance: Radiance, lights: Sequence[Light], camera: Camera | None, m
     picture = _Picture.of(radiance, lights, camera, mask, near=near)
     if picture is None:
         return None
-    fronts_m = sight.fronts_m(lights, SPAN, STEPS) if near else np.ones(1)
+    fronts_m = pixel_list.fronts_m(lights, SPAN, STEPS) if near else np.ones(1)
     arrangements = _arrangements(len(lights), picture.turns if near else [])
     costs = [cost.mean() for cost in picture.some(4 * FEWEST_PIXELS).costs(arrangements, lights, fronts_m)]
     liked = [arrangements[k] for k in np.argsort(costs, kind="stable")[:SEVERAL] if costs[k] < costs[0]]
@@ -184,7 +184,7 @@ def _arrangements(count: int, turns: Sequence[str]) -> list[Arrangement]:
 class _Picture:
     """Pixels of a capture, P of a lattice of them, and L of its lights."""
 
-    seen: sight.Sight
+    seen: pixel_list.PixelList
     lattice: Array
     """(rows, columns, 3) rays of the lattice."""
     at: Indices
@@ -199,15 +199,15 @@ class _Picture:
         rows, columns = _lattice(height, width)
         some = (slice(None), *np.ix_(rows, columns))
         thin = replace(radiance, signal=radiance.signal[some], sigma=radiance.sigma[some], saturated=radiance.saturated[some], mask=None)
-        maps = sight.grey(thin, lights)
-        bright = sight.strength(maps)
+        maps = pixel_list.grey(thin, lights)
+        bright = pixel_list.strength(maps)
         asked = mask[some[1:]] if mask is not None else bright > OUTLIER_RATE * np.percentile(bright, 99)
         asked = asked & (bright > 0)
         if asked.sum() < FEWEST_PIXELS:
             return None
         pixels = np.stack(np.broadcast_arrays(*np.ix_(rows, columns))[::-1], axis=-1).reshape(-1, 2)
-        rays_C = sight.rays_at(pixels, camera)
-        seen = sight.look_at(maps, rays_C, asked, central=camera is not None)
+        rays_C = pixel_list.rays_at(pixels, camera)
+        seen = pixel_list.list_pixels(maps, rays_C, asked, central=camera is not None)
         turns = [turn for turn, to in TURNS.items() if to(asked).shape == asked.shape]
         return _Picture(seen, rays_C.reshape(*asked.shape, 3), np.flatnonzero(asked), turns, near)
 
@@ -236,7 +236,7 @@ class _Picture:
             to = TURNS[turn](np.arange(len(rays_C)).reshape(self.lattice.shape[:2]))
             rays_C = rays_C[np.argsort(to.ravel())]
         focus_C = None if self.near else np.array([0.0, 0.0, front_m])
-        d, E = sight.light_vectors(lights, rays_C[self.at] * front_m, focus_C)
+        d, E = pixel_list.light_vectors(lights, rays_C[self.at] * front_m, focus_C)
         return np.ascontiguousarray(d * E[..., None])
 
     def standard_errors(self, values: Array) -> float:

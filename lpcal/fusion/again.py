@@ -41,7 +41,7 @@ from lpcal.segmentation.mask import NO_HINTS
 from lpcal.surface import bounce, rounds, surroundings
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.rounds import Held, Scene
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 TRIED = np.arange(0.0, 0.97, 0.16)
 """Reflectances of the median patch that are tried; between them the cost is nearly a parabola."""
@@ -133,13 +133,13 @@ def sampled(body: Body, x_A: Array, n_A: Array, place: Index, one: Placed, radia
     from scipy.ndimage import map_coordinates
 
     x_A, n_A = x_A[place], n_A[place]
-    lights = sight.lights_of(calibration, radiance)
-    maps = sight.grey(radiance, lights)
+    lights = pixel_list.lights_of(calibration, radiance)
+    maps = pixel_list.grey(radiance, lights)
     x_C = se3.apply(se3.inv(one.H_AC), x_A)
     column, row = (one.view.to_pixels(x_C[:, :2] / x_C[:, 2:]) - one.view.image[:2]).T
     signal = np.stack([map_coordinates(each.astype(float), [row, column], order=1, mode="nearest") for each in maps.signal])
     at = np.s_[:, np.rint(row).astype(int), np.rint(column).astype(int)]
-    d_C, E = sight.light_vectors(lights, x_C)
+    d_C, E = pixel_list.light_vectors(lights, x_C)
     lit = d_C @ one.H_AC[:3, :3].T * E[..., None]
     for k, light in enumerate(lights):
         lit[k, body.hidden(x_A, n_A, one.H_AC, light)] = 0.0
@@ -231,11 +231,11 @@ def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mas
     DisagreementError
         The images are not of the calibrated camera's size.
     """
-    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
-    lights = sight.lights_of(calibration, radiance)
-    maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, sight.room(radiance), drawn=False)
+    pixel_list.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
+    lights = pixel_list.lights_of(calibration, radiance)
+    maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, pixel_list.room(radiance), drawn=False)
     around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
-    seen = sight.look_at(maps, rays_C, object_mask, central=True)
+    seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=True)
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held, solver.room_of(radiance, object_mask))
     return solver.surface_of(radiance, scene, rounds.run(scene, held.u, silent), rays_C, None)

@@ -22,7 +22,7 @@ from lpcal.fusion.volume import Triangles
 from lpcal.geometry import lambert, se3
 from lpcal.geometry.arrays import Array, Image, Index, Mask
 from lpcal.records.calibration import Light
-from lpcal.view.sight import light_vectors
+from lpcal.view.pixel_list import light_vectors
 
 PATCHES = 700
 """Cells of the model's surface, about; one in which it faces several ways makes more patches. The form factors take the square of these,

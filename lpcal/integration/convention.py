@@ -21,7 +21,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Camera
 from lpcal.records.figures import Curl
 from lpcal.view.constants import CERTAIN, FEWEST_PIXELS, LEAST_COSINE, OUTLIER_RATE, RIM_PX
-from lpcal.view.sight import ray_map
+from lpcal.view.pixel_list import ray_map
 
 CLEAR = 0.3
 """Likeness, of 1, from which the direction is taken as decided."""

@@ -26,7 +26,7 @@ from lpcal.integration import multigrid
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
 from lpcal.view.constants import LEAST_COSINE, OUTLIER, REGULARISATION
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
 AGAIN = GRADUATION[2::2]

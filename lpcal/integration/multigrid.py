@@ -19,7 +19,7 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array
 from lpcal.geometry.lambert import SINGULAR
 from lpcal.kernels.library import LINKS, kernel
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 COARSEST = 200
 """Unknowns from which on a level is not made coarser, but solved directly."""

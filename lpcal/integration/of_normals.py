@@ -30,7 +30,7 @@ from lpcal.records.calibration import Camera
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.surface import Component, Surface
 from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION
-from lpcal.view.sight import ray_map
+from lpcal.view.pixel_list import ray_map
 
 UNKNOWN_DISTANCE = 0.5
 """Relative standard deviation of a distance that is not known."""

@@ -14,7 +14,7 @@ from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
 from lpcal.view import bands
 from lpcal.view.constants import FEWEST_PIXELS, REGULARISATION, RIM_PX, SMALLEST_SHARE
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 BREAK_WEIGHT = 0.02
 """Weight of an edge under which it is a break: its step is off by two and a half times the C of its weights (integration.integrate)."""

@@ -89,7 +89,7 @@ def run(workspace: Workspace, progress: Progress) -> Outcome:
     )
 
 
-def look_at(workspace: Workspace, boards: BoardPoses) -> tuple[list[tuple[str, str]], list[LpcalError]]:
+def list_pixels(workspace: Workspace, boards: BoardPoses) -> tuple[list[tuple[str, str]], list[LpcalError]]:
     """Before any solve: what the readings at images with a board say by themselves, and what is wrong with them."""
     panel = workspace.rig_file.rig.panel
     sensor = None if panel is None else panel.distance_sensor

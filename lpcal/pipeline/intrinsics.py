@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from lpcal.api.board_search import Shown, grey_of, look_at, refuse_another_board, refuse_another_count, refuse_two_sizes, spread
+from lpcal.api.board_search import Shown, grey_of, list_pixels, refuse_another_board, refuse_another_count, refuse_two_sizes, spread
 from lpcal.api.boards import as_given, board_of, calibrate_camera, locate_boards
 from lpcal.detect.board import DETECTOR_VERSION
 from lpcal.detect.radiometry import fit_flat_field
@@ -332,11 +332,11 @@ def search(
     given = {image: Sighting(read_image(image).size, view) for image, view in known.items()}
     new = [row for row, (key, image) in enumerate(zip(keys, images, strict=True)) if key not in kept and image not in given]
     first, shown = spread(new), shown_in(images)
-    seen = look_at(shown, first, board, lambda done: progress("board", done, len(new)), marks_px)
+    seen = list_pixels(shown, first, board, lambda done: progress("board", done, len(new)), marks_px)
     if first and len(new) == len(images) and all(seen[row].view.corners_px is None for row in first):
         refuse_another_count(shown, first, seen[first[0]].named(workspace.relative(images[first[0]])), board)
     rest = [row for row in new if row not in first]
-    seen |= look_at(shown, rest, board, lambda done: progress("board", len(first) + done, len(new)), marks_px)
+    seen |= list_pixels(shown, rest, board, lambda done: progress("board", len(first) + done, len(new)), marks_px)
     found |= {keys[row]: sighting for row, sighting in seen.items()}
     if new:
         write_corner_cache(store, found)

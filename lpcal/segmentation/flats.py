@@ -21,7 +21,7 @@ from lpcal.kernels.library import kernel
 from lpcal.segmentation import room_samples, samples
 from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior
-from lpcal.view.sight import Indices
+from lpcal.view.pixel_list import Indices
 
 SWEEP = (0.3, 5.0)
 """Depths at which pixels vote, as shares of the working distance."""

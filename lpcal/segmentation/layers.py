@@ -24,7 +24,7 @@ from lpcal.segmentation.clues import SPARED, View
 from lpcal.view import bands
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import UNLIKELY
-from lpcal.view.sight import Indices, strength
+from lpcal.view.pixel_list import Indices, strength
 
 FREE_PRICE = 10.0
 """Cost of a normal of one's own: twice the logarithm of how many normals the samples can distinguish."""

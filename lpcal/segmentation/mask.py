@@ -20,7 +20,7 @@ from lpcal.segmentation import background, cut, flats, layers, outline, planes
 from lpcal.segmentation.clues import View
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
-from lpcal.view.sight import Grey, Sight, strength
+from lpcal.view.pixel_list import PixelList, SignalMaps, strength
 
 MEDIUM_PIXELS = 110_000
 """Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
@@ -113,7 +113,7 @@ class Found:
 
 
 def automatic(
-    maps: Grey,
+    maps: SignalMaps,
     rays_C: Array,
     lights: Sequence[Light],
     distance_m: float | None,
@@ -131,14 +131,14 @@ def automatic(
         fewer, some = maps, list(range(len(lights)))
         if len(lights) > MOST_LIGHTS:
             some = np.linspace(0, len(lights) - 1, MOST_LIGHTS).round().astype(int).tolist()
-            fewer = Grey(maps.signal[some], maps.sigma[some], maps.usable[some])
+            fewer = SignalMaps(maps.signal[some], maps.sigma[some], maps.usable[some])
         found = _by_layers(fewer, rays_C, [lights[k] for k in some], distance_m, hints, room, drawn=drawn)
         if found is not None:
             return found
     return Found(hints.of(_by_strength(maps)), "by the strength of the signal")
 
 
-def _by_strength(maps: Grey) -> Mask:
+def _by_strength(maps: SignalMaps) -> Mask:
     """Otsu 1979 on the logarithm of the strength, then the seam."""
     lit = strength(maps)
     noise = np.median(maps.sigma, axis=0)
@@ -149,7 +149,7 @@ def _by_strength(maps: Grey) -> Mask:
 
 
 def _by_layers(
-    maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None, *, drawn: bool
+    maps: SignalMaps, rays_C: Array, lights: Sequence[Light], distance_m: float, hints: Hints, room: Image | None, *, drawn: bool
 ) -> Found | None:
     image = coarse_of(maps, rays_C, factor_of(maps, COARSE_PIXELS))
     lit = np.sum(image.signal > CERTAIN * image.sigma, axis=0) >= 3
@@ -166,7 +166,7 @@ def _by_layers(
         judged = background.all_of(judged, image.image(lit))
     mask, behind = judged.mask, judged.behind
     area = [int(np.sum(behind & (labels == k + 1))) for k in range(count)]
-    seen = Sight(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
+    seen = PixelList(np.ones(image.shape, bool), image.rays_C, image.signal, image.sigma, image.usable, True)
     largest_first = [k for k in np.argsort(area)[::-1] if area[k]]
     walls = tuple(_plane(found.planes[k], seen, lights, (behind & (labels == k + 1)).ravel()) for k in largest_first)
     of_plane = np.full(labels.shape, -1)
@@ -238,7 +238,7 @@ def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> s
     return f"{100 * doubt.open:.0f} % of its area may be {what}, most of it in x {column[0]} to {column[1]}, y {row[0]} to {row[1]}"
 
 
-def _plane(q: Array, seen: Sight, lights: Sequence[Light], own: Mask) -> planes.Plane:
+def _plane(q: Array, seen: PixelList, lights: Sequence[Light], own: Mask) -> planes.Plane:
     some = planes.thinned(seen.at(np.flatnonzero(own)))
     square, _ = planes.misfit(some, planes.predicted(q, some.rays_C, lights))
     return planes.Plane(q, float(np.sqrt(np.median(square))))
@@ -258,7 +258,7 @@ def tidy(mask: Mask) -> Mask:
     return np.asarray(kept | np.isin(holes, small[small > 0]))
 
 
-def _picture(maps: Grey) -> Image:
+def _picture(maps: SignalMaps) -> Image:
     """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
     ordered = np.sort(maps.signal, axis=0)
     three = np.stack([ordered[-2], ordered.mean(axis=0), ordered[len(ordered) // 3]], axis=-1)
@@ -266,7 +266,7 @@ def _picture(maps: Grey) -> Image:
     return np.asarray(np.sqrt(np.clip(three / np.maximum(top, 1e-12), 0, 1)), np.float32)
 
 
-def binned(maps: Grey, rays_C: Array) -> tuple[Grey, Array, int]:
+def binned(maps: SignalMaps, rays_C: Array) -> tuple[SignalMaps, Array, int]:
     """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
     f = factor_of(maps, MEDIUM_PIXELS)
     return *joined(maps, rays_C, f), f

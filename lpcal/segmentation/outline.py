@@ -20,7 +20,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.segmentation import cut
 from lpcal.view.coarse import Coarse, LightTable, joined
 from lpcal.view.network import Network
-from lpcal.view.sight import Grey, second, strength
+from lpcal.view.pixel_list import SignalMaps, second, strength
 
 FITTED = Path(__file__).with_name("outline_network.npz")
 """Where the network's weights are that tools/fit_outline.py has fitted."""
@@ -58,7 +58,7 @@ class Apart:
     """(rows, columns) that a coarse pixel is the object."""
 
 
-def drawn(apart: Apart, maps: Grey, rays_C: Array, room: Image | None) -> Mask:
+def drawn(apart: Apart, maps: SignalMaps, rays_C: Array, room: Image | None) -> Mask:
     """The mask (H, W) in full size; `room` (H, W) is the image without lights, None where there is none.
 
     Where the network sees nothing of the object, it is what the coarse pixels say.
@@ -70,7 +70,7 @@ def drawn(apart: Apart, maps: Grey, rays_C: Array, room: Image | None) -> Mask:
     return carried(mask, factor, maps, rays_C) if mask.any() else carried(apart.log_odds > 0, apart.image.factor, maps, rays_C)
 
 
-def carried(mask: Mask, factor: int, maps: Grey, rays_C: Array) -> Mask:
+def carried(mask: Mask, factor: int, maps: SignalMaps, rays_C: Array) -> Mask:
     """A mask of pixels of `factor` in full size (H, W), its outline found again at every scale between."""
     while True:
         finer = max(1, factor // 2)
@@ -86,7 +86,7 @@ def scale_of(coarse: int) -> int:
     return max(1, coarse // 2)
 
 
-def log_odds(apart: Apart, here: Grey, room: Image | None, factor: int) -> Array:
+def log_odds(apart: Apart, here: SignalMaps, room: Image | None, factor: int) -> Array:
     """Log odds (h, w) that pixels of `factor` are the object, by maps of them (L, h, w): the mean of a picture's and its mirror image's."""
     found, window = channels(apart, here, room, factor)
     said = np.full(here.signal.shape[1:], -SURE)
@@ -95,7 +95,7 @@ def log_odds(apart: Apart, here: Grey, room: Image | None, factor: int) -> Array
     return np.where(near, said, -SURE)
 
 
-def channels(apart: Apart, here: Grey, room: Image | None, factor: int) -> tuple[dict[str, Array], tuple[slice, slice]]:
+def channels(apart: Apart, here: SignalMaps, room: Image | None, factor: int) -> tuple[dict[str, Array], tuple[slice, slice]]:
     """The channels (rows, columns) of a window, and which rows and columns of maps (L, h, w) it is."""
     shape, by = here.signal.shape[1:], apart.image.factor / factor
     odds = resampled(np.clip(apart.log_odds, -SURE, SURE), by, shape)
@@ -153,7 +153,7 @@ def _window(mask: Mask) -> tuple[slice, slice]:
     return row, column
 
 
-def levels_of(maps: Grey, room: Image | None, factor: int) -> tuple[Image, Image | None]:
+def levels_of(maps: SignalMaps, room: Image | None, factor: int) -> tuple[Image, Image | None]:
     """Logarithms (h, w) of the brightness of maps of `factor` pixels, and of the image without lights (H, W), where there is one."""
     bright = strength(maps)
     return level(bright, float(np.percentile(bright, 99))), (

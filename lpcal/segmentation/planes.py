@@ -17,7 +17,7 @@ from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.segmentation.samples import MODEL
 from lpcal.view import bands
-from lpcal.view.sight import Sight, light_vectors
+from lpcal.view.pixel_list import PixelList, light_vectors
 
 SHADE = 0.5
 """A signal under this share of what the second highest predicts is in shadow."""
@@ -97,7 +97,7 @@ def between(lattice: Array, place: Array) -> Array:
     return total.T
 
 
-def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
+def residuals(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Array, Array]:
     """Residuals (L, P) in sigmas, 0 for samples in shadow or saturated, and the number (P,) of samples that count; pixels that miss: inf.
 
     `shaded`: shadow may lie on most of the samples of a pixel, else on fewer than half.
@@ -108,7 +108,7 @@ def residuals(seen: Sight, m: Array, *, shaded: bool) -> tuple[Array, Array]:
     return np.where(hit, r, np.inf), np.asarray(counted.sum(axis=0), float)
 
 
-def strong(seen: Sight, m: Array) -> tuple[Mask, Array]:
+def strong(seen: PixelList, m: Array) -> tuple[Mask, Array]:
     """The samples (L, P) by which a plane is judged, and m with 1 where a ray misses the plane."""
     hit = _hit(m)
     white = np.where(hit, m, 1.0)
@@ -120,7 +120,7 @@ def _hit(m: Array) -> Mask:
     return np.asarray(np.isfinite(m).all(axis=0) & (m > 0).any(axis=0))
 
 
-def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, Array]:
+def _fitted(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, Array]:
     """Where rays hit the plane (P,), albedo (P,), the samples (L, P) that it rests on, and m (L, P)."""
     sound, white = strong(seen, m)
     ratio = np.where(sound, seen.signal / np.maximum(white, 1e-9), -np.inf)
@@ -133,7 +133,7 @@ def _fitted(seen: Sight, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, 
     return _hit(m), found, counted, white
 
 
-def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
+def misfit(seen: PixelList, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
     """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
     if len(m) <= FEW_LIGHTS and (run := kernel("misfit")):
         signal, sigma, white = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma, m))
@@ -145,6 +145,6 @@ def misfit(seen: Sight, m: Array, *, shaded: bool = True) -> tuple[Array, Array]
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count
 
 
-def thinned(seen: Sight) -> Sight:
+def thinned(seen: PixelList) -> PixelList:
     """Every so many pixels, FIT_PIXELS at most."""
     return seen.at(np.arange(0, seen.pixels, max(1, seen.pixels // FIT_PIXELS)))

@@ -25,7 +25,7 @@ from lpcal.segmentation import flats, layers, room_samples
 from lpcal.segmentation.clues import SPARED
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
-from lpcal.view.sight import Grey, second, strength
+from lpcal.view.pixel_list import SignalMaps, second, strength
 
 FEW_PIXELS = COARSE_PIXELS // 4
 """Coarse pixels at which levels are tried: half as many along a side as its map has."""
@@ -81,7 +81,7 @@ class Explained:
         return float(np.median(self.A[self.far]) / max(np.median(self.size[self.matter]), 1e-20))
 
 
-def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float) -> RoomLight:
+def found(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], distance_m: float) -> RoomLight:
     """The room's light of a picture with lights near the object, which is at about a distance."""
     share = np.array([1 / light.intensity.mean() for light in lights])
     few = coarse_of(maps, rays_C, factor_of(maps, FEW_PIXELS))
@@ -98,10 +98,10 @@ def found(maps: Grey, rays_C: Array, lights: Sequence[Light], distance_m: float)
     return RoomLight(room, level_std, _spread(A, image, share, maps))
 
 
-def taken_away(maps: Grey, light: RoomLight) -> Grey:
+def taken_away(maps: SignalMaps, light: RoomLight) -> SignalMaps:
     """The maps without a room's light, its doubt counted as noise."""
     ambient = light.room.share[:, None, None].astype(np.float32) * light.A
-    return Grey(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
+    return SignalMaps(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
 
 
 def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: float, *, drawn: bool) -> Explained:
@@ -194,7 +194,7 @@ def _moments(at: Array, energy: Array) -> tuple[float, float]:
     return middle, float(np.sqrt(np.average((at - middle) ** 2, weights=weight)))
 
 
-def _spread(A: Array, image: Coarse, share: Array, maps: Grey) -> Image:
+def _spread(A: Array, image: Coarse, share: Array, maps: SignalMaps) -> Image:
     """A (P,) of coarse pixels carried to full size by the brightness of their pixels, and no more than their least sample."""
     part = np.clip(A / np.maximum(_bright(image.signal, share), 1e-12), 0, 1)
     row, column = (

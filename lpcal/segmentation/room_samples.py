@@ -20,7 +20,7 @@ from lpcal.kernels.library import kernel
 from lpcal.segmentation import samples
 from lpcal.view.coarse import RoomPrior
 from lpcal.view.constants import OUTLIER2, SHADOW
-from lpcal.view.sight import second
+from lpcal.view.pixel_list import second
 
 SPREAD = 0.35
 """Relative standard deviation of A about level |b|: on simulated scenes 0.15 over an object, 0.3 between it and a wall behind."""

@@ -18,7 +18,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view.constants import OUTLIER2, SHADOW
-from lpcal.view.sight import second
+from lpcal.view.pixel_list import second
 
 MODEL = 0.03
 """Share of a signal that a model of matte matter lacks: light from elsewhere, ripples of a lobe."""

@@ -33,7 +33,7 @@ from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, LEAST_COSINE, OUTLIER2
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 TURN = 0.15
 """Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of
@@ -88,9 +88,9 @@ class States:
 
 
 def solve(
-    seen: Sight,
+    seen: PixelList,
     grid: Grid,
-    lit: Lit,
+    lit: Illumination,
     hidden: Mask | None,
     start: Estimate | Field,
     glossy: float | None = None,
@@ -141,7 +141,7 @@ def _tilt_rad(b: Array, own: Array) -> Array:
     return np.asarray(np.sqrt(np.maximum(across, 0.0) / 2) / np.maximum(albedo, 1e-12))
 
 
-def _begin(seen: Sight, grid: Grid, b: Array) -> Array:
+def _begin(seen: PixelList, grid: Grid, b: Array) -> Array:
     """A start (P, 3): estimates of single pixels without shadows, the rest filled from around."""
     known = np.isfinite(b[:, 0])
     albedo = np.where(known, lambert.length(np.nan_to_num(b)), 0.0)
@@ -167,12 +167,12 @@ def alike(grid: Grid, b: Array, known: Mask) -> Array:
     return np.asarray(np.where(of > 0, like / np.maximum(of, 1), 1.0))
 
 
-def shown_gloss(lit: Lit, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
+def shown_gloss(lit: Illumination, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
     """Gloss (L, P) that the lobe shows."""
     return None if shine is None else shine.ks * lit.E * gloss.lobe(lit.d, lambert.unit(b)[0], v, shine.roughness)
 
 
-def states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> States:
+def states(seen: PixelList, lit: Illumination, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> States:
     """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
     bright = np.maximum(lambert.dot(lit.direct, b), 0.0)
     thrown = 0.0 if lit.thrown is None else np.maximum(lambert.dot(lit.thrown, b), 0.0)
@@ -190,13 +190,13 @@ def states(seen: Sight, lit: Lit, b: Array, hidden: Mask | None, shown: Array | 
     return States(left - bright, spread2, dark, dark2, chance)
 
 
-def _weights(seen: Sight, chance: Array, residual: Array, spread2: Array) -> Array:
+def _weights(seen: PixelList, chance: Array, residual: Array, spread2: Array) -> Array:
     """Weights (L, P) of samples in the normal equations, by their chance of being what the residual takes them for."""
     return np.where(seen.usable, chance / (1 + residual**2 / spread2 / OUTLIER2) ** 2 / spread2, 0.0)
 
 
 def _given(
-    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float = 1.0
+    seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float = 1.0
 ) -> tuple[object, ...]:
     """What kernels are given of samples, light, b (P, 3), directions to the viewer, and constants."""
     ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
@@ -211,7 +211,7 @@ def _given(
 
 
 def _gathered(
-    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
+    seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
 ) -> tuple[Array, Array]:
     """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrices (P, 3, 3) and right sides (P, 3)."""
     if run := kernel("gathered"):
@@ -227,7 +227,7 @@ def _gathered(
 
 
 def _gathered_of(
-    seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
+    seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
 ) -> tuple[Array, Array]:
     """`_gathered` of some pixels."""
     shown = shown_gloss(lit, b, v, shine)
@@ -298,7 +298,9 @@ class _System:
         return np.asarray(found.reshape(-1, 3))
 
 
-def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]) -> tuple[Array, Array]:
+def strengths_seen(
+    seen: PixelList, grid: Grid, lit: Illumination, hidden: Mask | None, before: Field, parts: Sequence[Array]
+) -> tuple[Array, Array]:
     """Evidence of lit samples and of the field's smoothness for how strong parts of the light are, each of light vectors (L, P, 3).
 
     With b taken out (Schur complement of the normal equations) the energy at strengths x more than those in `lit` is the quadratic
@@ -315,7 +317,7 @@ def strengths_seen(seen: Sight, grid: Grid, lit: Lit, hidden: Mask | None, befor
 
 
 def _evidence(
-    seen: Sight, lit: Lit, hidden: Mask | None, before: Field, parts: Sequence[Array]
+    seen: PixelList, lit: Illumination, hidden: Mask | None, before: Field, parts: Sequence[Array]
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Normal equations of b and the strengths: own (P, 3, 3), pull (P, 3), across (N, P, 3), and summed square (N, N) and slope (N,)."""
     v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
@@ -347,7 +349,7 @@ def _evidence(
     return np.concatenate(owns), np.concatenate(pulls), np.concatenate(acrosses, axis=1), sum(squares), sum(slopes)
 
 
-def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
+def _by_pixels(seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
     """What each pixel's own samples say, of those that are lit by the field and agree with it."""
     if run := kernel("agreeing"):
         given, (L, P) = _given(seen, lit, b, v, hidden, shine), seen.signal.shape
@@ -367,7 +369,7 @@ def _by_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, s
     return joined(bands.each(seen.pixels, len(seen.signal), of))
 
 
-def _of_pixels(seen: Sight, lit: Lit, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
+def _of_pixels(seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
     """`_by_pixels` of some pixels."""
     shown = shown_gloss(lit, b, v, shine)
     state = states(seen, lit, b, hidden, shown, 1.0)

@@ -26,7 +26,7 @@ from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER2, OUTLIER_RATE, REGULARISATION, UNLIKELY
-from lpcal.view.sight import Lit
+from lpcal.view.pixel_list import Illumination
 
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
 """Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
@@ -93,7 +93,7 @@ def sample(pixels: int) -> slice:
     return slice(None, None, max(1, pixels // MANY_PIXELS))
 
 
-def fit(residual: Array, weight: Array, spread2: Array, lit: Lit, n: Array, v: Array, per_unit: float) -> Gloss | None:
+def fit(residual: Array, weight: Array, spread2: Array, lit: Illumination, n: Array, v: Array, per_unit: float) -> Gloss | None:
     """The lobe that residuals (L, P) of variances `spread2` show, by normals n and directions v to the viewer (P, 3).
 
     `weight` (L, P) is 1 for samples that count; `per_unit` is the reflectance by albedo in the signals' unit. None where the

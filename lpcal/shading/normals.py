@@ -23,7 +23,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
 from lpcal.view import bands
 from lpcal.view.constants import LEAST_COSINE, OUTLIER, OUTLIER2, SHADOW
-from lpcal.view.sight import LIGHTS_NEEDED, Indices, Lit, Sight, vectors
+from lpcal.view.pixel_list import LIGHTS_NEEDED, Illumination, Indices, PixelList, vectors
 
 MODEL = 0.015
 """What the model lacks, a standard deviation as a share of a sample."""
@@ -70,41 +70,41 @@ class Estimate:
         gloss = None if self.gloss is None else self.gloss[:, some]
         return Estimate(self.b[some], self.inliers[:, some], self.covariance[some], self.chi2[some], self.cost[some], gloss)
 
-    def diffuse(self, sight: Sight) -> Array:
+    def diffuse(self, seen: PixelList) -> Array:
         """Signals (L, P) without gloss."""
-        return sight.signal if self.gloss is None else np.maximum(sight.signal - self.gloss, 0.0)
+        return seen.signal if self.gloss is None else np.maximum(seen.signal - self.gloss, 0.0)
 
 
-def candidates(sight: Sight, E: Array, hidden: Mask | None = None) -> Mask:
+def candidates(seen: PixelList, E: Array, hidden: Mask | None = None) -> Mask:
     """Samples (L, P) that a light seems to reach unoccluded."""
 
     def of(at: slice) -> Mask:
-        signal, light = sight.signal[:, at], E[:, at]
-        lit = sight.usable[:, at] & (light > 0)
+        signal, light = seen.signal[:, at], E[:, at]
+        lit = seen.usable[:, at] & (light > 0)
         shading = np.where(lit, signal / np.maximum(light, 1e-300), 0.0)
         bright = np.partition(shading, -2, axis=0)[-2]
-        found = lit & (shading > SHADOW * bright) & (signal > OUTLIER * sight.sigma[:, at])
+        found = lit & (shading > SHADOW * bright) & (signal > OUTLIER * seen.sigma[:, at])
         return found if hidden is None else found & ~hidden[:, at]
 
-    return np.concatenate(bands.each(sight.pixels, len(E), of), axis=1)
+    return np.concatenate(bands.each(seen.pixels, len(E), of), axis=1)
 
 
-def variances(sight: Sight) -> Array:
+def variances(seen: PixelList) -> Array:
     """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks."""
-    variance = MODEL * sight.signal
+    variance = MODEL * seen.signal
     variance *= variance
-    variance += sight.sigma**2
+    variance += seen.sigma**2
     return variance
 
 
-def estimate(sight: Sight, light: Lit | Array, usable: Mask, variance: Array) -> Estimate:
+def estimate(seen: PixelList, light: Illumination | Array, usable: Mask, variance: Array) -> Estimate:
     """b of each pixel from the samples `usable` (L, P), by light or its vectors (L, P, 3)."""
-    way = _few if len(sight.signal) <= FEW_LIGHTS else _many
+    way = _few if len(seen.signal) <= FEW_LIGHTS else _many
 
     def of(at: slice) -> Estimate:
-        return way(sight.signal[:, at], vectors(light, at), usable[:, at], variance[:, at], sight.rays_C[at])
+        return way(seen.signal[:, at], vectors(light, at), usable[:, at], variance[:, at], seen.rays_C[at])
 
-    return joined(bands.each(sight.pixels, len(sight.signal), of))
+    return joined(bands.each(seen.pixels, len(seen.signal), of))
 
 
 def joined(parts: list[Estimate]) -> Estimate:
@@ -120,13 +120,13 @@ def joined(parts: list[Estimate]) -> Estimate:
     )
 
 
-def misfit(sight: Sight, B: Array, usable: Mask, found: Estimate) -> float:
+def misfit(seen: PixelList, B: Array, usable: Mask, found: Estimate) -> float:
     """Mean of min(r^2, OUTLIER^2) over the samples `usable` (L, P) of an estimate."""
-    square = (sight.signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(sight)
+    square = (seen.signal - lambert.predicted(B, np.nan_to_num(found.b))) ** 2 / variances(seen)
     return float(np.sum(np.where(usable, np.minimum(square, OUTLIER2), 0.0)) / max(usable.sum(), 1))
 
 
-def gloss_share(lit: Lit, found: Estimate) -> Array:
+def gloss_share(lit: Illumination, found: Estimate) -> Array:
     """Gloss (P,) as a share of the direct light that a pixel sends back as matte matter, of the lights that agree."""
     if found.gloss is None:
         return np.zeros(len(found.b))
@@ -140,7 +140,7 @@ def gloss_share(lit: Lit, found: Estimate) -> Array:
     return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
 
 
-def thrown_share(lit: Lit, found: Estimate) -> Array:
+def thrown_share(lit: Illumination, found: Estimate) -> Array:
     """Light (P,) that is reflected onto a pixel by its surroundings, as a share of the direct light of the lights that agree."""
     if lit.thrown is None:
         return np.zeros(len(found.b))
@@ -244,7 +244,7 @@ def _median_of_known(values: Array) -> Array:
     return np.nan_to_num(found)
 
 
-def albedo_of(signal: Array | Image, intensity: Array, lit: Lit, n: Array, found: Estimate, seen: Sight) -> Array:
+def albedo_of(signal: Array | Image, intensity: Array, lit: Illumination, n: Array, found: Estimate, seen: PixelList) -> Array:
     """Albedo (P, C): the least-squares factor of the shading, a channel at a time, over the samples that agree.
 
     `signal` (L, P, C) and `intensity` (L, C) are the channels' own, `n` (P, 3) the normals.

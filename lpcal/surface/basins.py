@@ -34,7 +34,7 @@ from lpcal.view import bands, coarse
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.crop import Crop
-from lpcal.view.sight import Grey, Indices, Lit, Sight, light_vectors, look_at
+from lpcal.view.pixel_list import Illumination, Indices, PixelList, SignalMaps, light_vectors, list_pixels
 
 STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
 """Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
@@ -110,7 +110,7 @@ def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
 
 
 def search(
-    maps: Grey, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
+    maps: SignalMaps, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
 ) -> Basins | None:
     """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
     factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
@@ -120,7 +120,7 @@ def search(
     inside = share > 0.5
     if inside.sum() < FEWEST_PIXELS:
         return None
-    seen = look_at(image.maps, image.image(image.rays_C), inside, central=True)
+    seen = list_pixels(image.maps, image.image(image.rays_C), inside, central=True)
     box = Crop.about(inside)
     table = LightTable.of(image, lights, about_m, (box.rows, box.columns)).at_pixels(np.flatnonzero(box.of(inside)))
     grid = Grid.of(inside)
@@ -156,7 +156,7 @@ class PieceEnds:
     """Standard deviation of the first of the shifts, by the energy about it: wide where the light hardly knows the distance."""
 
 
-def std_of(seen: Sight, lights: Sequence[Light], u: Array, inside: Mask) -> float:
+def std_of(seen: PixelList, lights: Sequence[Light], u: Array, inside: Mask) -> float:
     """Standard deviation of the log distance of a piece `inside` (P,) of log depths u (P,), by how its samples' cost rises about it.
 
     Few lights, near to each other or on one side, a shallow shape, shadows and gloss all make the same costs of neighbouring distances.
@@ -167,7 +167,7 @@ def std_of(seen: Sight, lights: Sequence[Light], u: Array, inside: Mask) -> floa
     return float(1 / np.sqrt(NEARBY * max(bend, 0.0) + WORKING**-2))
 
 
-def of_piece(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:
+def of_piece(seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:
     """The distances that the light of a piece `inside` (P,) of log depths u (P,) supports, where the main piece is at log depth `main`.
 
     Parts of an object that stand apart in the picture are swept as a whole: rounds find the minimum that is nearest. `thrown` (L, P, 3) is
@@ -205,16 +205,16 @@ def _vertex(energy: Array, k: int) -> float:
 
 
 def _costs_of_shifts(
-    seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None, some: Indices, shifts: Sequence[float] | Array
+    seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None, some: Indices, shifts: Sequence[float] | Array
 ) -> Array:
     """Mean cost (N,) of the samples of some pixels whose log depths, of u (P,), are changed by each of `shifts` (N,)."""
     few, light = seen.at(some), None if thrown is None else thrown[:, some]
     return np.array([_cost_of(few, lights, u[some] + shift, light) for shift in shifts])
 
 
-def _cost_of(seen: Sight, lights: Sequence[Light], u: Array, thrown: Array | None) -> float:
+def _cost_of(seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None) -> float:
     """Mean cost of the samples of pixels at log depths u (P,)."""
-    lit = Lit(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), thrown)
+    lit = Illumination(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), thrown)
     found = normals.estimate(seen, lit, normals.candidates(seen, lit.E), normals.variances(seen))
     return float(_costs(found).mean())
 
@@ -224,7 +224,7 @@ def _costs(found: Estimate) -> Array:
     return np.where(np.isfinite(found.b[:, 0]), found.cost, OUTLIER2 * len(found.inliers))
 
 
-def _rounds(seen: Sight, grid: Grid, table: LightTable, u: Array) -> Basin:
+def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> Basin:
     """Plain rounds from u (P,)."""
     pixels = np.arange(seen.pixels)
 

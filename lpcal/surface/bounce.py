@@ -33,7 +33,7 @@ from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER_RATE, REGULARISATION, RIM_PX
-from lpcal.view.sight import Indices, Lit, Sight
+from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
 STEPS = 6
 """Places between two patches at which it is asked whether a surface stands there."""
@@ -99,7 +99,7 @@ class Reflectance:
         return self.per_unit * np.array([1.0, self.sides, self.beyond])
 
 
-def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
+def thrown(seen: PixelList, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
     """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
     joined = _Joined.of(seen, depth, n)
     x_C, n_C = joined.places
@@ -117,7 +117,7 @@ def thrown(seen: Sight, depth: Array, found: Estimate, n: Array, lights: Sequenc
     return Thrown(joined.at_pixels(at_patches), joined.at_pixels(by_unseen), out_of_sight, joined.spread(unseen))
 
 
-def from_around(seen: Sight, depth: Array, n: Array, lights: Sequence[Light], around: Around) -> Array:
+def from_around(seen: PixelList, depth: Array, n: Array, lights: Sequence[Light], around: Around) -> Array:
     """J (L, P, 3) of what is seen around a surface of depths (P,) and normals n (P, 3), and of half of what is taken to go on."""
     joined = _Joined.of(seen, depth, n)
     x_C, n_C = joined.places
@@ -131,7 +131,7 @@ def from_around(seen: Sight, depth: Array, n: Array, lights: Sequence[Light], ar
 class _Joined:
     """The pixels of an object joined to patches, Q of them."""
 
-    seen: Sight
+    seen: PixelList
     size: int
     """Pixels of a patch along its side."""
     of_pixel: Indices
@@ -145,7 +145,7 @@ class _Joined:
     """Points and normals (Q, 3)."""
 
     @staticmethod
-    def of(seen: Sight, depth: Array, n: Array) -> _Joined:
+    def of(seen: PixelList, depth: Array, n: Array) -> _Joined:
         """By depths (P,) and normals (P, 3)."""
         size = max(1, int(np.ceil(np.sqrt(seen.pixels / MANY_PIXELS))))
         rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches of the object, not of the picture about it
@@ -191,7 +191,7 @@ class LitEvidence:
         return np.asarray(np.einsum("ni,ij,nj->n", off, np.linalg.inv(np.linalg.inv(curvature) + doubt**2 * np.eye(3)), off))
 
 
-def reflectance(seen: Sight, by: Thrown, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
+def reflectance(seen: PixelList, by: Thrown, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
     """The reflectance by the samples in shadow, and by the evidence of the lit ones.
 
     `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is reflected, ``s J_k . b``. A lit sample by
@@ -233,7 +233,7 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
     return np.array(fits)
 
 
-def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
+def in_shadow(seen: PixelList, lit: Illumination, n: Array, hidden: Mask) -> Mask:
     """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
     dark = hidden | (lambert.dot(lit.d, n) < -LEAST_COSINE)
     found = np.zeros_like(dark)
@@ -242,7 +242,7 @@ def in_shadow(seen: Sight, lit: Lit, n: Array, hidden: Mask) -> Mask:
     return found
 
 
-def _areas(seen: Sight, depth: Array, n: Array) -> Array:
+def _areas(seen: PixelList, depth: Array, n: Array) -> Array:
     """Area (P,) of the surface that each pixel sees."""
     length = lambert.length(seen.rays_C)
     towards = np.maximum(-lambert.dot(n, seen.rays_C) / length, LEAST_COSINE)

@@ -23,7 +23,7 @@ from lpcal.shading import normals
 from lpcal.shading.normals import Estimate, thrown_share, variances
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, FEWEST_PIXELS, OUTLIER, REGULARISATION
-from lpcal.view.sight import Indices, Lit, Sight, vectors
+from lpcal.view.pixel_list import Illumination, Indices, PixelList, vectors
 
 FURTHEST = 0.5
 """Most that a pixel's own distance moves log z in a round."""
@@ -33,7 +33,7 @@ ALIKE = 0.005
 """Error that neighbouring samples share, as a share of the signal."""
 
 
-def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: Array, seen: Sight, found: Estimate) -> Own:
+def own_distance(light: Illumination | Array, slope_of: Callable[[slice], Array], depth: Array, seen: PixelList, found: Estimate) -> Own:
     """Curvature and optimum of u (P,) about depths (P,) with their light, or its vectors (L, P, 3).
 
     `slope_of` gives the derivatives (L, Q, 3) of the light vectors of a slice of the pixels by u.
@@ -46,7 +46,7 @@ def own_distance(light: Lit | Array, slope_of: Callable[[slice], Array], depth: 
     return Own(np.concatenate([part.curvature for part in parts]), np.concatenate([part.optimum for part in parts]))
 
 
-def _own(B: Array, slope: Array, depth: Array, seen: Sight, found: Estimate) -> Own:
+def _own(B: Array, slope: Array, depth: Array, seen: PixelList, found: Estimate) -> Own:
     """The same by light vectors B (L, P, 3) and their slope by u."""
     if run := kernel("own_distance"):
         constants = np.array([normals.MODEL, GLOSS_DOUBT, REGULARISATION, FURTHEST, OUTLIER, lambert.SINGULAR])
@@ -85,7 +85,7 @@ def levelled(own: Own, u: Array, label: Indices) -> Array:
     return np.asarray(u + np.where(np.bincount(label) >= FEWEST_PIXELS, move, 0.0)[label])
 
 
-def doubted(own: Own, lit: Lit, seen: Sight, found: Estimate) -> Own:
+def doubted(own: Own, lit: Illumination, seen: PixelList, found: Estimate) -> Own:
     """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
     if lit.unseen is None:
         return own

@@ -32,10 +32,10 @@ from lpcal.shading.normals import Estimate, albedo_of
 from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground
 from lpcal.surface.rounds import FULL_ROUNDS, Scene
-from lpcal.view import bands, sight
+from lpcal.view import bands, pixel_list
 from lpcal.view.constants import LEAST_COSINE, OUTLIER2, REGULARISATION
 from lpcal.view.crop import MARGIN_PX
-from lpcal.view.sight import Lit
+from lpcal.view.pixel_list import Illumination
 
 SAMPLES = 1_500_000
 """Samples, lights times pixels, of a tile: its lists of vectors then take some 200 MB a core."""
@@ -118,7 +118,7 @@ class Full:
     def rays_C(self, rows: slice, columns: slice) -> Array:
         """Rays (h, w, 3) of length 1 in z."""
         row, column = np.mgrid[rows, columns]
-        return sight.rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), self.camera).reshape(*row.shape, 3)
+        return pixel_list.rays_at(np.stack([column, row], axis=-1).reshape(-1, 2), self.camera).reshape(*row.shape, 3)
 
     def solve(self, progress: Progress) -> Maps:
         """All maps."""
@@ -146,8 +146,8 @@ class Full:
         inside = self.mask[tile.outer]
         radiance = self.radiance_of(*tile.outer)
         rays_C = self.rays_C(*tile.outer)
-        maps = sight.grey(radiance, self.scene.lights, self.weight)
-        seen = sight.look_at(maps, rays_C, inside, central=self.scene.seen.central)
+        maps = pixel_list.grey(radiance, self.scene.lights, self.weight)
+        seen = pixel_list.list_pixels(maps, rays_C, inside, central=self.scene.seen.central)
         del maps
         ground, near = self.ground, self.scene.near
         u = ground.front(*tile.outer, rays_C)[inside]
@@ -159,7 +159,7 @@ class Full:
             unseen = ground.between(ground.unseen, *tile.outer)[inside].astype(float)
         if ground.hidden is not None:
             hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
-        lit = Lit(*sight.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
+        lit = Illumination(*pixel_list.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
         n = ground.between(ground.n, *tile.outer)[inside].astype(float)
         turn: Array = np.zeros(3)
         if ground.turn is not None:
@@ -273,7 +273,7 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
     return n[tile.within], sigma[tile.within]
 
 
-def _albedo_by(n: Array, seen: sight.Sight, lit: Lit, hidden: Mask | None) -> Array:
+def _albedo_by(n: Array, seen: pixel_list.PixelList, lit: Illumination, hidden: Mask | None) -> Array:
     """Albedo (P,) in the signals' units by normals (P, 3): the samples' factor on the shading, then of those that agree."""
     shading = np.maximum(lambert.dot(lit.d, n), 0.0) * lit.E
     counted = seen.usable & (shading > LEAST_COSINE * shading.max(axis=0))

@@ -14,7 +14,7 @@ from lpcal.shading.normals import thrown_share
 from lpcal.surface import normal_prior, rounds
 from lpcal.surface.rounds import Scene, State
 from lpcal.view.constants import LEAST_COSINE
-from lpcal.view.sight import Indices, Lit
+from lpcal.view.pixel_list import Illumination, Indices
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Ground:
 
         lit, hidden = state.lit, None
         if scene.near:
-            hidden = np.asarray(filled(rounds.hidden_lights(scene, np.exp(state.u), state, Lit(lit.d, lit.E))[1].T), bool)
+            hidden = np.asarray(filled(rounds.hidden_lights(scene, np.exp(state.u), state, Illumination(lit.d, lit.E))[1].T), bool)
         thrown = None if lit.thrown is None else np.asarray(filled(np.moveaxis(lit.thrown, 0, 1).astype(np.float32)), np.float32)
         unseen = None if lit.unseen is None else np.asarray(filled(lit.unseen.astype(np.float32)), np.float32)
         broken = state.weight <= BREAK_WEIGHT

@@ -23,7 +23,7 @@ from lpcal.shading.normals import Estimate
 from lpcal.view import bands
 from lpcal.view.constants import MANY_PIXELS
 from lpcal.view.network import Network
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 if TYPE_CHECKING:
     from lpcal.surface.rounds import Scene, State
@@ -233,7 +233,7 @@ def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, 
     }
 
 
-def _vectors(seen: Sight, lit: Lit, found: Estimate, n: Array, of_depth: Array, shading: Array) -> dict[str, Array]:
+def _vectors(seen: PixelList, lit: Illumination, found: Estimate, n: Array, of_depth: Array, shading: Array) -> dict[str, Array]:
     """Normals, and where lights and shadows, light of other surfaces and the brightest samples lie, about the rays."""
     agreed, known, bright = found.inliers.astype(float), np.isfinite(found.b[:, :1]), np.maximum(shading, 0.0)
     thrown = np.zeros_like(n) if lit.thrown is None else lit.thrown.sum(axis=0) / lit.E.sum(axis=0)[:, None]
@@ -250,7 +250,7 @@ def _vectors(seen: Sight, lit: Lit, found: Estimate, n: Array, of_depth: Array, 
     return {f"{name} {axis}": value[:, k] for name, value in zip(VECTORS, turned, strict=True) for k, axis in enumerate("xyz")}
 
 
-def _open(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
+def _open(seen: PixelList, lit: Illumination, found: Estimate, b: Array) -> dict[str, Array]:
     """Covariance of the normals by the samples that agree, as a share of what is expected of one without any, about the rays."""
     variance = seen.sigma**2 + (field.SHARED * seen.signal) ** 2 + (field.SHARED * seen.signal.max(axis=0)) ** 2
     weight = found.inliers / variance * (lambert.dot(b, b) * field.ANY_RAD**2)
@@ -259,7 +259,7 @@ def _open(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
     return {f"open {'xyz'[i]}{'xyz'[j]}": turned[i, :, j] for i in range(3) for j in range(i, 3)}
 
 
-def _round_the_ray(seen: Sight, lit: Lit, found: Estimate, b: Array) -> dict[str, Array]:
+def _round_the_ray(seen: PixelList, lit: Illumination, found: Estimate, b: Array) -> dict[str, Array]:
     """Waves of the samples' shading round each ray, and of what the state leaves of it, over the pixel's albedo."""
     scale = np.maximum(lit.E * lambert.length(b), 1e-300)
     left = seen.signal - np.maximum(lambert.dot(lit.direct, b), 0.0)

@@ -46,9 +46,9 @@ from lpcal.surface.basins import Basins
 from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
-from lpcal.view import bands, sight
+from lpcal.view import bands, pixel_list
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS
-from lpcal.view.sight import Sight
+from lpcal.view.pixel_list import PixelList
 
 AGREE_DEG = float(np.degrees(NORMAL_ERROR_RAD))
 """A measured normal and that of the depth are averaged where they agree as well as the steps of the depth take them to."""
@@ -112,9 +112,9 @@ def reconstruct(
     TooManySamplesError
         The object has more samples than the options want solved at once.
     """
-    sight.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
-    lights = sight.lights_of(calibration, radiance)
-    maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    pixel_list.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
+    lights = pixel_list.lights_of(calibration, radiance)
+    maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
     central = calibration.camera is not None
     near = options.near and central and any(light.source_C is not None for light in lights)
     begin = options.distance_m or calibration.d_object_m or (calibration.focus_C[2] if calibration.focus_C is not None else None)
@@ -135,12 +135,12 @@ def reconstruct(
     background = _background(radiance, maps, rays_C, lights, float(begin) if near else None, options)
     progress(f"{radiance.name}: which pixels are the object", 1, 1)
     object_mask = _object(background, radiance, options) if given_mask is None else given_mask
-    seen = sight.look_at(maps, rays_C, object_mask, central=central)
+    seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=central)
     gain = self_calibration.intensities(seen, lights) if options.linear and self_calibration.unmeasured(lights) else None
     if gain is not None:
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
-        maps = sight.grey(radiance, lights)
-        seen = sight.look_at(maps, rays_C, object_mask, central=central)
+        maps = pixel_list.grey(radiance, lights)
+        seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=central)
     beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
     basins_found = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
@@ -166,12 +166,12 @@ def reconstruct(
 
 
 def _background(
-    radiance: Radiance, maps: sight.Grey, rays_C: Array, lights: Sequence[Light], about_m: float | None, options: Options
+    radiance: Radiance, maps: pixel_list.SignalMaps, rays_C: Array, lights: Sequence[Light], about_m: float | None, options: Options
 ) -> mask.Found | None:
     """What is found of the object and of the planes about it, where lights are near `about_m`; None where neither is asked for."""
     if not (wanted := _is_wanted(radiance, options)) and about_m is None:
         return None
-    room, drawn = sight.room(radiance) if options.ambient_seen else None, wanted or not options.automatic_mask
+    room, drawn = pixel_list.room(radiance) if options.ambient_seen else None, wanted or not options.automatic_mask
     return mask.automatic(maps, rays_C, lights, about_m, options.hints, room, drawn=drawn)
 
 
@@ -184,11 +184,11 @@ def _of_object(found_by: mask.Found | None, radiance: Radiance, options: Options
 
 def room_of(radiance: Radiance, object_mask: Mask) -> Array | None:
     """The signal (P,) of a mask's pixels without lights; None where there is no such image."""
-    room = sight.room(radiance)
+    room = pixel_list.room(radiance)
     return None if room is None else np.asarray(room[object_mask], float)
 
 
-def _exchanged(state: State, seen: Sight, names: Sequence[str]) -> dict[str, str]:
+def _exchanged(state: State, seen: PixelList, names: Sequence[str]) -> dict[str, str]:
     """The images that fit another light than theirs, and which."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
     found = exchanged(matte, state.lit, state.found.b, seen.usable)
@@ -335,16 +335,16 @@ BRIGHT = 0.2
 """Share of the image's 99th percentile above which a pixel under some light takes part where no mask is given."""
 
 
-def distance_m(maps: sight.Grey, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:
+def distance_m(maps: pixel_list.SignalMaps, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:
     """The distance along the camera's axis at which the signals fit best, by pixels of the mask, else by bright ones."""
-    sweep = sight.fronts_m(lights, SPAN, STEPS)
+    sweep = pixel_list.fronts_m(lights, SPAN, STEPS)
     brightest = maps.signal.max(axis=0)
     asked = brightest > BRIGHT * np.percentile(brightest, 99) if mask is None or not mask.any() else mask
-    seen = sight.look_at(maps, rays_C, asked, central=True)
+    seen = pixel_list.list_pixels(maps, rays_C, asked, central=True)
     some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int)))
     cost = []
     for z in sweep:
-        d, E = sight.light_vectors(lights, some.points_C(np.full(some.pixels, z)))
+        d, E = pixel_list.light_vectors(lights, some.points_C(np.full(some.pixels, z)))
         B = d * E[..., None]
         usable = some.usable & (E > 0)
         found = normals.estimate(some, B, normals.candidates(some, E), normals.variances(some))

@@ -27,7 +27,7 @@ from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.view import bands
 from lpcal.view.constants import LEAST_COSINE, MANY_PIXELS, SHADOW_STEPS
-from lpcal.view.sight import Indices, Sight, light_vectors, powers
+from lpcal.view.pixel_list import Indices, PixelList, light_vectors, powers
 
 TOLERANCE = 0.003
 """Share of the depth by which a point must lie behind the surface to be hidden."""
@@ -53,7 +53,7 @@ class Relief:
     """(6, 2) coefficients of columns and rows by the powers of a ray's x and y."""
 
     @staticmethod
-    def of(seen: Sight, depth: Array, *, to_rim: bool = False) -> Relief:
+    def of(seen: PixelList, depth: Array, *, to_rim: bool = False) -> Relief:
         """From depths (P,) at the pixels of a camera; `to_rim` says whether pixels on the rim count, which on round bodies turn away."""
         outside = -np.inf if to_rim else np.inf
         front = np.full(seen.mask.shape, outside)

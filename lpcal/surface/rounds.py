@@ -24,11 +24,11 @@ from lpcal.surface import basins, bounce, distance
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
-from lpcal.view import bands, sight
+from lpcal.view import bands, pixel_list
 from lpcal.view.coarse import SPAN
 from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION, SHADOW_STEPS, STATED_STD
 from lpcal.view.crop import Crop
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 ROUNDS = 9
 """Rounds at most: two settle the depth, the others what depends on it."""
@@ -59,7 +59,7 @@ class State:
     normals: Array
     found: Estimate
     own: Own
-    lit: Lit
+    lit: Illumination
     """The light that the normals were found in."""
     field: Field
     """The field of the normals, with the gloss of the object."""
@@ -100,7 +100,7 @@ class Scene:
     """What stays as it is through the rounds."""
 
     name: str
-    seen: Sight
+    seen: PixelList
     grid: Grid
     lights: tuple[Light, ...]
     focus_C: Array | None
@@ -125,13 +125,13 @@ class Scene:
         """The same with maps of the object's part of the picture alone: no round depends on what is empty about it."""
         return replace(self, seen=replace(self.seen, mask=Crop.about(self.seen.mask).of(self.seen.mask)))
 
-    def lit_at(self, depth: Array, thrown: Array | None = None) -> Lit:
+    def lit_at(self, depth: Array, thrown: Array | None = None) -> Illumination:
         """The light at depths (P,)."""
-        return Lit(*sight.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
+        return Illumination(*pixel_list.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
 
     def slope_at(self, depth: Array, some: slice) -> Array:
         """Derivatives (L, Q, 3) of the lights' vectors by log depth at some of the pixels, by depths (P,) of all."""
-        return sight.light_slopes(self.lights, self.seen.rays_C[some] * depth[some, None])
+        return pixel_list.light_slopes(self.lights, self.seen.rays_C[some] * depth[some, None])
 
 
 def run(scene: Scene, begin: Array, progress: Progress) -> State:
@@ -238,7 +238,7 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
     return State(u, weight, n, found, own, lit, whole, reflects)
 
 
-def _own(scene: Scene, u: Array, depth: Array, lit: Lit, found: Estimate) -> tuple[Own, Own]:
+def _own(scene: Scene, u: Array, depth: Array, lit: Illumination, found: Estimate) -> tuple[Own, Own]:
     """What each pixel says of its own distance by light, or what is known of it; and the same as far as the light is known."""
     if scene.held is not None:
         own = scene.held.own()
@@ -250,7 +250,7 @@ def _own(scene: Scene, u: Array, depth: Array, lit: Lit, found: Estimate) -> tup
     return own, distance.doubted(own, lit, scene.seen, found)
 
 
-def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Mask, Mask]:
+def hidden_lights(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Mask, Mask]:
     """Samples (L, P) whose light the object hides, by its depths (P,), and those that it or what it stands on hides.
 
     The picture must agree: they are darker than with that light.
@@ -276,7 +276,9 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[
     return by_object, by_any
 
 
-def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask, hidden: Mask) -> tuple[Lit, bounce.Reflectance]:
+def _thrown(
+    scene: Scene, depth: Array, before: State, lit: Illumination, by_object: Mask, hidden: Mask
+) -> tuple[Illumination, bounce.Reflectance]:
     """The light with what surfaces reflect at depths (P,), and their reflectance."""
     seen = scene.seen
     by = bounce.thrown(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
@@ -288,7 +290,7 @@ def _thrown(scene: Scene, depth: Array, before: State, lit: Lit, by_object: Mask
     return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 
-def _held(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Lit, bounce.Reflectance]:
+def _held(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Illumination, bounce.Reflectance]:
     """The light with what other views say that surfaces reflect, and what the planes about the object do."""
     assert scene.held is not None
     thrown, reflectance = scene.held.thrown, scene.held.reflectance
@@ -300,7 +302,7 @@ def _held(scene: Scene, depth: Array, before: State, lit: Lit) -> tuple[Lit, bou
 
 def _estimated(
     scene: Scene,
-    lit: Lit,
+    lit: Illumination,
     usable: Mask,
     hidden: Mask | None,
     before: State | None,

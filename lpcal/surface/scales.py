@@ -17,7 +17,7 @@ from lpcal.integration.integrate import Grid, Own
 from lpcal.shading.normals import Estimate
 from lpcal.view import bands
 from lpcal.view.constants import LEAST_COSINE, REGULARISATION
-from lpcal.view.sight import Indices, Lit, Sight
+from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
 PIXELS = 8000
 """Blocks, about, that an object is joined to: enough for distance and gloss, and for 2000 patches that reflect light."""
@@ -27,10 +27,10 @@ PIXELS = 8000
 class Blocks:
     """The P pixels of an object in Q blocks."""
 
-    seen: Sight
+    seen: PixelList
     """The pixels, with a mask that is cut to them."""
     grid: Grid
-    coarse: Sight
+    coarse: PixelList
     """The blocks as pixels, each with the noise of one pixel: their distances have the same weight against the steps as at full size."""
     coarse_grid: Grid
     side: int
@@ -43,7 +43,7 @@ class Blocks:
     """(P, 4), of sum 1."""
 
     @staticmethod
-    def of(seen: Sight, grid: Grid) -> Blocks | None:
+    def of(seen: PixelList, grid: Grid) -> Blocks | None:
         """The blocks of an object: each holds those of its pixels that are the object's, one at least; None where pixels are few."""
         side = round(np.sqrt(seen.pixels / PIXELS))
         if side < 2:
@@ -59,7 +59,7 @@ class Blocks:
             """Means (N, Q) of values (N, P)."""
             return np.stack([np.bincount(of_pixel, one) for one in values]) / count
 
-        coarse = Sight(
+        coarse = PixelList(
             mask.reshape(height, width),
             means(seen.rays_C.T).T.copy(),
             means(seen.signal),
@@ -107,7 +107,7 @@ class Blocks:
         found = np.where(known[place] == asked, weight[place], REGULARISATION) if len(known) else np.full(len(asked), REGULARISATION)
         return np.asarray(np.where(first == last, 1.0, found))
 
-    def lit(self, lights: Lit, lit: Lit) -> Lit:
+    def lit(self, lights: Illumination, lit: Illumination) -> Illumination:
         """The light at the pixels: of the `lights` there, and of other surfaces linear between that of the blocks."""
         thrown = None if lit.thrown is None else np.stack(bands.shared(self.between, lit.thrown))
         unseen = None if lit.unseen is None else self.between(lit.unseen)

@@ -39,7 +39,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER_RATE
-from lpcal.view.sight import Lit, Sight, vectors
+from lpcal.view.pixel_list import Illumination, PixelList, vectors
 
 CONDITION = 1e5
 """Condition of a pixel's normal matrix over which its lights determine no normal."""
@@ -127,7 +127,7 @@ def unmeasured(lights: Sequence[Light]) -> bool:
     return bool(same and all(light.source_C is None and not np.isfinite(light.intensity_std) for light in lights))
 
 
-def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
+def intensities(seen: PixelList, lights: Sequence[Light]) -> Array | None:
     """Intensities (L,) of mean 1; None where too few lights or pixels show them, or the halves of the object disagree."""
     if len(lights) < LIGHTS_NEEDED:
         return None
@@ -148,7 +148,7 @@ def intensities(seen: Sight, lights: Sequence[Light]) -> Array | None:
     return found if equal > NEEDED_GAIN * theirs else None
 
 
-def _shown(seen: Sight, S: Array) -> tuple[Array, Array, Array] | None:
+def _shown(seen: PixelList, S: Array) -> tuple[Array, Array, Array] | None:
     """Signals, weights and light vectors (L, P, ...) of pixels that enough lights reach."""
     some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int)))
     count = len(S)
@@ -163,7 +163,7 @@ def _shown(seen: Sight, S: Array) -> tuple[Array, Array, Array] | None:
     return some.signal[:, good], weight[:, good].astype(float), B[:, good]
 
 
-def exchanged(signal: Array, light: Lit | Array, b: Array, usable: Mask) -> dict[int, int]:
+def exchanged(signal: Array, light: Illumination | Array, b: Array, usable: Mask) -> dict[int, int]:
     """The light that each image fits, of those that fit another one than their own; empty where all fit their own, or it is not clear.
 
     Parameters

@@ -19,7 +19,7 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation import mask, planes
 from lpcal.surface.relief import Relief
 from lpcal.view.constants import RIM_PX, SHADOW_STEPS
-from lpcal.view.sight import Grey, Indices, Sight, light_vectors, look_at
+from lpcal.view.pixel_list import Indices, PixelList, SignalMaps, light_vectors, list_pixels
 
 BEYOND = 0.6
 """How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
@@ -81,23 +81,23 @@ class Around:
 class Whole:
     """The whole image in coarse pixels, for what stands behind the object."""
 
-    seen: Sight
+    seen: PixelList
     hidden: Mask
     """(H, W) where the object hides it."""
     factor: int
     """Pixels a coarse pixel."""
 
 
-def whole(maps: Grey, rays_C: Array, object_mask: Mask) -> Whole:
+def whole(maps: SignalMaps, rays_C: Array, object_mask: Mask) -> Whole:
     """The whole image, `object_mask` (H, W) being the object."""
     coarse, coarse_rays, factor = mask.binned(maps, rays_C)
-    seen = look_at(coarse, coarse_rays, np.ones(coarse.signal.shape[1:], bool), central=True)
+    seen = list_pixels(coarse, coarse_rays, np.ones(coarse.signal.shape[1:], bool), central=True)
     height, width = (side * factor for side in seen.mask.shape)
     hidden = object_mask[:height, :width].reshape(height // factor, factor, width // factor, factor).any(axis=(1, 3))
     return Whole(seen, hidden, factor)
 
 
-def found_beside(maps: Grey, rays_C: Array, object_mask: Mask, found: mask.Found | None, lights: Sequence[Light]) -> Around | None:
+def found_beside(maps: SignalMaps, rays_C: Array, object_mask: Mask, found: mask.Found | None, lights: Sequence[Light]) -> Around | None:
     """The patches of the planes found in the image; None where there are none."""
     if found is None or not found.planes:
         return None
@@ -160,7 +160,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     return Around(Patches.together(shown), Patches.together(unseen) if unseen else None, Relief.of(body, depth[of_plane >= 0], to_rim=True))
 
 
-def _unclipped(seen: Sight, m: Array, albedo: float) -> Array:
+def _unclipped(seen: PixelList, m: Array, albedo: float) -> Array:
     """Signals (L, P) of pixels of a plane, by its m of albedo 1: saturated ones as the pixel's others, or the common albedo, say.
 
     A support in full light is often brighter than the object that the exposure was set for.
@@ -219,7 +219,7 @@ def _blocks(shape: tuple[int, ...], size: int) -> Indices:
     return np.asarray(row // size * (shape[1] // size + 1) + column // size)
 
 
-def _rays_beyond(seen: Sight, pad: int, every: int) -> Array:
+def _rays_beyond(seen: PixelList, pad: int, every: int) -> Array:
     """Rays (N, 3) of the image with a margin of `pad` pixels, one of `every` so many along its sides.
 
     They are those of a camera without distortion that is like it on the whole.

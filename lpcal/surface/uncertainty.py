@@ -25,7 +25,7 @@ from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
 from lpcal.shading.normals import Estimate, thrown_share
 from lpcal.view.constants import RIM_PX
-from lpcal.view.sight import Lit
+from lpcal.view.pixel_list import Illumination
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
 """What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
@@ -72,7 +72,14 @@ class Clues:
 
 
 def clues(
-    grid: Grid, mask: Mask, found: Estimate, lit: Lit, normals: Array, of_depth: Array, whole: Mask, expected_rad: Array | None = None
+    grid: Grid,
+    mask: Mask,
+    found: Estimate,
+    lit: Illumination,
+    normals: Array,
+    of_depth: Array,
+    whole: Mask,
+    expected_rad: Array | None = None,
 ) -> Clues:
     """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold.
 

@@ -33,9 +33,9 @@ from lpcal.records.surface import Surface
 from lpcal.segmentation import background, mask, planes, room_light, room_samples
 from lpcal.segmentation.room_light import FEW_PIXELS, SHARED, USUAL_STD, RoomLight
 from lpcal.shading import normals
-from lpcal.view import sight
+from lpcal.view import pixel_list
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER, OUTLIER2, REGULARISATION
-from lpcal.view.sight import Grey, Sight, light_vectors, look_at
+from lpcal.view.pixel_list import PixelList, SignalMaps, light_vectors, list_pixels
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
 """The surface of images without room light; a mask is kept, None leaves it to be found."""
@@ -56,8 +56,8 @@ def reconstruct(
 
     `given` is the user's mask; where `focus_C` is given all lights act as they do there; `begin_m` is where the object may be.
     """
-    lights, near = sight.lights_of(calibration, radiance), focus_C is None
-    maps, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration.camera)
+    lights, near = pixel_list.lights_of(calibration, radiance), focus_C is None
+    maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
     wall, light = None, None
     room_map = np.zeros(maps.signal.shape[1:], np.float32)
     object_mask = given
@@ -73,7 +73,7 @@ def reconstruct(
     surface, room = None, None
     rounds = ROUNDS if near else 1
     for k in range(rounds):
-        seen = sight.look_at(maps, rays_C, object_mask, central=calibration.camera is not None)
+        seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=calibration.camera is not None)
         found = on_object(seen, lights, depth, wall, focus_C, light) if seen.pixels >= FEWEST_PIXELS else None
         if found is None:
             break
@@ -94,7 +94,7 @@ def without(radiance: Radiance, room_map: Image, lights: tuple[Light, ...]) -> R
         ambient = np.asarray(room_map, np.float32)
     else:
         middle = np.median(radiance.signal, axis=0)
-        grey = np.median(sight.grey(radiance, lights).signal, axis=0)
+        grey = np.median(pixel_list.grey(radiance, lights).signal, axis=0)
         ambient = np.asarray(room_map[..., None] * np.clip(middle / np.maximum(grey, 1e-12)[..., None], 0, 3), np.float32)
     return replace(radiance, signal=radiance.signal - ambient, ambient=ambient)
 
@@ -178,7 +178,7 @@ class Room:
     """Relative, of the object's A as a whole."""
 
 
-def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, light: RoomLight) -> Wall | None:
+def wall_of(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, light: RoomLight) -> Wall | None:
     """The largest plane behind the object with one room light for all of it, from its pixels.
 
     None where it says no more of the room's light than is known of rooms beforehand. `outside` (H, W) is what is not the object, `light` is
@@ -191,7 +191,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
     own = (outside & (found.layer == background.Layer.WALL))[: rows * f, : columns * f].reshape(rows, f, columns, f).all(axis=(1, 3))
     if own.sum() < FEWEST_PIXELS:
         return None
-    some = planes.thinned(look_at(coarse, coarse_rays, own, central=True))
+    some = planes.thinned(list_pixels(coarse, coarse_rays, own, central=True))
     h = intensities(lights)
 
     def cost(x: Array) -> Array:
@@ -210,7 +210,7 @@ def wall_of(maps: Grey, rays_C: Array, lights: Sequence[Light], found: mask.Foun
 
 
 def on_object(
-    seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, light: RoomLight | None = None
+    seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, light: RoomLight | None = None
 ) -> tuple[Room, Array] | None:
     """The room's light on an object at depths (P,), and A (P,) of its pixels; None where none shows.
 
@@ -231,7 +231,7 @@ def on_object(
     return Room(c, BLIND_STD), A
 
 
-def _near(seen: Sight, lights: Sequence[Light], depth: Array, wall: Wall | None, light: RoomLight) -> tuple[Room, Array]:
+def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | None, light: RoomLight) -> tuple[Room, Array]:
     """The law that the pixels' own A follow, and A (P,) by it.
 
     Each A is found under a prior about the level of the whole picture. What its samples say by themselves is further from it, by one over
@@ -270,7 +270,7 @@ def intensities(lights: Sequence[Light]) -> Array:
 class _Trial:
     """Pixels, their light vectors (L, P, 3), irradiance (L, P) and intensities (L, 1), on which the law is tried."""
 
-    seen: Sight
+    seen: PixelList
     B: Array
     E: Array
     h: Array

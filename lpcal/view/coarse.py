@@ -19,7 +19,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.view import bands
-from lpcal.view.sight import Grey, Indices, light_vectors
+from lpcal.view.pixel_list import Indices, SignalMaps, light_vectors
 
 SPAN = (0.25, 6.0)
 """Depths of the table, as shares of the working distance: beyond, lights do not reach, nor are they calibrated there."""
@@ -67,18 +67,20 @@ class Coarse:
         return values.reshape(*self.shape, *values.shape[1:])
 
     @property
-    def maps(self) -> Grey:
+    def maps(self) -> SignalMaps:
         """The coarse pixels as maps."""
         shape = (len(self.signal), *self.shape)
-        return Grey(self.signal.reshape(shape).astype(np.float32), self.sigma.reshape(shape).astype(np.float32), self.usable.reshape(shape))
+        return SignalMaps(
+            self.signal.reshape(shape).astype(np.float32), self.sigma.reshape(shape).astype(np.float32), self.usable.reshape(shape)
+        )
 
 
-def factor_of(maps: Grey, most: int) -> int:
+def factor_of(maps: SignalMaps, most: int) -> int:
     """Pixels to be joined along a side, so that no more than `most` are left."""
     return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
 
 
-def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
+def coarse_of(maps: SignalMaps, rays_C: Array, factor: int) -> Coarse:
     """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
     rows, columns = (side // factor for side in maps.signal.shape[1:])
     if run := kernel("blocks"):
@@ -105,7 +107,7 @@ def coarse_of(maps: Grey, rays_C: Array, factor: int) -> Coarse:
     )
 
 
-def joined(maps: Grey, rays_C: Array, factor: int) -> tuple[Grey, Array]:
+def joined(maps: SignalMaps, rays_C: Array, factor: int) -> tuple[SignalMaps, Array]:
     """The maps and rays (H, W, 3) with blocks of factor x factor pixels joined; single pixels as they are."""
     if factor == 1:
         return maps, rays_C
@@ -113,7 +115,7 @@ def joined(maps: Grey, rays_C: Array, factor: int) -> tuple[Grey, Array]:
     return image.maps, image.image(image.rays_C)
 
 
-def _joined_by(run: Callable[..., None], maps: Grey, rays_C: Array, factor: int) -> Coarse:
+def _joined_by(run: Callable[..., None], maps: SignalMaps, rays_C: Array, factor: int) -> Coarse:
     """The same by kernels."""
     (L, height, width), average = maps.signal.shape, kernel("block_means")
     assert average is not None

@@ -21,7 +21,7 @@ from lpcal.formats.surface_files import read_surface
 from lpcal.geometry.arrays import Array
 from lpcal.records.calibration import Light
 from lpcal.surface import self_calibration
-from lpcal.view.sight import Sight
+from lpcal.view.pixel_list import PixelList
 
 
 def test_lp_is_turned_into_the_cameras_axes(tmp_path: Path) -> None:
@@ -166,7 +166,7 @@ def test_intensities_that_nobody_measured_are_found_under_many_lights() -> None:
     d = np.stack([np.sin(slant) * np.cos(turn), np.sin(slant) * np.sin(turn), -np.cos(slant)], axis=1)
     power = 2 ** rng.uniform(-1, 1, 24)
     signal = 0.5 * power[:, None] * np.maximum(d @ n.T, 0) + 0.003 * rng.standard_normal((24, len(n)))
-    seen = Sight(mask, np.tile([0.0, 0.0, 1.0], (len(n), 1)), signal, np.full(signal.shape, 0.003), np.ones(signal.shape, bool), False)
+    seen = PixelList(mask, np.tile([0.0, 0.0, 1.0], (len(n), 1)), signal, np.full(signal.shape, 0.003), np.ones(signal.shape, bool), False)
     found = self_calibration.intensities(seen, [Light(f"L{k}", one, np.ones(1)) for k, one in enumerate(d)])
     assert found / found.mean() == pytest.approx(power / power.mean(), rel=0.03)
 

@@ -18,7 +18,7 @@ from lpcal.formats.surface_files import read_surface
 from lpcal.geometry.arrays import Array
 from lpcal.integration.convention import settled
 from lpcal.records.calibration import Camera
-from lpcal.view.sight import ray_map
+from lpcal.view.pixel_list import ray_map
 
 SHAPE = (120, 160)
 ROW, COLUMN = np.indices(SHAPE).astype(float)

@@ -28,7 +28,7 @@ from lpcal.surface import bounce, distance
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
 from lpcal.view.coarse import LightTable, RoomPrior, coarse_of
-from lpcal.view.sight import Grey, Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList, SignalMaps
 
 PIXEL_OF_RAY = np.array([[40.0, 30.0], [100.0, 2.0], [-1.0, 100.0], [0.1, 0.2], [0.3, 0.1], [0.2, 0.1]])
 
@@ -89,15 +89,15 @@ def few(rng: np.random.Generator) -> Array:
     return np.concatenate([each.ravel() for each in found])
 
 
-def field_cases(rng: np.random.Generator) -> tuple[Sight, Array, list[tuple[Lit, Mask | None, gloss.Gloss | None]]]:
+def field_cases(rng: np.random.Generator) -> tuple[PixelList, Array, list[tuple[Illumination, Mask | None, gloss.Gloss | None]]]:
     """Samples and b (P, 3), and light with what hides it and gloss: near and distant, with and without light of other surfaces."""
     signal, B, usable, variance = shading(rng, pixels=500)
     d, E = lambert.unit(B)
     b, v, dark = rng.normal(size=(500, 3)), lambert.unit(rng.normal(size=(500, 3)))[0], rng.random(signal.shape) < 0.2
-    seen = Sight(np.ones((20, 25), bool), -v, signal, np.sqrt(variance), usable, True)
-    plain, more = Lit(d, E), Lit(d, E, 0.1 * rng.normal(size=d.shape))
-    far = Lit(np.broadcast_to(d[:, 60:61], d.shape), np.broadcast_to(E[:, 60:61], E.shape), more.thrown)
-    cases: list[tuple[Lit, Mask | None, gloss.Gloss | None]] = [(plain, None, None), (more, dark, None)]
+    seen = PixelList(np.ones((20, 25), bool), -v, signal, np.sqrt(variance), usable, True)
+    plain, more = Illumination(d, E), Illumination(d, E, 0.1 * rng.normal(size=d.shape))
+    far = Illumination(np.broadcast_to(d[:, 60:61], d.shape), np.broadcast_to(E[:, 60:61], E.shape), more.thrown)
+    cases: list[tuple[Illumination, Mask | None, gloss.Gloss | None]] = [(plain, None, None), (more, dark, None)]
     cases += [(plain, dark, gloss.Gloss(0.3, 0.2, 0.5)), (more, None, gloss.Gloss(0.1, 0.4, 0.5)), (far, dark, gloss.Gloss(0.1, 0.4, 0.5))]
     return seen, b, cases
 
@@ -221,7 +221,7 @@ def misfit(rng: np.random.Generator) -> Array:
     found = []
     for lights in (2, 3, 6, 9):
         signal, _, usable, variance = shading(rng, lights)
-        seen = Sight(np.ones((20, 40), bool), rays(rng, 800), signal, np.sqrt(variance), usable, True)
+        seen = PixelList(np.ones((20, 40), bool), rays(rng, 800), signal, np.sqrt(variance), usable, True)
         m = np.where(rng.random(800) < 0.1, np.nan, np.maximum(signal * rng.uniform(0.6, 1.2, signal.shape), 0.0))
         found += [np.minimum(each, 1e3) for shaded in (True, False) for each in planes.misfit(seen, m, shaded=shaded)]
     return np.concatenate(found)
@@ -231,7 +231,7 @@ def own_distance(rng: np.random.Generator) -> Array:
     signal, B, usable, variance = shading(rng, 9)  # of three lights alone rounding is all that is left
     slope, b = 0.3 * B + 0.1 * rng.normal(size=B.shape), lambert.weighted(B, signal, usable / variance)[0]
     found = Estimate(b, usable, np.empty((800, 3, 3)), np.empty(800), np.empty(800))
-    seen = Sight(np.ones((20, 40), bool), rays(rng, 800), signal, np.sqrt(variance), usable, True)
+    seen = PixelList(np.ones((20, 40), bool), rays(rng, 800), signal, np.sqrt(variance), usable, True)
     depth, shine = rng.uniform(0.2, 0.5, 800), 0.1 * rng.random(signal.shape)
     owns = [distance._own(B, slope, depth, seen, one) for one in (found, replace(found, gloss=shine))]
     return np.concatenate([each.ravel() for own in owns for each in (np.log(own.curvature), own.optimum)])
@@ -390,7 +390,7 @@ def distort(rng: np.random.Generator) -> Array:
 def blocks(rng: np.random.Generator) -> Array:
     shape = (3, 45, 61)
     signal, sigma = rng.random(shape, np.float32), 0.1 + rng.random(shape, np.float32)
-    maps = Grey(signal, sigma, rng.random(shape) > 0.02)
+    maps = SignalMaps(signal, sigma, rng.random(shape) > 0.02)
     images = [coarse_of(maps, rng.random((*shape[1:], 3)), factor) for factor in (1, 4)]
     return np.concatenate([each.ravel() for one in images for each in (one.signal, one.sigma, one.usable, one.rays_C)])
 

@@ -93,7 +93,7 @@ def test_check_names_readings_in_another_unit(rig: Path) -> None:
     workspace = Workspace(read_rig(rig / "panel.yaml"))
     H, _ = views()
     poses = BoardPoses(tuple(f"images/{k:02d}.png" for k in range(24)), None, H, points_B=BOARD.points_B())
-    notes, wrong = distance.look_at(workspace, poses)
+    notes, wrong = distance.list_pixels(workspace, poses)
     assert notes == []
     assert len(wrong) == 1
     assert isinstance(wrong[0], DisagreementError)

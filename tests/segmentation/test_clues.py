@@ -13,7 +13,7 @@ from lpcal.segmentation.background import FITTED
 from lpcal.segmentation.clues import View
 from lpcal.view.coarse import LightTable, coarse_of
 from lpcal.view.network import Network
-from lpcal.view.sight import Grey
+from lpcal.view.pixel_list import SignalMaps
 from plane_scene import WALL, WORKING_M, picture, scene
 
 CARD = WALL * 0.45 / 0.4
@@ -22,7 +22,7 @@ CARD = WALL * 0.45 / 0.4
 def seen(scale: float = 1.0, factor: int = 4) -> tuple[View, np.ndarray, np.ndarray]:
     """A view of a card 5 cm before a wall, its labels (1 the wall, 2 the card), and the layers' costs; `scale` is a unit of brightness."""
     maps, rays = picture(scene())
-    maps = Grey(maps.signal * np.float32(scale), maps.sigma * np.float32(scale), maps.usable)
+    maps = SignalMaps(maps.signal * np.float32(scale), maps.sigma * np.float32(scale), maps.usable)
     image = coarse_of(maps, rays, factor)
     table = LightTable.of(image, calibration().lights, WORKING_M)
     view = mask.view_of(image, table, WORKING_M, mask.NO_HINTS, maps.signal.shape[1:], maps.signal[0] * np.float32(0.2))

@@ -13,7 +13,7 @@ from lpcal.segmentation import background, cut, flats, layers, mask, planes, sam
 from lpcal.segmentation.clues import View
 from lpcal.segmentation.flats import Sweep
 from lpcal.view.coarse import Coarse, LightTable, coarse_of
-from lpcal.view.sight import light_vectors, ray_map
+from lpcal.view.pixel_list import light_vectors, ray_map
 from plane_scene import FLOOR, WALL, WORKING_M, picture, scene
 
 

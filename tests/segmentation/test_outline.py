@@ -11,13 +11,13 @@ from lit_scene import calibration
 from lpcal.segmentation import outline
 from lpcal.segmentation.outline import Apart
 from lpcal.view.coarse import LightTable, coarse_of, joined
-from lpcal.view.sight import Grey
+from lpcal.view.pixel_list import SignalMaps
 from plane_scene import CARD, WALL, WORKING_M, picture, scene
 
 FACTOR = 4
 
 
-def apart_of(maps: Grey, rays_C: np.ndarray, true: np.ndarray) -> Apart:
+def apart_of(maps: SignalMaps, rays_C: np.ndarray, true: np.ndarray) -> Apart:
     """Coarse pixels that know what most of them shows, and that they do not know it where it is mixed."""
     image = coarse_of(maps, rays_C, FACTOR)
     rows, columns = image.shape
@@ -30,7 +30,7 @@ def iou(found: np.ndarray, true: np.ndarray) -> float:
     return float((found & true).sum() / (found | true).sum())
 
 
-def seen(hole: tuple[slice, slice] | None = None) -> tuple[Grey, np.ndarray, np.ndarray]:
+def seen(hole: tuple[slice, slice] | None = None) -> tuple[SignalMaps, np.ndarray, np.ndarray]:
     """Maps and rays of a card before a wall, with a hole where that is asked for, and the card."""
     parts = scene()
     if hole is not None:

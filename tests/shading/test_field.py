@@ -12,14 +12,14 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.shading import field, gloss, normals
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 SIZE = 70
 ALBEDO = 0.5
 VIEW = np.array([0.0, 0.0, -3.0])
 
 
-def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None) -> tuple[Sight, Lit, Array, Array]:
+def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None) -> tuple[PixelList, Illumination, Array, Array]:
     """A sphere far away under distant lights of 35 degrees: what is seen, the light, normals (P, 3) and signals without noise (L, P)."""
     row, column = np.indices((SIZE, SIZE)).reshape(2, -1)
     x, y = (column - SIZE / 2) / (0.45 * SIZE), (row - SIZE / 2) / (0.45 * SIZE)
@@ -28,17 +28,19 @@ def ball(lights: int, *, seed: int = 0, shine: tuple[float, float] | None = None
     angle, slant = 2 * np.pi * np.arange(lights) / lights + 0.2, np.radians(35)
     to = np.stack([np.sin(slant) * np.cos(angle), np.sin(slant) * np.sin(angle), np.full(lights, -np.cos(slant))], axis=1)
     d = np.repeat(to[:, None], len(n), axis=1)
-    lit = Lit(d, np.ones((lights, len(n))))
+    lit = Illumination(d, np.ones((lights, len(n))))
     clean = ALBEDO * np.maximum(np.einsum("kpi,pi->kp", d, n), 0)
     if shine is not None:
         clean = clean + shine[0] * gloss.lobe(d, n, np.tile([0.0, 0.0, -1.0], (len(n), 1)), shine[1])
     signal = clean + 2e-3 * np.random.default_rng(seed).standard_normal(clean.shape)
     rays = np.tile([0.0, 0.0, 1.0], (len(n), 1))
     mask = inside.reshape(SIZE, SIZE)
-    return Sight(mask, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True), lit, n, clean
+    return PixelList(mask, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True), lit, n, clean
 
 
-def found(seen: Sight, lit: Lit, *, hidden: Mask | None = None, glossy: float | None = None) -> tuple[field.Field, normals.Estimate]:
+def found(
+    seen: PixelList, lit: Illumination, *, hidden: Mask | None = None, glossy: float | None = None
+) -> tuple[field.Field, normals.Estimate]:
     alone = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
     return field.solve(seen, Grid.of(seen.mask), lit, hidden, alone, glossy), alone
 

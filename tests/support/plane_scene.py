@@ -6,14 +6,14 @@ import numpy as np
 
 from lit_scene import calibration
 from lpcal.segmentation import planes
-from lpcal.view.sight import Grey, ray_map
+from lpcal.view.pixel_list import SignalMaps, ray_map
 
 CARD = (slice(36, 74), slice(50, 105))
 WALL, FLOOR = np.array([0.04, -0.02, 1 / 0.45]), np.array([0.0, 1.0, 0.1]) / 0.06
 WORKING_M = 0.38
 
 
-def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 0) -> tuple[Grey, np.ndarray]:
+def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 0) -> tuple[SignalMaps, np.ndarray]:
     """Maps and rays of planes, each with its albedo (H, W) and where it is seen, the last one on top."""
     camera = calibration().camera
     assert camera is not None
@@ -25,7 +25,7 @@ def picture(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], seed: int = 
         signal[:, where] = (albedo * sent)[:, where]
     sigma = np.full_like(signal, 0.004 * np.median(signal))
     signal += sigma * np.random.default_rng(seed).standard_normal(signal.shape)
-    return Grey(signal.astype(np.float32), sigma.astype(np.float32), np.ones(signal.shape, bool)), rays
+    return SignalMaps(signal.astype(np.float32), sigma.astype(np.float32), np.ones(signal.shape, bool)), rays
 
 
 def scene(pattern: bool = False, card: float | None = 0.7, floor: bool = False) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

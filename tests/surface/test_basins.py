@@ -10,7 +10,7 @@ import pytest
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.observations import Radiance
 from lpcal.surface.basins import Basin, Basins, odds_of, search
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 
 @pytest.mark.parametrize("about", [*(pytest.param(one, marks=pytest.mark.slow) for one in (0.6, 1.0)), 1.9])
@@ -21,7 +21,7 @@ def test_the_object_is_found_from_afar(about: float) -> None:
     mask, depth, _ = truth(Scene())
     signal = np.asarray(raw.images - raw.ambient.mean(axis=0), np.float32)
     radiance = Radiance("scene", raw.lights, signal, np.full(signal.shape, 0.003, np.float32), np.zeros(signal.shape, bool), None, ())
-    found = search(sight.grey(radiance, given.lights), sight.ray_map(mask.shape, given.camera), mask, given.lights, about * 0.35)
+    found = search(pixel_list.grey(radiance, given.lights), pixel_list.ray_map(mask.shape, given.camera), mask, given.lights, about * 0.35)
     assert found is not None
     assert abs(np.median(found.start(mask) - np.log(depth[mask]))) < 0.03
     odds = odds_of(found.ends, found.lights, found.about_m)

@@ -8,17 +8,17 @@ import pytest
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.surface import basins
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 GIVEN = calibration()
 SCENE = Scene(centre=(0.03, 0.02, 0.36), radius=0.03)
 
 
-def piece(seed: int) -> tuple[sight.Sight, np.ndarray]:
+def piece(seed: int) -> tuple[pixel_list.PixelList, np.ndarray]:
     """A drawn sphere's pixels, and their log depths."""
     mask, depth, _ = truth(SCENE)
-    maps = sight.grey(to_radiance(draw(SCENE, GIVEN, seed), Sensor()), GIVEN.lights)
-    return sight.look_at(maps, sight.ray_map(mask.shape, GIVEN.camera), mask, central=True), np.log(depth[mask])
+    maps = pixel_list.grey(to_radiance(draw(SCENE, GIVEN, seed), Sensor()), GIVEN.lights)
+    return pixel_list.list_pixels(maps, pixel_list.ray_map(mask.shape, GIVEN.camera), mask, central=True), np.log(depth[mask])
 
 
 @pytest.mark.parametrize("off", [-0.6, -0.2, 0.0, 0.3])
@@ -35,7 +35,9 @@ def test_a_piece_is_found_by_its_light_however_far_off_it_stands(off: float) -> 
 
 def test_of_two_distances_that_the_light_allows_that_nearer_the_main_piece_is_likelier() -> None:
     seen, u = piece(0)
-    three = sight.Sight(seen.mask, seen.rays_C, seen.signal[:3], seen.sigma[:3], seen.usable[:3], seen.central)  # three lights say nothing
+    three = pixel_list.PixelList(
+        seen.mask, seen.rays_C, seen.signal[:3], seen.sigma[:3], seen.usable[:3], seen.central
+    )  # three lights say nothing
     everything = np.ones(len(u), bool)
     near, far = (basins.of_piece(three, GIVEN.lights[:3], u, None, everything, float(np.median(u)) + main) for main in (-0.4, 0.5))
     assert near.shift[0] < far.shift[0]
@@ -47,7 +49,7 @@ def test_the_fewer_lights_know_the_distance_the_wider_is_its_sigma_and_three_say
     everything = np.ones(len(u), bool)
 
     def std(some: list[int]) -> float:
-        part = sight.Sight(seen.mask, seen.rays_C, seen.signal[some], seen.sigma[some], seen.usable[some], seen.central)
+        part = pixel_list.PixelList(seen.mask, seen.rays_C, seen.signal[some], seen.sigma[some], seen.usable[some], seen.central)
         return basins.std_of(part, [GIVEN.lights[k] for k in some], u, everything)
 
     six, four, three = std([0, 1, 2, 3, 4, 5]), std([0, 1, 3, 4]), std([0, 2, 4])

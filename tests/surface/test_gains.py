@@ -21,7 +21,7 @@ from lpcal.records.provenance import Provenance
 from lpcal.records.sensor import StatedSensor
 from lpcal.surface import self_calibration
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.view import sight
+from lpcal.view import pixel_list
 
 SMALL = Recipe(size=56)
 EQUAL = {
@@ -44,11 +44,11 @@ UNEQUAL = {
 }
 
 
-def seen_by(drawn: Drawn) -> tuple[sight.Sight, tuple]:
+def seen_by(drawn: Drawn) -> tuple[pixel_list.PixelList, tuple]:
     radiance = to_radiance(drawn.raw, Sensor())
-    lights = sight.lights_of(drawn.calibration, radiance)
-    rays = sight.ray_map(drawn.mask.shape, None)
-    return sight.look_at(sight.grey(radiance, lights), rays, drawn.mask, central=False), lights
+    lights = pixel_list.lights_of(drawn.calibration, radiance)
+    rays = pixel_list.ray_map(drawn.mask.shape, None)
+    return pixel_list.list_pixels(pixel_list.grey(radiance, lights), rays, drawn.mask, central=False), lights
 
 
 def error_deg(n: np.ndarray, truth: np.ndarray) -> float:

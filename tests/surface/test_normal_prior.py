@@ -23,7 +23,7 @@ from lpcal.surface import normal_prior, rounds
 from lpcal.surface.normal_prior import FITTED, about_rays, answer, between, maps
 from lpcal.surface.reconstruct import Options, Solved, reconstruct
 from lpcal.view.network import Network
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 
 def rays(count: int) -> np.ndarray:
@@ -177,11 +177,13 @@ def test_a_turn_does_not_close_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
     steep = np.array([-1.0, 0.0, -0.035]) / np.hypot(1, 0.035)
     n = np.where(gap[:, None], steep, facing)
     nothing = np.zeros((0, len(u)))
-    seen = Sight(mask, rays_C, nothing, nothing, nothing > 0, True)
+    seen = PixelList(mask, rays_C, nothing, nothing, nothing > 0, True)
     grid = Grid.of(mask)
     scene = rounds.Scene("two", seen, grid, (), None)
     whole = Field(0.5 * n, Estimate.nothing(), None, np.full(len(u), 0.02))
-    state = rounds.State(u, np.ones(len(grid.a)), n, Estimate.nothing(), Own(np.full(len(u), 400.0), u), Lit(nothing, nothing), whole)
+    state = rounds.State(
+        u, np.ones(len(grid.a)), n, Estimate.nothing(), Own(np.full(len(u), 400.0), u), Illumination(nothing, nothing), whole
+    )
     monkeypatch.setattr(normal_prior, "expected", lambda _scene, _state: (facing, np.full(len(u), 0.02)))
     turned, _ = normal_prior.turned(scene, state)
     apart = np.median(turned.u[behind & ~gap]) - np.median(turned.u[~behind & ~gap])

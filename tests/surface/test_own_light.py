@@ -18,7 +18,7 @@ from lpcal.surface import bounce, rounds
 from lpcal.surface.relief import Relief, thrown_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
 from lpcal.view.constants import SHADOW_STEPS
-from lpcal.view.sight import Lit, Sight
+from lpcal.view.pixel_list import Illumination, PixelList
 
 FOCAL = 260.0
 
@@ -32,14 +32,14 @@ HIGH = lamp("high", [0.0, 0.0, 0.01])
 EMPTY = Relief(np.full((2, 2), np.inf), np.zeros((6, 2)))
 
 
-def sight_of(mask: Mask, signal: Array) -> Sight:
+def sight_of(mask: Mask, signal: Array) -> PixelList:
     row, column = np.nonzero(mask)
     height, width = mask.shape
     rays = np.stack([(column - (width - 1) / 2) / FOCAL, (row - (height - 1) / 2) / FOCAL, np.ones(len(row))], axis=1)
-    return Sight(mask, rays, signal, np.full(signal.shape, 1e-3), np.ones(signal.shape, bool), True)
+    return PixelList(mask, rays, signal, np.full(signal.shape, 1e-3), np.ones(signal.shape, bool), True)
 
 
-def bowl(half_angle_deg: float = 55.0) -> tuple[Sight, Array, Array, float]:
+def bowl(half_angle_deg: float = 55.0) -> tuple[PixelList, Array, Array, float]:
     """A bowl, part of a sphere seen from inside: its pixels, depths (P,), normals (P, 3) and the cap's share of the sphere."""
     centre, radius = np.array([0.0, 0.0, 0.30]), 0.06
     edge_z = centre[2] + radius * np.cos(np.radians(half_angle_deg))
@@ -206,7 +206,7 @@ def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind() 
     assert not J[1].any()  # the left light does not reach it
 
 
-def bowl_under_lights(reflectance: float) -> tuple[Sight, Lit, Array, Array, Mask]:
+def bowl_under_lights(reflectance: float) -> tuple[PixelList, Illumination, Array, Array, Mask]:
     """The bowl under six low lights, all bounces in it counted, and the samples that its rim hides: what bounces inside a sphere is the
     same everywhere."""
     seen, depth, n, share = bowl(75.0)
@@ -214,7 +214,7 @@ def bowl_under_lights(reflectance: float) -> tuple[Sight, Lit, Array, Array, Mas
     sources = np.stack([0.16 * np.cos(angle), 0.16 * np.sin(angle), np.full(6, 0.24)], axis=1)
     to = sources[:, None] - x_C
     r = np.linalg.norm(to, axis=2)
-    lit = Lit(to / r[..., None], 0.07 / r**2)
+    lit = Illumination(to / r[..., None], 0.07 / r**2)
     at_rim = x_C + ((x_C[:, 2] - x_C[:, 2].min()) / (x_C[:, 2] - 0.24))[None, :, None] * to
     hidden = np.hypot(at_rim[..., 0], at_rim[..., 1]) > 0.06 * np.sin(np.radians(75.0))
     direct = np.where(hidden, 0.0, reflectance * lambert.predicted(lit.B, n))
@@ -240,7 +240,7 @@ def test_shadows_tell_the_reflectance_and_a_bowl_is_no_longer_flattened(reflecta
     assert error_deg(better.b, n) < 0.6 * error_deg(plain.b, n)
 
 
-def ball_over_a_bright_floor(reflectance: float) -> tuple[Sight, Lit, Array, Array, Mask, Patches]:
+def ball_over_a_bright_floor(reflectance: float) -> tuple[PixelList, Illumination, Array, Array, Mask, Patches]:
     """A ball under six near lights, three of which something hides from its lower half; a floor of known radiance throws light on it."""
     row, column = np.indices((70, 70)).reshape(2, -1)
     rays = np.stack([(column - 34.5) / FOCAL, (row - 34.5) / FOCAL, np.ones(len(row))], axis=1)
@@ -255,7 +255,7 @@ def ball_over_a_bright_floor(reflectance: float) -> tuple[Sight, Lit, Array, Arr
     sources = np.stack([0.16 * np.cos(angle), 0.16 * np.sin(angle), np.full(6, 0.02)], axis=1)
     to = sources[:, None] - x_C
     r = np.linalg.norm(to, axis=2)
-    lit = Lit(to / r[..., None], 0.15 / r**2)
+    lit = Illumination(to / r[..., None], 0.15 / r**2)
     hidden = np.tile(x_C[:, 1] > 0.005, (6, 1)) & (sources[:, 1] > 0)[:, None]
     radiance = np.where(sources[:, 1] > 0, 0.0, 1.0)  # the lights above shine on the floor, in the units of a signal
     side, spacing = np.linspace(-0.3, 0.3, 121), 0.005

@@ -21,9 +21,9 @@ from lpcal.segmentation.room_light import RoomLight
 from lpcal.surface import without_ambient
 from lpcal.surface import without_ambient as room
 from lpcal.surface.reconstruct import Options, reconstruct
-from lpcal.view import sight
+from lpcal.view import pixel_list
 from lpcal.view.coarse import RoomPrior
-from lpcal.view.sight import Grey
+from lpcal.view.pixel_list import SignalMaps
 
 LIT = Scene(centre=(0.004, -0.003, 0.36), room=0.25)
 
@@ -33,14 +33,14 @@ def untold(scene: Scene, seed: int = 0) -> RawCapture:
 
 
 @pytest.fixture(scope="module")
-def maps() -> tuple[Grey, Array, tuple[Light, ...]]:
+def maps() -> tuple[SignalMaps, Array, tuple[Light, ...]]:
     radiance = to_radiance(untold(LIT), Sensor())
-    lights = sight.lights_of(calibration(), radiance)
-    return sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera), lights
+    lights = pixel_list.lights_of(calibration(), radiance)
+    return pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration().camera), lights
 
 
 @pytest.fixture(scope="module")
-def seen_whole(maps: tuple[Grey, Array, tuple[Light, ...]]) -> tuple[RoomLight, Found]:
+def seen_whole(maps: tuple[SignalMaps, Array, tuple[Light, ...]]) -> tuple[RoomLight, Found]:
     grey, rays_C, lights = maps
     light = whole.found(grey, rays_C, lights, 0.35)
     return light, mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
@@ -55,7 +55,7 @@ def test_all_that_is_seen_tells_the_rooms_light_and_what_the_object_is(seen_whol
 
 
 def test_the_wall_tells_its_place_and_its_room_light(
-    maps: tuple[Grey, Array, tuple[Light, ...]], seen_whole: tuple[RoomLight, Found]
+    maps: tuple[SignalMaps, Array, tuple[Light, ...]], seen_whole: tuple[RoomLight, Found]
 ) -> None:
     light, found = seen_whole
     wall = room.wall_of(*maps, found, ~found.mask, light)
@@ -70,8 +70,8 @@ def test_the_wall_tells_its_place_and_its_room_light(
 def test_a_background_that_the_lamps_do_not_reach_is_no_wall() -> None:
     scene = replace(LIT, wall_z=6.0)
     radiance = to_radiance(untold(scene), Sensor())
-    lights = sight.lights_of(calibration(), radiance)
-    grey, rays_C = sight.grey(radiance, lights), sight.ray_map(radiance.signal.shape[1:3], calibration().camera)
+    lights = pixel_list.lights_of(calibration(), radiance)
+    grey, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration().camera)
     light = whole.found(grey, rays_C, lights, 0.35)
     found = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
     assert room.wall_of(grey, rays_C, lights, found, ~found.mask, light) is None
@@ -81,14 +81,14 @@ def test_a_background_that_the_lamps_do_not_reach_is_no_wall() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
-def test_an_objects_room_light_comes_out_within_its_sigma(maps: tuple[Grey, Array, tuple[Light, ...]], seed: int) -> None:
+def test_an_objects_room_light_comes_out_within_its_sigma(maps: tuple[SignalMaps, Array, tuple[Light, ...]], seed: int) -> None:
     _, rays_C, lights = maps
     mask, depth, _ = truth(LIT)
-    grey = sight.grey(to_radiance(untold(LIT, seed), Sensor()), lights)
+    grey = pixel_list.grey(to_radiance(untold(LIT, seed), Sensor()), lights)
     light = whole.found(grey, rays_C, lights, 0.35)
     found_by = mask_of.automatic(whole.taken_away(grey, light), rays_C, lights, 0.35)
     wall = room.wall_of(grey, rays_C, lights, found_by, ~mask, light)
-    seen = sight.look_at(grey, rays_C, mask, central=True)
+    seen = pixel_list.list_pixels(grey, rays_C, mask, central=True)
     true = room_light(LIT)[mask]
     for told in (wall, None):
         law, A = room.on_object(seen, lights, depth[mask], told, None, light)
@@ -116,25 +116,25 @@ def test_the_surface_is_as_good_as_with_an_ambient_image_and_far_better_than_wit
 
 
 @pytest.mark.slow
-def test_a_dark_room_is_left_dark(maps: tuple[Grey, Array, tuple[Light, ...]]) -> None:
+def test_a_dark_room_is_left_dark(maps: tuple[SignalMaps, Array, tuple[Light, ...]]) -> None:
     _, rays_C, lights = maps
     scene = Scene()
     dark = draw(scene, calibration())
-    grey = sight.grey(to_radiance(dark, Sensor()), lights)
+    grey = pixel_list.grey(to_radiance(dark, Sensor()), lights)
     mask, depth, _ = truth(scene)
-    seen = sight.look_at(grey, rays_C, mask, central=True)
+    seen = pixel_list.list_pixels(grey, rays_C, mask, central=True)
     found = room.on_object(seen, lights, depth[mask], None, None)
     assert found is None or found[1].mean() < 0.01 * seen.signal.mean()
 
 
-def test_colours_share_the_rooms_light(maps: tuple[Grey, Array, tuple[Light, ...]]) -> None:
+def test_colours_share_the_rooms_light(maps: tuple[SignalMaps, Array, tuple[Light, ...]]) -> None:
     scene = replace(LIT, albedo=(0.8, 0.5, 0.2))
     _, rays_C, lights = maps
     radiance = to_radiance(untold(scene), Sensor())
-    grey = sight.grey(radiance, lights)
+    grey = pixel_list.grey(radiance, lights)
     mask, depth, _ = truth(scene)
     room_map = np.zeros(mask.shape, np.float32)
-    room_map[mask] = room.on_object(sight.look_at(grey, rays_C, mask, central=True), lights, depth[mask], None, None)[1]
+    room_map[mask] = room.on_object(pixel_list.list_pixels(grey, rays_C, mask, central=True), lights, depth[mask], None, None)[1]
     ratio = without_ambient.without(radiance, room_map, lights).ambient[mask] / room_light(scene)[mask]
     assert np.median(ratio, axis=0) / np.median(ratio) == pytest.approx([1, 1, 1], abs=0.05)
 

@@ -7,7 +7,7 @@ from lpcal.integration.integrate import Grid
 from lpcal.surface import scales
 from lpcal.surface.scales import Blocks
 from lpcal.view.constants import REGULARISATION
-from lpcal.view.sight import Sight
+from lpcal.view.pixel_list import PixelList
 
 SHAPE = (60, 80)
 MIDDLE = np.array([40.0, 30.0])
@@ -22,7 +22,7 @@ def blocks(monkeypatch: pytest.MonkeyPatch) -> scales.Blocks:
     rays_C = np.column_stack([(places - MIDDLE) / 300, np.ones(len(places))])
     rng = np.random.default_rng(3)
     signal = rng.random((4, len(places)))
-    seen = Sight(mask, rays_C, signal, np.full(signal.shape, 0.1), rng.random(signal.shape) > 0.05, True)
+    seen = PixelList(mask, rays_C, signal, np.full(signal.shape, 0.1), rng.random(signal.shape) > 0.05, True)
     found = Blocks.of(seen, Grid.of(mask))
     assert found is not None
     return found
@@ -75,5 +75,5 @@ def test_breaks_stand_between_blocks_where_they_were(blocks: scales.Blocks) -> N
 
 def test_few_pixels_are_not_joined() -> None:
     mask = np.ones((40, 40), bool)
-    seen = Sight(mask, np.ones((1600, 3)), np.ones((3, 1600)), np.ones((3, 1600)), np.ones((3, 1600), bool), True)
+    seen = PixelList(mask, np.ones((1600, 3)), np.ones((3, 1600)), np.ones((3, 1600)), np.ones((3, 1600), bool), True)
     assert Blocks.of(seen, Grid.of(mask)) is None

@@ -16,7 +16,7 @@ from lpcal.kernels.library import SWITCH
 from lpcal.records.calibration import Light
 from lpcal.shading import normals
 from lpcal.surface import self_calibration
-from lpcal.view.sight import Sight
+from lpcal.view.pixel_list import PixelList
 
 
 @given(st.integers(0, 10_000))
@@ -130,7 +130,7 @@ def test_a_jump_is_kept_and_parts_the_pieces(seed: int) -> None:
     assert pieces.break_map(grid, weight, mask)[0][:, 37:42].any(axis=1).all()
 
 
-def random_sight(rng: np.random.Generator, lights: int, pixels: int, noise: float) -> tuple[Sight, np.ndarray, np.ndarray]:
+def random_sight(rng: np.random.Generator, lights: int, pixels: int, noise: float) -> tuple[PixelList, np.ndarray, np.ndarray]:
     angle = 2 * np.pi * np.arange(lights) / lights
     tilt = 0.5 if lights < 10 else rng.uniform(0.15, 0.7, lights)
     d = np.stack([np.sin(tilt) * np.cos(angle), np.sin(tilt) * np.sin(angle), -np.cos(tilt) * np.ones(lights)], axis=1)
@@ -140,7 +140,7 @@ def random_sight(rng: np.random.Generator, lights: int, pixels: int, noise: floa
     signal = np.maximum(np.einsum("kpi,pi->kp", B, n), 0) * rng.uniform(0.3, 0.9, pixels)
     signal = signal + noise * rng.standard_normal(signal.shape)
     rays = np.tile([0.0, 0, 1], (pixels, 1))
-    seen = Sight(np.ones((1, pixels), bool), rays, signal, np.full(signal.shape, noise), np.ones(signal.shape, bool), False)
+    seen = PixelList(np.ones((1, pixels), bool), rays, signal, np.full(signal.shape, noise), np.ones(signal.shape, bool), False)
     return seen, B, n
 
 

@@ -16,7 +16,7 @@ from lpcal.records.outcome import silent
 from lpcal.surface import rounds
 from lpcal.view import bands
 from lpcal.view.crop import MARGIN_PX, Crop
-from lpcal.view.sight import Sight, light_vectors, ray_map
+from lpcal.view.pixel_list import PixelList, light_vectors, ray_map
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.3, 0.3, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)
@@ -121,7 +121,7 @@ def test_the_rounds_give_the_same_however_much_is_empty_about_the_object(monkeyp
     found = []
     for closely in (rounds.Scene.closely, lambda scene: scene):
         monkeypatch.setattr(rounds.Scene, "closely", closely)
-        seen = Sight(far, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True)
+        seen = PixelList(far, rays, signal, np.full(signal.shape, 2e-3), np.ones(signal.shape, bool), True)
         scene = rounds.Scene("ball", seen, Grid.of(far), lights.lights, None)
         found.append(rounds.run(scene, np.full(seen.pixels, np.log(0.35)), silent))
     cropped, whole = found

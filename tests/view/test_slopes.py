@@ -11,7 +11,7 @@ from lit_scene import calibration
 from lpcal.geometry import led_cluster
 from lpcal.records.calibration import Light
 from lpcal.records.lobes import LedCluster, Lobe
-from lpcal.view.sight import light_slopes
+from lpcal.view.pixel_list import light_slopes
 
 
 def lamp(kind: str) -> Light:

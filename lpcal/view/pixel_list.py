@@ -25,7 +25,7 @@ LIGHTS_NEEDED = 3
 
 
 @dataclass(frozen=True)
-class Grey:
+class SignalMaps:
     """Maps of one signal a light, a unit of intensity: (L, H, W)."""
 
     signal: Image
@@ -35,7 +35,7 @@ class Grey:
 
 
 @dataclass(frozen=True)
-class Sight:
+class PixelList:
     """The pixels of the object."""
 
     mask: Mask
@@ -60,7 +60,7 @@ class Sight:
         found[self.mask] = values
         return found
 
-    def at(self, some: Indices | slice) -> Sight:
+    def at(self, some: Indices | slice) -> PixelList:
         """Some of the pixels; the mask stays that of all."""
         return replace(self, rays_C=self.rays_C[some], signal=self.signal[:, some], sigma=self.sigma[:, some], usable=self.usable[:, some])
 
@@ -77,7 +77,7 @@ class Sight:
 
 
 @dataclass(frozen=True)
-class Lit:
+class Illumination:
     """The light at each pixel: of the lights, and of what the object reflects onto itself."""
 
     d: Array
@@ -99,18 +99,18 @@ class Lit:
         """Light vectors (L, P, 3) of the lights alone."""
         return self.d * self.E[..., None]
 
-    def at(self, some: Indices | slice) -> Lit:
+    def at(self, some: Indices | slice) -> Illumination:
         """At some of the pixels."""
         thrown = None if self.thrown is None else self.thrown[:, some]
-        return Lit(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
+        return Illumination(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
 
 
-def vectors(light: Lit | Array, some: Indices | slice) -> Array:
+def vectors(light: Illumination | Array, some: Indices | slice) -> Array:
     """Light vectors (L, Q, 3) at some of the pixels, of vectors (L, P, 3) or of light."""
-    return light.at(some).B if isinstance(light, Lit) else light[:, some]
+    return light.at(some).B if isinstance(light, Illumination) else light[:, some]
 
 
-def strength(maps: Grey) -> Image:
+def strength(maps: SignalMaps) -> Image:
     """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
     return np.asarray(second(maps.signal), np.float32)
 
@@ -167,18 +167,18 @@ def agree_on_size(name: str, size: tuple[int, ...], camera: Camera | None) -> No
         )
 
 
-def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = None) -> Grey:
+def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = None) -> SignalMaps:
     """One signal a light, a unit of intensity; colours are joined by `weight` (3,), by default by their noise (`colour_weight`)."""
     factor = _factor(radiance, lights)
     shape = radiance.signal.shape[:3]
     if radiance.signal.ndim == 3:
-        return Grey(radiance.signal * factor, radiance.sigma * factor, ~radiance.saturated)
+        return SignalMaps(radiance.signal * factor, radiance.sigma * factor, ~radiance.saturated)
     weight = colour_weight(radiance, lights) if weight is None else weight
     signal, sigma = np.empty(shape, np.float32), np.empty(shape, np.float32)
     for k, by in enumerate(factor):
         signal[k] = (radiance.signal[k] * by) @ weight
         sigma[k] = np.sqrt((radiance.sigma[k] * by) ** 2 @ weight**2)
-    return Grey(signal, sigma, ~radiance.saturated)
+    return SignalMaps(signal, sigma, ~radiance.saturated)
 
 
 def colour_weight(radiance: Radiance, lights: Sequence[Light]) -> Array:
@@ -229,11 +229,11 @@ def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
     return rays_C
 
 
-def look_at(maps: Grey, rays_C: Array, mask: Mask, *, central: bool) -> Sight:
+def list_pixels(maps: SignalMaps, rays_C: Array, mask: Mask, *, central: bool) -> PixelList:
     """The pixels of a mask as lists."""
     at = np.flatnonzero(mask)
     signal, sigma = (values.reshape(len(values), -1)[:, at].astype(float) for values in (maps.signal, maps.sigma))
-    return Sight(mask, rays_C.reshape(-1, 3)[at], signal, sigma, maps.usable.reshape(len(signal), -1)[:, at], central)
+    return PixelList(mask, rays_C.reshape(-1, 3)[at], signal, sigma, maps.usable.reshape(len(signal), -1)[:, at], central)
 
 
 def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = None) -> tuple[Array, Array]:
