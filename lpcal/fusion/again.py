@@ -38,7 +38,7 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.records.surface import Surface
 from lpcal.segmentation import mask
 from lpcal.segmentation.mask import NO_HINTS
-from lpcal.surface import bounce, rounds, surroundings
+from lpcal.surface import interreflection, rounds, surroundings
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.rounds import Held, Scene
 from lpcal.view import pixel_list
@@ -163,11 +163,13 @@ def reflectance_of(body: Body, samples: Sequence[ViewSamples]) -> float | None:
         by_view = np.split(body.thrown(direct, float(one)), ends)
         lights = [some.lit + at_points(thrown, some.shares) for some, thrown in zip(samples, by_view, strict=True)]
         costs.append(_unexplained(samples, lights, shared))
-    odds = INDEPENDENT * np.log(costs) + ((TRIED - bounce.COMMON) / bounce.COMMON_SIGMA) ** 2
+    odds = INDEPENDENT * np.log(costs) + ((TRIED - interreflection.COMMON) / interreflection.COMMON_SIGMA) ** 2
     least = int(np.clip(np.argmin(odds), 1, len(TRIED) - 2))
     before, here, after = odds[least - 1 : least + 2]
     shift = np.clip(0.5 * (before - after) / max(before - 2 * here + after, 1e-30), -1, 1)
-    return float(np.clip(TRIED[least] + shift * (TRIED[1] - TRIED[0]), *bounce.REFLECTANCES[:: len(bounce.REFLECTANCES) - 1]))
+    return float(
+        np.clip(TRIED[least] + shift * (TRIED[1] - TRIED[0]), *interreflection.REFLECTANCES[:: len(interreflection.REFLECTANCES) - 1])
+    )
 
 
 def _unexplained(samples: Sequence[ViewSamples], lights: Sequence[Array], shared: Mask) -> float:

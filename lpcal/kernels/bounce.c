@@ -1,4 +1,4 @@
-/* How well a reflectance explains what samples in shadow show. Twin: surface/bounce.py (_fits). */
+/* How well a reflectance explains what samples in shadow show. Twin: surface/interreflection.py (_fits). */
 
 #include "kernel.h"
 

@@ -1,5 +1,5 @@
 /* A depth map as a body that stands in the way, and the light that patches throw on each other past it.
-   Twins: surface/relief.py (behind, hidden) and surface/bounce.py (_received). */
+   Twins: surface/relief.py (behind, hidden) and surface/interreflection.py (_received). */
 
 #include "kernel.h"
 

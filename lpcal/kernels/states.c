@@ -4,7 +4,7 @@
 #include "kernel.h"
 
 #define BLOCK 64
-#define PARTS 3 /* of the light of surfaces: see surface/bounce.py (Thrown.parts) */
+#define PARTS 3 /* of the light of surfaces: see surface/interreflection.py (Thrown.parts) */
 
 enum { MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, GLOSS_DOUBT, WIDTH2, STRENGTH, ROUGHNESS };
 

@@ -121,7 +121,7 @@ def _given(
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:
     """Cost (P,), as `samples.nothing`, of places that the room alone lights, and A (P,) there."""
-    share, spread2 = room.share[:, None], sigma**2 + (samples.THROWN * around) ** 2
+    share, spread2 = room.share[:, None], sigma**2 + (samples.INTERREFLECTED * around) ** 2
     weight = usable / spread2
     A = np.sum(weight * share * signal, axis=0) / np.maximum(np.sum(weight * share**2, axis=0), 1e-30)
     return np.sum(np.where(usable, np.minimum((signal - share * A) ** 2 / spread2, samples.OUTLIER), 0.0), axis=0) / 2, A

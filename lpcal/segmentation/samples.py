@@ -30,7 +30,7 @@ DARK, HALF_DARK = 5.0, 12.0
 """Costs of a sample in shadow, twice the logarithm of how rare that is: with next to nothing left, and with more than DARK_SHARE left."""
 DARK_SHARE = 0.2
 """Share of the predicted signal under which a sample is dark: shadows get light from elsewhere only."""
-THROWN = 0.04
+INTERREFLECTED = 0.04
 """Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
 ROUNDS = 3
 """Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
@@ -117,5 +117,5 @@ def _given(signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array) -> Array:
     """Cost (P,) of pixels as places that no light reaches but what other surfaces throw there, a share of `around` (L, P)."""
-    square = signal**2 / (sigma**2 + (THROWN * around) ** 2)
+    square = signal**2 / (sigma**2 + (INTERREFLECTED * around) ** 2)
     return np.asarray(np.sum(np.where(usable, np.minimum(square, OUTLIER), 0.0), axis=0) / 2)

@@ -1,7 +1,7 @@
 r"""Normals and albedo of all pixels together: each by its own samples, and by its neighbours where these leave it open.
 
 Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or in shadow (v = 0), with B_k the light, J_k what is reflected
-onto it by surfaces (see surface.bounce), g_k its gloss, s_k its standard deviation::
+onto it by surfaces (see surface.interreflection), g_k its gloss, s_k its standard deviation::
 
     sum_pk  rho((I_k - g_k - (v B_k + J_k) . b_p) / s_k)  +  PRICE [v = 0]   +   sum_pq  rho(|b_p - b_q| / (TURN sqrt(a_p a_q)))
 
@@ -175,14 +175,14 @@ def shown_gloss(lit: Illumination, b: Array, v: Array, shine: gloss.Gloss | None
 def states(seen: PixelList, lit: Illumination, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> States:
     """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
     bright = np.maximum(lambert.dot(lit.direct, b), 0.0)
-    thrown = 0.0 if lit.thrown is None else np.maximum(lambert.dot(lit.thrown, b), 0.0)
+    interreflected = 0.0 if lit.interreflected is None else np.maximum(lambert.dot(lit.interreflected, b), 0.0)
     top = seen.signal.max(axis=0)
-    left = seen.signal - thrown if shown is None else seen.signal - thrown - shown
-    noise2 = seen.sigma**2 + (DOUBT * thrown) ** 2
+    left = seen.signal - interreflected if shown is None else seen.signal - interreflected - shown
+    noise2 = seen.sigma**2 + (DOUBT * interreflected) ** 2
     spread2 = noise2 + (SHARED * seen.signal) ** 2 + (SHARED * top) ** 2
     if shown is not None:
         spread2 = spread2 + (DOUBT * shown) ** 2
-    dark, dark2 = seen.signal - thrown, noise2 + (DARK * top) ** 2
+    dark, dark2 = seen.signal - interreflected, noise2 + (DARK * top) ** 2
     against = dark**2 / dark2 + np.where(bright > 0, PRICE, 0.0) - (left - bright) ** 2 / spread2
     if hidden is not None:
         against = np.where(hidden, dark**2 / dark2 - (left - bright) ** 2 / spread2 - PRICE, against)
@@ -204,7 +204,7 @@ def _given(
     alike = lit.d.strides[1] == lit.E.strides[1] == 0
     light = (lit.d[:, :1], lit.E[:, :1]) if alike else (lit.d, lit.E)
     d, E, signal, sigma, at, view = (np.ascontiguousarray(one, float) for one in (*light, seen.signal, seen.sigma, b, v))
-    J = np.zeros(0) if lit.thrown is None else np.ascontiguousarray(lit.thrown, float)
+    J = np.zeros(0) if lit.interreflected is None else np.ascontiguousarray(lit.interreflected, float)
     unlit = np.zeros(0, bool) if hidden is None else np.ascontiguousarray(hidden)
     usable = np.ascontiguousarray(seen.usable)
     return *signal.shape, alike, d, E, J.size > 0, J, signal, sigma, usable, unlit.size > 0, unlit, at, view, constants
@@ -235,7 +235,7 @@ def _gathered_of(
 
     as_lit = _weights(seen, state.chance, state.lit, state.spread2)
     in_shadow = _weights(seen, 1 - state.chance, state.shadow, state.shadow_spread2)
-    J = np.zeros_like(lit.d) if lit.thrown is None else lit.thrown
+    J = np.zeros_like(lit.d) if lit.interreflected is None else lit.interreflected
     B = np.where((lambert.dot(lit.direct, b) > 0)[..., None], lit.direct + J, J)
     if shine is not None:
         n, albedo = lambert.unit(b)

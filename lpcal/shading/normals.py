@@ -140,16 +140,18 @@ def gloss_share(lit: Illumination, found: Estimate) -> Array:
     return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
 
 
-def thrown_share(lit: Illumination, found: Estimate) -> Array:
+def interreflected_share(lit: Illumination, found: Estimate) -> Array:
     """Light (P,) that is reflected onto a pixel by its surroundings, as a share of the direct light of the lights that agree."""
-    if lit.thrown is None:
+    if lit.interreflected is None:
         return np.zeros(len(found.b))
 
     def of(at: slice) -> Array:
         here, b, inliers = lit.at(at), np.nan_to_num(found.b[at]), found.inliers[:, at]
-        assert here.thrown is not None
-        direct, thrown = (np.sum(np.where(inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (here.direct, here.thrown))
-        return np.asarray(thrown / np.maximum(direct, 1e-12))
+        assert here.interreflected is not None
+        direct, interreflected = (
+            np.sum(np.where(inliers, lambert.predicted(B, b), 0.0), axis=0) for B in (here.direct, here.interreflected)
+        )
+        return np.asarray(interreflected / np.maximum(direct, 1e-12))
 
     return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
 

@@ -167,14 +167,14 @@ def std_of(seen: PixelList, lights: Sequence[Light], u: Array, inside: Mask) -> 
     return float(1 / np.sqrt(NEARBY * max(bend, 0.0) + WORKING**-2))
 
 
-def of_piece(seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None, inside: Mask, main: float) -> PieceEnds:
+def of_piece(seen: PixelList, lights: Sequence[Light], u: Array, interreflected: Array | None, inside: Mask, main: float) -> PieceEnds:
     """The distances that the light of a piece `inside` (P,) of log depths u (P,) supports, where the main piece is at log depth `main`.
 
-    Parts of an object that stand apart in the picture are swept as a whole: rounds find the minimum that is nearest. `thrown` (L, P, 3) is
-    the light of surfaces. The energy is that of `odds_of`, with the main piece in the working distance's place.
+    Pieces that are separate in the image are swept as a whole, since the rounds find only the nearest minimum. `interreflected` (L, P, 3)
+    are the light vectors of interreflection. The energy is that of `odds_of`, with the main piece in place of the working distance.
     """
     some = _some(inside)
-    cost = _costs_of_shifts(seen, lights, u, thrown, some, PIECE_SWEEP)
+    cost = _costs_of_shifts(seen, lights, u, interreflected, some, PIECE_SWEEP)
     energy = _energy(cost, float(np.median(u[some])) + PIECE_SWEEP - main, len(lights))
     least = np.flatnonzero(np.r_[True, energy[1:] < energy[:-1]] & np.r_[energy[:-1] <= energy[1:], True])
     least = least[np.argsort(energy[least], kind="stable")]
@@ -205,16 +205,16 @@ def _vertex(energy: Array, k: int) -> float:
 
 
 def _costs_of_shifts(
-    seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None, some: Indices, shifts: Sequence[float] | Array
+    seen: PixelList, lights: Sequence[Light], u: Array, interreflected: Array | None, some: Indices, shifts: Sequence[float] | Array
 ) -> Array:
     """Mean cost (N,) of the samples of some pixels whose log depths, of u (P,), are changed by each of `shifts` (N,)."""
-    few, light = seen.at(some), None if thrown is None else thrown[:, some]
+    few, light = seen.at(some), None if interreflected is None else interreflected[:, some]
     return np.array([_cost_of(few, lights, u[some] + shift, light) for shift in shifts])
 
 
-def _cost_of(seen: PixelList, lights: Sequence[Light], u: Array, thrown: Array | None) -> float:
+def _cost_of(seen: PixelList, lights: Sequence[Light], u: Array, interreflected: Array | None) -> float:
     """Mean cost of the samples of pixels at log depths u (P,)."""
-    lit = Illumination(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), thrown)
+    lit = Illumination(*light_vectors(lights, seen.rays_C * np.exp(u)[:, None], None), interreflected)
     found = normals.estimate(seen, lit, normals.candidates(seen, lit.E), normals.variances(seen))
     return float(_costs(found).mean())
 

@@ -46,7 +46,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, basins_found: Ba
 
 def _by_its_light(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> Component:
     """A smaller piece no surer than its light is of its distance, and with the others that it allows, by log depths u (P,)."""
-    ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.thrown, label == piece.label, float(np.median(u[label == 1])))
+    ends = basins.of_piece(scene.seen, scene.lights, u, state.lit.interreflected, label == piece.label, float(np.median(u[label == 1])))
     std = max(piece.scale_std, ends.std)
     stated = [(shift, odds) for shift, odds in zip(ends.shift, ends.odds, strict=True) if odds > UNLIKELY and abs(shift) > basins.APART]
     others = tuple(Alternative(float(piece.mean_depth_m * np.exp(shift)), std, float(odds)) for shift, odds in stated)

@@ -20,7 +20,7 @@ from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import Own
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
-from lpcal.shading.normals import Estimate, thrown_share, variances
+from lpcal.shading.normals import Estimate, interreflected_share, variances
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, FEWEST_PIXELS, OUTLIER, REGULARISATION
 from lpcal.view.pixel_list import Illumination, Indices, PixelList, vectors
@@ -89,7 +89,7 @@ def doubted(own: Own, lit: Illumination, seen: PixelList, found: Estimate) -> Ow
     """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
     if lit.unseen is None:
         return own
-    square = lit.unseen**2 + thrown_share(lit, found) ** 2
+    square = lit.unseen**2 + interreflected_share(lit, found) ** 2
     if found.gloss is not None:
         square = square + np.max(np.where(found.inliers, found.gloss / np.maximum(seen.signal, 1e-12), 0.0), axis=0) ** 2
     return Own(own.curvature / (1 + square * (DOUBT / ALIKE) ** 2), own.optimum)

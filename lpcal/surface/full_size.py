@@ -152,14 +152,14 @@ class Full:
         ground, near = self.ground, self.scene.near
         u = ground.front(*tile.outer, rays_C)[inside]
         depth = np.exp(u) if near else np.ones(seen.pixels)
-        thrown = unseen = hidden = None
-        if ground.thrown is not None:
-            thrown = np.ascontiguousarray(np.moveaxis(ground.between(ground.thrown, *tile.outer)[inside], 1, 0), float)
+        interreflected = unseen = hidden = None
+        if ground.interreflected is not None:
+            interreflected = np.ascontiguousarray(np.moveaxis(ground.between(ground.interreflected, *tile.outer)[inside], 1, 0), float)
         if ground.unseen is not None:
             unseen = ground.between(ground.unseen, *tile.outer)[inside].astype(float)
         if ground.hidden is not None:
             hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
-        lit = Illumination(*pixel_list.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), thrown, unseen)
+        lit = Illumination(*pixel_list.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), interreflected, unseen)
         n = ground.between(ground.n, *tile.outer)[inside].astype(float)
         turn: Array = np.zeros(3)
         if ground.turn is not None:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.integration.pieces import BREAK_WEIGHT
-from lpcal.shading.normals import thrown_share
+from lpcal.shading.normals import interreflected_share
 from lpcal.surface import normal_prior, rounds
 from lpcal.surface.rounds import Scene, State
 from lpcal.view.constants import LEAST_COSINE
@@ -27,7 +27,7 @@ class Ground:
     """log depth; without a camera depth in coarse pixels."""
     n: Array
     """(h, w, 3)."""
-    thrown: Image | None
+    interreflected: Image | None
     """(h, w, L, 3) light vectors of what surfaces throw there."""
     unseen: Image | None
     share: Image
@@ -58,19 +58,21 @@ class Ground:
         lit, hidden = state.lit, None
         if scene.near:
             hidden = np.asarray(filled(rounds.hidden_lights(scene, np.exp(state.u), state, Illumination(lit.d, lit.E))[1].T), bool)
-        thrown = None if lit.thrown is None else np.asarray(filled(np.moveaxis(lit.thrown, 0, 1).astype(np.float32)), np.float32)
+        interreflected = (
+            None if lit.interreflected is None else np.asarray(filled(np.moveaxis(lit.interreflected, 0, 1).astype(np.float32)), np.float32)
+        )
         unseen = None if lit.unseen is None else np.asarray(filled(lit.unseen.astype(np.float32)), np.float32)
         broken = state.weight <= BREAK_WEIGHT
         at = np.zeros(scene.seen.pixels, bool)
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
         loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool))
-        share = np.asarray(filled(thrown_share(lit, state.found).astype(np.float32)), np.float32)
+        share = np.asarray(filled(interreflected_share(lit, state.found).astype(np.float32)), np.float32)
         other, sigma_rad = normal_prior.turned(scene, state)
         turn = None
         if sigma_rad is not None:
             turn = np.asarray(filled(np.column_stack([other.normals - state.normals, sigma_rad]).astype(np.float32)), np.float32)
         u, n = np.asarray(filled(other.u)), np.asarray(filled(normals_C[mask].astype(float)))
-        return Ground(factor, rays_C[tuple(nearest)], u, n, thrown, unseen, share, hidden, np.asarray(loose), turn, nearest)
+        return Ground(factor, rays_C[tuple(nearest)], u, n, interreflected, unseen, share, hidden, np.asarray(loose), turn, nearest)
 
     def place(self, rows: slice, columns: slice) -> tuple[Indices, Indices]:
         """Rows (h,) and columns (w,) of the coarse pixels that pixels in full size lie in."""

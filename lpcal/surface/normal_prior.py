@@ -219,7 +219,7 @@ def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, 
         "known": np.isfinite(found.b[:, 0]).astype(float),
         "misfit": np.log1p(np.nan_to_num(found.chi2) / np.maximum(found.used - 2, 1)),
         "cost": np.log1p(np.nan_to_num(found.cost) / lights),
-        "thrown": np.minimum(np.nan_to_num(normals.thrown_share(lit, found)), MOST_SHARE),
+        "thrown": np.minimum(np.nan_to_num(normals.interreflected_share(lit, found)), MOST_SHARE),
         "gloss": np.minimum(np.nan_to_num(normals.gloss_share(lit, found)), MOST_SHARE),
         "unseen": nothing if lit.unseen is None else lit.unseen,
         "bend": lambert.length(n - of_depth),
@@ -236,14 +236,14 @@ def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, 
 def _vectors(seen: PixelList, lit: Illumination, found: Estimate, n: Array, of_depth: Array, shading: Array) -> dict[str, Array]:
     """Normals, and where lights and shadows, light of other surfaces and the brightest samples lie, about the rays."""
     agreed, known, bright = found.inliers.astype(float), np.isfinite(found.b[:, :1]), np.maximum(shading, 0.0)
-    thrown = np.zeros_like(n) if lit.thrown is None else lit.thrown.sum(axis=0) / lit.E.sum(axis=0)[:, None]
+    interreflected = np.zeros_like(n) if lit.interreflected is None else lit.interreflected.sum(axis=0) / lit.E.sum(axis=0)[:, None]
     vectors = {
         "normal": n,
         "own normal": lambert.unit(np.where(known, found.b, 0.0))[0] * known,
         "depth normal": of_depth,
         "lit from": np.einsum("kp,kpi->pi", agreed, lit.d) / len(agreed),
         "dark from": np.einsum("kp,kpi->pi", 1 - agreed, lit.d) / len(agreed),
-        "thrown from": thrown,
+        "thrown from": interreflected,
         "bright from": np.einsum("kp,kpi->pi", bright, lit.d) / np.maximum(bright.sum(axis=0), 1e-300)[:, None],
     }
     turned = about_rays(seen.rays_C, np.stack([vectors[name] for name in VECTORS]))
@@ -263,8 +263,8 @@ def _round_the_ray(seen: PixelList, lit: Illumination, found: Estimate, b: Array
     """Waves of the samples' shading round each ray, and of what the state leaves of it, over the pixel's albedo."""
     scale = np.maximum(lit.E * lambert.length(b), 1e-300)
     left = seen.signal - np.maximum(lambert.dot(lit.direct, b), 0.0)
-    if lit.thrown is not None:
-        left = left - np.maximum(lambert.dot(lit.thrown, b), 0.0)
+    if lit.interreflected is not None:
+        left = left - np.maximum(lambert.dot(lit.interreflected, b), 0.0)
     if found.gloss is not None:
         left = left - found.gloss
     values = {name: np.where(seen.usable, np.clip(of / scale, -2, 2), 0.0) for name, of in (("shading", seen.signal), ("left", left))}

@@ -107,7 +107,7 @@ class Relief:
         return self.hidden(x_C, x_C + share[:, None] * (source_C - x_C), steps)
 
 
-def thrown_by_sides(x_C: Array, n: Array, relief: Relief, albedo: Array, lights: Sequence[Light]) -> tuple[Array, Array]:
+def interreflected_by_sides(x_C: Array, n: Array, relief: Relief, albedo: Array, lights: Sequence[Light]) -> tuple[Array, Array]:
     """J (L, Q, 3) at patches x_C (Q, 3) with normals n (Q, 3), and the share (Q,) of unseen sides in what stands round them.
 
     `albedo` (H, W) is in the units of the signals.

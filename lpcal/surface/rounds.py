@@ -20,7 +20,7 @@ from lpcal.records.outcome import Progress
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
-from lpcal.surface import basins, bounce, distance
+from lpcal.surface import basins, distance, interreflection
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -63,7 +63,7 @@ class State:
     """The light that the normals were found in."""
     field: Field
     """The field of the normals, with the gloss of the object."""
-    reflects: bounce.Reflectance | None = None
+    reflects: interreflection.Reflectance | None = None
     """The reflectance that interreflection shows, and the shares of what is guessed of it; None before it is looked for."""
     moved: Array | None = None
     """(P,) by how much the last round changed u; None before there are two."""
@@ -75,15 +75,15 @@ class Held:
 
     u: Array
     """log depth."""
-    thrown: Array
+    interreflected: Array
     """(L, P, 3) light vectors of what the object's parts throw on each other, those among them that this view does not see."""
     reflectance: float
     """That of the object's median pixel."""
 
     def in_blocks(self, blocks: Blocks) -> Held:
         """The same for blocks of pixels."""
-        thrown = np.stack([np.stack([blocks.means(column) for column in one.T], axis=1) for one in self.thrown])
-        return replace(self, u=blocks.means(self.u), thrown=thrown)
+        interreflected = np.stack([np.stack([blocks.means(column) for column in one.T], axis=1) for one in self.interreflected])
+        return replace(self, u=blocks.means(self.u), interreflected=interreflected)
 
     @property
     def distance_m(self) -> float:
@@ -125,9 +125,9 @@ class Scene:
         """The same with maps of the object's part of the picture alone: no round depends on what is empty about it."""
         return replace(self, seen=replace(self.seen, mask=Crop.about(self.seen.mask).of(self.seen.mask)))
 
-    def lit_at(self, depth: Array, thrown: Array | None = None) -> Illumination:
+    def lit_at(self, depth: Array, interreflected: Array | None = None) -> Illumination:
         """The light at depths (P,)."""
-        return Illumination(*pixel_list.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), thrown)
+        return Illumination(*pixel_list.light_vectors(self.lights, self.seen.points_C(depth), self.focus_C), interreflected)
 
     def slope_at(self, depth: Array, some: slice) -> Array:
         """Derivatives (L, Q, 3) of the lights' vectors by log depth at some of the pixels, by depths (P,) of all."""
@@ -147,15 +147,15 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
         progress(f"{what} in coarse pixels", done, total)
 
     settled = _until_settled(coarse, once(coarse, blocks.means(begin), None, 0), 1, in_blocks)
-    return _until_settled(scene, _carried(scene, blocks, settled), ROUNDS - FULL_ROUNDS, progress, thrown_known=True)
+    return _until_settled(scene, _carried(scene, blocks, settled), ROUNDS - FULL_ROUNDS, progress, interreflection_known=True)
 
 
-def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, thrown_known: bool = False) -> State:
+def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, interreflection_known: bool = False) -> State:
     """The state after rounds from the one of number `first` on, until one changes next to nothing."""
     rounds = ROUNDS if scene.near else 1
     for k in range(first, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
-        before, state = state, once(scene, state.u, state, k, thrown_known=thrown_known)
+        before, state = state, once(scene, state.u, state, k, interreflection_known=interreflection_known)
         state = replace(state, moved=np.abs(state.u - before.u))
         if k >= SHAPED_ROUND and _settled(scene, state):
             break
@@ -188,7 +188,7 @@ def _settled(scene: Scene, state: State) -> bool:
     return all(np.median(state.moved[label == one]) < (SETTLED if one == 1 else SETTLED_PIECE) for one in np.unique(label))
 
 
-def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, thrown_known: bool = False) -> State:
+def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, interreflection_known: bool = False) -> State:
     """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
 
     Raises
@@ -206,26 +206,26 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, throw
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
         if scene.held is not None:
             lit, reflects = _held(scene, depth, shaped, lit)
-        elif thrown_known:
-            lit, reflects = replace(lit, thrown=shaped.lit.thrown, unseen=shaped.lit.unseen), shaped.reflects
+        elif interreflection_known:
+            lit, reflects = replace(lit, interreflected=shaped.lit.interreflected, unseen=shaped.lit.unseen), shaped.reflects
         else:
-            lit, reflects = _thrown(scene, depth, shaped, lit, by_object, hidden)
+            lit, reflects = _interreflected(scene, depth, shaped, lit, by_object, hidden)
     usable = normals.candidates(seen, lit.E, hidden)
-    glossy = bounce.COMMON if reflects is None else reflects.median
+    glossy = interreflection.COMMON if reflects is None else reflects.median
     whole = _estimated(
         scene,
         lit,
         usable,
         hidden,
         before,
-        glossy if (k >= SHAPE_ROUND or not scene.near) and not thrown_known else None,
-        CARRIED_ROUNDS if thrown_known else None,
+        glossy if (k >= SHAPE_ROUND or not scene.near) and not interreflection_known else None,
+        CARRIED_ROUNDS if interreflection_known else None,
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
     step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
     by_light, own = _own(scene, u, depth, lit, found)
     u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
-    if scene.near and shaped is not None and not thrown_known:
+    if scene.near and shaped is not None and not interreflection_known:
         u, weight = jumps.jumped(grid, step, sigma, own, u)
     weight = pieces.without_slivers(grid, weight, seen.mask)
     u = settle(grid, step, sigma, own, u, weight)
@@ -276,28 +276,32 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Illumination) 
     return by_object, by_any
 
 
-def _thrown(
+def _interreflected(
     scene: Scene, depth: Array, before: State, lit: Illumination, by_object: Mask, hidden: Mask
-) -> tuple[Illumination, bounce.Reflectance]:
+) -> tuple[Illumination, interreflection.Reflectance]:
     """The light with what surfaces reflect at depths (P,), and their reflectance."""
     seen = scene.seen
-    by = bounce.thrown(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
-    dark = bounce.in_shadow(seen, lit, before.normals, by_object)
-    first = before.reflects or bounce.reflectance(seen, by, before.field.b, dark)
-    begin = replace(lit, thrown=first.per_unit * by.J(first.sides, first.beyond))
-    evidence = bounce.LitEvidence(first.strengths, *field.strengths_seen(seen, scene.grid, begin, hidden, before.field, by.parts))
-    found = bounce.reflectance(seen, by, before.field.b, dark, evidence)
-    return replace(lit, thrown=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
+    by = interreflection.interreflected(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
+    dark = interreflection.in_shadow(seen, lit, before.normals, by_object)
+    first = before.reflects or interreflection.reflectance(seen, by, before.field.b, dark)
+    begin = replace(lit, interreflected=first.per_unit * by.J(first.sides, first.beyond))
+    evidence = interreflection.LitEvidence(first.strengths, *field.strengths_seen(seen, scene.grid, begin, hidden, before.field, by.parts))
+    found = interreflection.reflectance(seen, by, before.field.b, dark, evidence)
+    return replace(lit, interreflected=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 
-def _held(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Illumination, bounce.Reflectance]:
+def _held(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Illumination, interreflection.Reflectance]:
     """The light with what other views say that surfaces reflect, and what the planes about the object do."""
     assert scene.held is not None
-    thrown, reflectance = scene.held.thrown, scene.held.reflectance
+    interreflected, reflectance = scene.held.interreflected, scene.held.reflectance
     per_unit = reflectance / float(np.median(lambert.length(before.field.b)))
     if scene.around is not None:
-        thrown = thrown + per_unit * bounce.from_around(scene.seen, depth, before.normals, scene.lights, scene.around)
-    return replace(lit, thrown=thrown, unseen=np.zeros(scene.seen.pixels)), bounce.Reflectance(reflectance, per_unit, 0.0, 0.5)
+        interreflected = interreflected + per_unit * interreflection.from_around(
+            scene.seen, depth, before.normals, scene.lights, scene.around
+        )
+    return replace(lit, interreflected=interreflected, unseen=np.zeros(scene.seen.pixels)), interreflection.Reflectance(
+        reflectance, per_unit, 0.0, 0.5
+    )
 
 
 def _estimated(

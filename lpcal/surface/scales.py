@@ -109,9 +109,9 @@ class Blocks:
 
     def lit(self, lights: Illumination, lit: Illumination) -> Illumination:
         """The light at the pixels: of the `lights` there, and of other surfaces linear between that of the blocks."""
-        thrown = None if lit.thrown is None else np.stack(bands.shared(self.between, lit.thrown))
+        interreflected = None if lit.interreflected is None else np.stack(bands.shared(self.between, lit.interreflected))
         unseen = None if lit.unseen is None else self.between(lit.unseen)
-        return replace(lights, thrown=thrown, unseen=unseen)
+        return replace(lights, interreflected=interreflected, unseen=unseen)
 
     def estimate(self, found: Estimate) -> Estimate:
         """The estimate of each pixel's block from its shading."""

@@ -5,11 +5,11 @@ the depth, R5 its rms over 5x5 pixels::
 
     sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
-with the clues, of distant light: s max(1, sqrt(chi2 / dof)), s as of INDEPENDENT lights at most; R5; R; whether an edge or a break is
-near; whether three lights were used; whether the normal is filled in; the light that is reflected onto the pixel by its surroundings as a
-share of the direct light; and how much of what stands round it is a side that the camera does not see (surface.bounce). Of near light: R,
-and what is stated of the normals that are expected (surface.normal_prior). The factors are fitted by tools/fit_normal_sigma.py on simulated
-scenes. The calibration's part is common to the whole image.
+with these indicators for distant light: s max(1, sqrt(chi2 / dof)), s as of INDEPENDENT lights at most; R5; R; whether an edge or a break
+is near; whether only three lights were used; whether the normal is filled in; the interreflected light as a share of the direct light; and
+the share of the pixel's surroundings that are surfaces hidden from the camera (surface.interreflection). For near light: R, and the
+standard deviation that the network states for its normals (surface.normal_prior). The factors are fitted by tools/fit_normal_sigma.py on
+simulated scenes. The calibration's part is common to the whole image.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Labels, Mask
 from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import Light
-from lpcal.shading.normals import Estimate, thrown_share
+from lpcal.shading.normals import Estimate, interreflected_share
 from lpcal.view.constants import RIM_PX
 from lpcal.view.pixel_list import Illumination
 
@@ -63,7 +63,7 @@ class Clues:
     edge: Mask
     used: Array
     filled: Mask
-    thrown: Array
+    interreflected: Array
     """Light from around by that which comes straight."""
     unseen: Array
     """Share of unseen sides in what stands around."""
@@ -88,7 +88,7 @@ def clues(
     noise, misfit = noise_deg(found, normals)
     unseen = np.zeros(len(normals)) if lit.unseen is None else lit.unseen
     expected_deg = None if expected_rad is None else np.degrees(expected_rad)
-    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, thrown_share(lit, found), unseen, expected_deg)
+    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, interreflected_share(lit, found), unseen, expected_deg)
 
 
 def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
@@ -114,7 +114,7 @@ def clues_of(
     noise: Array,
     misfit: Array,
     used: Array,
-    thrown: Array,
+    interreflected: Array,
     unseen: Array,
     expected_deg: Array | None = None,
 ) -> Clues:
@@ -126,7 +126,7 @@ def clues_of(
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
     edge = raster.away(rim)[mask] < RIM_PX
-    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), thrown, unseen, expected_deg)
+    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), interreflected, unseen, expected_deg)
 
 
 def squares(found: Clues) -> Array:
@@ -135,7 +135,7 @@ def squares(found: Clues) -> Array:
         return np.stack([found.bend_deg, found.expected_deg], axis=1) ** 2
     noise = found.noise_deg * np.maximum(1, np.sqrt(found.misfit))
     flags = [found.edge, found.used == 3, found.filled]
-    return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.thrown, found.unseen], axis=1) ** 2
+    return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.interreflected, found.unseen], axis=1) ** 2
 
 
 def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:

@@ -257,8 +257,8 @@ def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | N
     by_parts = weighted.T @ rows * FEW_PIXELS / seen.mask.size
     of_law = float(np.sqrt(mean @ np.linalg.solve(by_parts + prior, mean))) / max(float(mean @ law), REGULARISATION)
     A = np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
-    thrown = room_samples.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
-    return Room(c, float(np.hypot(np.hypot(LAW_STD, of_law), thrown))), A
+    interreflected = room_samples.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
+    return Room(c, float(np.hypot(np.hypot(LAW_STD, of_law), interreflected))), A
 
 
 def intensities(lights: Sequence[Light]) -> Array:

@@ -84,15 +84,15 @@ class Illumination:
     """(L, P, 3) unit vectors to the lights."""
     E: Array
     """(L, P) irradiance."""
-    thrown: Array | None = None
-    """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.bounce)."""
+    interreflected: Array | None = None
+    """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.interreflection)."""
     unseen: Array | None = None
     """(P,) share of what stands around a pixel that is of the object and not seen: what it reflects is guessed."""
 
     @property
     def B(self) -> Array:
         """Light vectors (L, P, 3), all light counted."""
-        return self.direct if self.thrown is None else self.direct + self.thrown
+        return self.direct if self.interreflected is None else self.direct + self.interreflected
 
     @property
     def direct(self) -> Array:
@@ -101,8 +101,8 @@ class Illumination:
 
     def at(self, some: Indices | slice) -> Illumination:
         """At some of the pixels."""
-        thrown = None if self.thrown is None else self.thrown[:, some]
-        return Illumination(self.d[:, some], self.E[:, some], thrown, None if self.unseen is None else self.unseen[some])
+        interreflected = None if self.interreflected is None else self.interreflected[:, some]
+        return Illumination(self.d[:, some], self.E[:, some], interreflected, None if self.unseen is None else self.unseen[some])
 
 
 def vectors(light: Illumination | Array, some: Indices | slice) -> Array:

@@ -24,7 +24,7 @@ from lpcal.kernels.library import SWITCH, kernel
 from lpcal.segmentation import cut, flats, layers, planes, room_samples, samples
 from lpcal.shading import field, gloss, normals
 from lpcal.shading.normals import Estimate
-from lpcal.surface import bounce, distance
+from lpcal.surface import distance, interreflection
 from lpcal.surface.relief import Relief, _entries
 from lpcal.surface.surroundings import Patches
 from lpcal.view.coarse import LightTable, RoomPrior, coarse_of
@@ -63,7 +63,7 @@ def entries(rng: np.random.Generator) -> Array:
 
 
 def received(rng: np.random.Generator) -> Array:
-    return bounce._received(patches(rng, 200), patches(rng, 150), relief(rng))
+    return interreflection._received(patches(rng, 200), patches(rng, 150), relief(rng))
 
 
 def shading(rng: np.random.Generator, lights: int = 6, pixels: int = 800) -> tuple[Array, Array, Mask, Array]:
@@ -96,7 +96,7 @@ def field_cases(rng: np.random.Generator) -> tuple[PixelList, Array, list[tuple[
     b, v, dark = rng.normal(size=(500, 3)), lambert.unit(rng.normal(size=(500, 3)))[0], rng.random(signal.shape) < 0.2
     seen = PixelList(np.ones((20, 25), bool), -v, signal, np.sqrt(variance), usable, True)
     plain, more = Illumination(d, E), Illumination(d, E, 0.1 * rng.normal(size=d.shape))
-    far = Illumination(np.broadcast_to(d[:, 60:61], d.shape), np.broadcast_to(E[:, 60:61], E.shape), more.thrown)
+    far = Illumination(np.broadcast_to(d[:, 60:61], d.shape), np.broadcast_to(E[:, 60:61], E.shape), more.interreflected)
     cases: list[tuple[Illumination, Mask | None, gloss.Gloss | None]] = [(plain, None, None), (more, dark, None)]
     cases += [(plain, dark, gloss.Gloss(0.3, 0.2, 0.5)), (more, None, gloss.Gloss(0.1, 0.4, 0.5)), (far, dark, gloss.Gloss(0.1, 0.4, 0.5))]
     return seen, b, cases
@@ -210,7 +210,7 @@ def blurred_singles(rng: np.random.Generator) -> Array:
 
 def thrown_fits(rng: np.random.Generator) -> Array:
     parts, signal = rng.random((3, 900)), rng.random(900)
-    return bounce._fits(rng.random((30, 3)), parts, signal, 1e-3 * (0.1 + rng.random(900)), 1 + rng.random(900))
+    return interreflection._fits(rng.random((30, 3)), parts, signal, 1e-3 * (0.1 + rng.random(900)), 1 + rng.random(900))
 
 
 def between(rng: np.random.Generator) -> Array:

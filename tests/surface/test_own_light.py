@@ -14,8 +14,8 @@ from lpcal.records.calibration import Light
 from lpcal.segmentation.planes import Plane, predicted
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
-from lpcal.surface import bounce, rounds
-from lpcal.surface.relief import Relief, thrown_by_sides
+from lpcal.surface import interreflection, rounds
+from lpcal.surface.relief import Relief, interreflected_by_sides
 from lpcal.surface.surroundings import Around, Patches, Whole, patches
 from lpcal.view.constants import SHADOW_STEPS
 from lpcal.view.pixel_list import Illumination, PixelList
@@ -54,7 +54,7 @@ def bowl(half_angle_deg: float = 55.0) -> tuple[PixelList, Array, Array, float]:
 
 def test_inside_a_sphere_every_place_gets_the_same_light_from_the_rest() -> None:
     seen, depth, n, share = bowl()
-    found = bounce.thrown(seen, depth, shown(n), n, [HIGH])
+    found = interreflection.interreflected(seen, depth, shown(n), n, [HIGH])
     got = np.einsum("pi,pi->p", found.seen[0], n)
     assert found.unseen.mean() < 0.01
     assert abs(np.median(got) / share - 1) < 0.07
@@ -76,9 +76,9 @@ def test_a_wall_behind_lights_what_is_turned_away_from_the_camera() -> None:
     side, spacing = np.meshgrid(np.linspace(-4.0, 4.0, 161), np.linspace(-4.0, 4.0, 161)), 0.05
     x_C = np.stack([side[0].ravel(), side[1].ravel(), np.full(161**2, 0.5)], axis=1)
     wall = Patches(x_C, np.tile([0.0, 0.0, -1.0], (len(x_C), 1)), np.full(len(x_C), spacing**2), np.ones((1, len(x_C))))
-    alone = bounce.thrown(seen, depth, shown(n), n, [HIGH]).seen
-    both = bounce.thrown(seen, depth, shown(n), n, [HIGH], Around(wall, None, EMPTY)).seen
-    out_of_sight = bounce.thrown(seen, depth, shown(n), n, [HIGH], Around(replace(wall, area=0 * wall.area), wall, EMPTY))
+    alone = interreflection.interreflected(seen, depth, shown(n), n, [HIGH]).seen
+    both = interreflection.interreflected(seen, depth, shown(n), n, [HIGH], Around(wall, None, EMPTY)).seen
+    out_of_sight = interreflection.interreflected(seen, depth, shown(n), n, [HIGH], Around(replace(wall, area=0 * wall.area), wall, EMPTY))
     assert np.allclose(out_of_sight.J(beyond=1.0), both)
     assert np.allclose(out_of_sight.J(beyond=0.0), alone)
     got = lambert.dot(both[0] - alone[0], n)
@@ -188,7 +188,9 @@ def test_the_side_of_a_step_that_nobody_sees_throws_light_on_what_lies_behind() 
     x_C, n = seen.points_C(depth), np.array([[0.0, 0.0, -1.0]])
     lights = [lamp("right", [0.18, 0.0, 0.03]), lamp("left", [-0.18, 0.0, 0.03])]
     beside = np.flatnonzero(~near & (x_C[:, 0] > 0.012) & (x_C[:, 0] < 0.030) & (np.abs(x_C[:, 1]) < 0.01))
-    J, share = thrown_by_sides(x_C[beside], np.repeat(n, len(beside), axis=0), Relief.of(seen, depth), np.full(mask.shape, albedo), lights)
+    J, share = interreflected_by_sides(
+        x_C[beside], np.repeat(n, len(beside), axis=0), Relief.of(seen, depth), np.full(mask.shape, albedo), lights
+    )
     z, y = np.meshgrid(np.linspace(0.30, 0.35, 201), np.linspace(-0.045, 0.045, 361), indexing="ij")
     side_C = np.stack([np.zeros(z.size), y.ravel(), z.ravel()], axis=1)  # the true side of the step, at x = 0, seen edge on by the camera
     to_light = lights[0].source_C - side_C
@@ -218,7 +220,7 @@ def bowl_under_lights(reflectance: float) -> tuple[PixelList, Illumination, Arra
     at_rim = x_C + ((x_C[:, 2] - x_C[:, 2].min()) / (x_C[:, 2] - 0.24))[None, :, None] * to
     hidden = np.hypot(at_rim[..., 0], at_rim[..., 1]) > 0.06 * np.sin(np.radians(75.0))
     direct = np.where(hidden, 0.0, reflectance * lambert.predicted(lit.B, n))
-    received = np.average(direct, axis=1, weights=bounce._areas(seen, depth, n))[:, None]
+    received = np.average(direct, axis=1, weights=interreflection._areas(seen, depth, n))[:, None]
     bounced = reflectance * share * received / (1 - reflectance * share)
     rng = np.random.default_rng(3)
     return sight_of(seen.mask, direct + bounced + 2e-3 * rng.standard_normal(direct.shape)), lit, depth, n, hidden
@@ -233,8 +235,8 @@ def test_shadows_tell_the_reflectance_and_a_bowl_is_no_longer_flattened(reflecta
     seen, lit, depth, n, hidden = bowl_under_lights(reflectance)
     usable, variance = normals.candidates(seen, lit.E) & ~hidden, normals.variances(seen)
     plain = normals.estimate(seen, lit.B, usable, variance)
-    by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
-    found = bounce.reflectance(seen, by, np.nan_to_num(plain.b), bounce.in_shadow(seen, lit, n, hidden))
+    by = interreflection.interreflected(seen, depth, plain, n, [HIGH] * 6)
+    found = interreflection.reflectance(seen, by, np.nan_to_num(plain.b), interreflection.in_shadow(seen, lit, n, hidden))
     assert abs(found.median - reflectance) < 0.1
     better = normals.estimate(seen, lit.B + found.per_unit * by.seen, usable, variance)
     assert error_deg(better.b, n) < 0.6 * error_deg(plain.b, n)
@@ -264,8 +266,8 @@ def ball_over_a_bright_floor(reflectance: float) -> tuple[PixelList, Illuminatio
     e = floor_C[None] - x_C[:, None]
     far = np.linalg.norm(e, axis=2)
     form = np.maximum(np.einsum("pqi,pi->pq", e, n) / far, 0) * (0.06 - x_C[:, 1])[:, None] / far * spacing**2 / (np.pi * far**2)
-    thrown = radiance[:, None] * form.sum(axis=1)
-    clean = reflectance * (np.where(hidden, 0.0, lambert.predicted(lit.B, n)) + thrown)
+    interreflected = radiance[:, None] * form.sum(axis=1)
+    clean = reflectance * (np.where(hidden, 0.0, lambert.predicted(lit.B, n)) + interreflected)
     signal = clean + 2e-3 * np.random.default_rng(5).standard_normal(clean.shape)
     up = np.tile([0.0, -1.0, 0.0], (len(floor_C), 1))
     floor = Patches(floor_C, up, np.full(len(floor_C), spacing**2), np.repeat(radiance[:, None], len(floor_C), axis=1))
@@ -280,14 +282,16 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
     plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E) & ~hidden, normals.variances(seen))
     found = alone = field.solve(seen, grid, lit, hidden, plain)
     dark = np.zeros_like(hidden)
-    reflects = bounce.Reflectance(bounce.COMMON, bounce.COMMON / float(np.median(np.linalg.norm(found.b, axis=1))), 0.0, 0.0)
+    reflects = interreflection.Reflectance(
+        interreflection.COMMON, interreflection.COMMON / float(np.median(np.linalg.norm(found.b, axis=1))), 0.0, 0.0
+    )
     for _ in range(3):
-        by = bounce.thrown(seen, depth, replace(plain, b=found.b), n, [HIGH] * 6, around)
-        begin = replace(lit, thrown=reflects.per_unit * by.J(reflects.sides, reflects.beyond))
-        evidence = bounce.LitEvidence(reflects.strengths, *field.strengths_seen(seen, grid, begin, hidden, found, by.parts))
-        reflects = bounce.reflectance(seen, by, found.b, dark, evidence)
-        thrown = reflects.per_unit * by.J(reflects.sides, reflects.beyond)
-        found = field.solve(seen, grid, replace(lit, thrown=thrown), hidden, found)
+        by = interreflection.interreflected(seen, depth, replace(plain, b=found.b), n, [HIGH] * 6, around)
+        begin = replace(lit, interreflected=reflects.per_unit * by.J(reflects.sides, reflects.beyond))
+        evidence = interreflection.LitEvidence(reflects.strengths, *field.strengths_seen(seen, grid, begin, hidden, found, by.parts))
+        reflects = interreflection.reflectance(seen, by, found.b, dark, evidence)
+        interreflected = reflects.per_unit * by.J(reflects.sides, reflects.beyond)
+        found = field.solve(seen, grid, replace(lit, interreflected=interreflected), hidden, found)
     assert abs(reflects.median - reflectance) < 0.12
     assert error_deg(alone.b, n) > 10
     assert error_deg(found.b, n) < 6.2
@@ -296,9 +300,9 @@ def test_lit_samples_and_a_smooth_surface_tell_the_reflectance(reflectance: floa
 def test_without_shadows_the_reflectance_is_that_of_common_matter() -> None:
     seen, lit, depth, n, _ = bowl_under_lights(0.8)
     plain = normals.estimate(seen, lit.B, normals.candidates(seen, lit.E), normals.variances(seen))
-    by = bounce.thrown(seen, depth, plain, n, [HIGH] * 6)
-    found = bounce.reflectance(seen, by, np.nan_to_num(plain.b), np.zeros(seen.signal.shape, bool))
-    assert abs(found.median - bounce.COMMON) < 0.05
+    by = interreflection.interreflected(seen, depth, plain, n, [HIGH] * 6)
+    found = interreflection.reflectance(seen, by, np.nan_to_num(plain.b), np.zeros(seen.signal.shape, bool))
+    assert abs(found.median - interreflection.COMMON) < 0.05
 
 
 def test_a_step_hides_a_light_where_its_shadow_falls() -> None:

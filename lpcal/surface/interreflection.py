@@ -29,7 +29,7 @@ from lpcal.records.calibration import Light
 from lpcal.shading import field
 from lpcal.shading.normals import Estimate
 from lpcal.surface import relief as body
-from lpcal.surface.relief import Relief, thrown_by_sides
+from lpcal.surface.relief import Relief, interreflected_by_sides
 from lpcal.surface.surroundings import Around, Patches
 from lpcal.view import bands
 from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER_RATE, REGULARISATION, RIM_PX
@@ -53,7 +53,7 @@ comes out at a reflectance of .18 (.49), its depth a quarter of a millimetre wor
 
 
 @dataclass(frozen=True)
-class Thrown:
+class Interreflection:
     """Light that surfaces reflect onto P pixels under L lights, but for the factor of their reflectance."""
 
     seen: Array
@@ -99,7 +99,9 @@ class Reflectance:
         return self.per_unit * np.array([1.0, self.sides, self.beyond])
 
 
-def thrown(seen: PixelList, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None) -> Thrown:
+def interreflected(
+    seen: PixelList, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None
+) -> Interreflection:
     """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
     joined = _Joined.of(seen, depth, n)
     x_C, n_C = joined.places
@@ -107,14 +109,14 @@ def thrown(seen: PixelList, depth: Array, found: Estimate, n: Array, lights: Seq
     relief = Relief.of(seen, depth)
     albedo = np.zeros(seen.mask.shape)
     albedo[seen.mask] = np.nan_to_num(lambert.length(found.b))
-    by_unseen, unseen = thrown_by_sides(own.x_C, own.n, relief, albedo, lights)
+    by_unseen, unseen = interreflected_by_sides(own.x_C, own.n, relief, albedo, lights)
     at_patches = _received(own, own, relief)
     beyond = None
     if around is not None:
         at_patches = at_patches + _received(own, around.seen, relief)
         beyond = around.beyond(relief, lights)
     out_of_sight = None if beyond is None else joined.at_pixels(_received(own, beyond, relief))
-    return Thrown(joined.at_pixels(at_patches), joined.at_pixels(by_unseen), out_of_sight, joined.spread(unseen))
+    return Interreflection(joined.at_pixels(at_patches), joined.at_pixels(by_unseen), out_of_sight, joined.spread(unseen))
 
 
 def from_around(seen: PixelList, depth: Array, n: Array, lights: Sequence[Light], around: Around) -> Array:
@@ -191,7 +193,7 @@ class LitEvidence:
         return np.asarray(np.einsum("ni,ij,nj->n", off, np.linalg.inv(np.linalg.inv(curvature) + doubt**2 * np.eye(3)), off))
 
 
-def reflectance(seen: PixelList, by: Thrown, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
+def reflectance(seen: PixelList, by: Interreflection, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
     """The reflectance by the samples in shadow, and by the evidence of the lit ones.
 
     `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is reflected, ``s J_k . b``. A lit sample by
@@ -226,9 +228,9 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
         return found
     fits = []
     for one in strengths:
-        thrown = one @ parts
-        variance = noise2 + (DOUBT * thrown) ** 2
-        density = np.exp(-((signal - thrown) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
+        interreflected = one @ parts
+        variance = noise2 + (DOUBT * interreflected) ** 2
+        density = np.exp(-((signal - interreflected) ** 2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
         fits.append(np.log((1 - OUTLIER_RATE) * density + OUTLIER_RATE / top).sum())
     return np.array(fits)
 
