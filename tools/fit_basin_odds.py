@@ -1,8 +1,8 @@
 """Fit the odds of the distances that the light allows: ``python tools/fit_basin_odds.py SCENES... [--jobs N]``.
 
 SCENES are folders with calibration.yaml, capture/ and truth/surface.npz (``mask``, ``depth``); those without an ambient image are passed
-over. The basins of each (lpcal.surface.basins) are found with the true mask; INDEPENDENT is the value under which the right ones are
-likeliest, with WORKING as it stands and for some others beside it. A scene none of whose basins is right does not count.
+over. The distance minima of each (lpcal.surface.distance_search) are found with the true mask; INDEPENDENT is the value under which the
+right ones are likeliest, with WORKING as it stands and for some others beside it. A scene without a right minimum does not count.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lpcal.api.sensor import stated_in
 from lpcal.detect.radiometry import to_radiance
 from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
-from lpcal.surface import basins
+from lpcal.surface import distance_search
 from lpcal.view import pixel_list
 
 RIGHT = 0.1
@@ -28,7 +28,7 @@ TRIED = (0.1, 0.2, 0.3, 0.5, 10.0)
 """Values of WORKING that are tried; the last is as good as no prior."""
 
 
-def ends_of(scene: Path) -> tuple[basins.Basins, float] | None:
+def ends_of(scene: Path) -> tuple[distance_search.DistanceMinima, float] | None:
     """The basins and the true log distance."""
     calibration = read_calibration(scene / "calibration.yaml")
     raw = read_capture(scene / "capture", [light.name for light in calibration.lights], name=scene.name, use=None)
@@ -37,20 +37,20 @@ def ends_of(scene: Path) -> tuple[basins.Basins, float] | None:
         return None
     lights, true = pixel_list.lights_of(calibration, radiance), np.load(scene / "truth/surface.npz")
     mask, rays_C = true["mask"].astype(bool), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    found = basins.search(pixel_list.grey(radiance, lights), rays_C, mask, lights, calibration.d_object_m)
+    found = distance_search.search(pixel_list.grey(radiance, lights), rays_C, mask, lights, calibration.d_object_m)
     return None if found is None else (found, float(np.median(np.log(true["depth"][mask & (true["depth"] > 0)]))))
 
 
-def fitted(known: list[tuple[basins.Basins, float]], working: float) -> tuple[float, float, int]:
+def fitted(known: list[tuple[distance_search.DistanceMinima, float]], working: float) -> tuple[float, float, int]:
     """INDEPENDENT, the negative log likelihood, and in how many scenes the likeliest basin is not the right one."""
-    basins.WORKING = working
+    distance_search.WORKING = working
 
     def right(independent: float) -> list[tuple[float, bool]]:
-        basins.INDEPENDENT = independent
+        distance_search.INDEPENDENT = independent
         rows = []
         for found, true in known:
             off = [abs(float(np.median(one.u)) - true) for one in found.ends]
-            odds = basins.odds_of(found.ends, found.lights, found.about_m)
+            odds = distance_search.odds_of(found.ends, found.lights, found.about_m)
             if min(off) < RIGHT:
                 rows.append((float(odds[np.argmin(off)]), bool(np.argmax(odds) == np.argmin(off))))
         return rows

@@ -3,7 +3,8 @@
 SCENES are folders of simulated scenes (calibration.yaml, truth/surface.npz each), RESULTS the folders that tools/bench_scenes.py wrote of
 them. Every piece's error of distance is held against its `scale_std`, whose part by the calibration is taken as it is; the rest is
 stretched by the factor of greatest likelihood. Prints the factor, and by how many standard deviations the pieces are off with and without
-it: NEARBY of lpcal.surface.basins is to be divided by its square until it is 1. Then BROKEN_OFF, from the pieces that are not the largest.
+it: NEARBY of lpcal.surface.distance_search is to be divided by its square until it is 1. Then BROKEN_OFF, from the pieces that are not the
+largest.
 """
 
 from __future__ import annotations

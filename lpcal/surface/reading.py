@@ -26,7 +26,7 @@ from lpcal.records.calibration import Calibration, Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.figures import DistanceRead
 from lpcal.records.surface import Alternative, Component, Surface
-from lpcal.surface.basins import APART, INDEPENDENT, Basins, odds_of
+from lpcal.surface.distance_search import APART, INDEPENDENT, DistanceMinima, odds_of
 from lpcal.view.constants import OUTLIER, OUTLIER_RATE, STATED_STD, UNLIKELY
 
 REACH_M = 2.0
@@ -108,7 +108,7 @@ def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
     return Word(mean, std if std > 0 else light_std, odds, float(np.log(evidence)), middle)
 
 
-def weighed(found: Basins | None, read: Reading | None, camera: Camera | None) -> Basins | None:
+def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera | None) -> DistanceMinima | None:
     """The ends of a search for the distance, what the reading says of each counted in its cost, the likeliest first."""
     if found is None or read is None or camera is None:
         return found

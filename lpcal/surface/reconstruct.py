@@ -32,8 +32,8 @@ from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.shading import normals
 from lpcal.shading.normals import albedo_of
 from lpcal.surface import (
-    basins,
     components,
+    distance_search,
     normal_prior,
     reading,
     rounds,
@@ -42,7 +42,7 @@ from lpcal.surface import (
     uncertainty,
     without_ambient,
 )
-from lpcal.surface.basins import Basins
+from lpcal.surface.distance_search import DistanceMinima
 from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
@@ -142,19 +142,19 @@ def reconstruct(
         maps = pixel_list.grey(radiance, lights)
         seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=central)
     beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
-    basins_found = None
+    minima = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
-        basins_found = basins.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
-        basins_found = reading.weighed(basins_found, options.reading, calibration.camera)
-        u = basins_found.start(object_mask) if basins_found is not None else u
+        minima = distance_search.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
+        minima = reading.weighed(minima, options.reading, calibration.camera)
+        u = minima.start(object_mask) if minima is not None else u
     around = beside()
     room, likely = room_of(radiance, object_mask), _of_object(background if wanted else None, radiance, options)
     scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, focus_C, options.distance_m, around, None, room, likely)
     del maps, beside  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
-    surface = surface_of(radiance, scene, state, rays_C, basins_found)
-    state, surface = _read(radiance, scene, state, surface, basins_found, options, calibration.camera)
+    surface = surface_of(radiance, scene, state, rays_C, minima)
+    state, surface = _read(radiance, scene, state, surface, minima, options, calibration.camera)
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
     figures = _with_mask(surface.figures, background if wanted else None, radiance, options)
     intensities = None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))
@@ -210,7 +210,7 @@ def _how(background: mask.Found | None, radiance: Radiance, options: Options) ->
 
 
 def _read(
-    radiance: Radiance, scene: Scene, state: State, surface: Surface, found: Basins | None, options: Options, camera: Camera | None
+    radiance: Radiance, scene: Scene, state: State, surface: Surface, found: DistanceMinima | None, options: Options, camera: Camera | None
 ) -> tuple[State, Surface]:
     """The state and its surface with the piece that the distance sensor's beam meets put at the distance of light and reading together."""
     if options.reading is None or options.distance_m is not None or camera is None:
@@ -260,7 +260,7 @@ def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
     return np.asarray(np.where(object_mask, found, Layer.NOTHING), np.uint8)
 
 
-def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: Basins | None) -> Surface:
+def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: DistanceMinima | None) -> Surface:
     """The maps of a surface by the state that its rounds ended in, and by the basins of its distance that were found."""
     seen, grid = scene.seen, scene.grid
     state, expected_rad = normal_prior.turned(scene, state)

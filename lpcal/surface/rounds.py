@@ -20,7 +20,7 @@ from lpcal.records.outcome import Progress
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
-from lpcal.surface import basins, distance, interreflection
+from lpcal.surface import distance, distance_search, interreflection
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -36,7 +36,7 @@ SETTLED = 2e-4
 """Median change of log depth under which a round is the last: a thirtieth of the least relative standard deviation of a distance."""
 SETTLED_PIECE = 10 * SETTLED
 """The same of pieces that have broken off, whose distances are less sure."""
-SHAPE_ROUND = basins.GRADUATED
+SHAPE_ROUND = distance_search.GRADUATED
 """From which on the depth is good enough to find gloss, which lights it hides and what its parts reflect onto each other."""
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""

@@ -7,7 +7,7 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.detect.radiometry import Sensor, to_radiance
-from lpcal.surface import basins
+from lpcal.surface import distance_search
 from lpcal.view import pixel_list
 
 GIVEN = calibration()
@@ -25,7 +25,7 @@ def piece(seed: int) -> tuple[pixel_list.PixelList, np.ndarray]:
 def test_a_piece_is_found_by_its_light_however_far_off_it_stands(off: float) -> None:
     for seed in range(3):
         seen, u = piece(seed)
-        ends = basins.of_piece(seen, GIVEN.lights, u + off, None, np.ones(len(u), bool), main=float(np.median(u)) + 0.1)
+        ends = distance_search.of_piece(seen, GIVEN.lights, u + off, None, np.ones(len(u), bool), main=float(np.median(u)) + 0.1)
         assert ends.shift[0] == pytest.approx(-off, abs=0.04)
         assert abs(ends.shift[0] + off) < 3 * ends.std
         assert ends.std < 0.15
@@ -39,7 +39,7 @@ def test_of_two_distances_that_the_light_allows_that_nearer_the_main_piece_is_li
         seen.mask, seen.rays_C, seen.signal[:3], seen.sigma[:3], seen.usable[:3], seen.central
     )  # three lights say nothing
     everything = np.ones(len(u), bool)
-    near, far = (basins.of_piece(three, GIVEN.lights[:3], u, None, everything, float(np.median(u)) + main) for main in (-0.4, 0.5))
+    near, far = (distance_search.of_piece(three, GIVEN.lights[:3], u, None, everything, float(np.median(u)) + main) for main in (-0.4, 0.5))
     assert near.shift[0] < far.shift[0]
     assert near.std > 0.15, "and it is said that the light hardly knows"
 
@@ -50,9 +50,9 @@ def test_the_fewer_lights_know_the_distance_the_wider_is_its_sigma_and_three_say
 
     def std(some: list[int]) -> float:
         part = pixel_list.PixelList(seen.mask, seen.rays_C, seen.signal[some], seen.sigma[some], seen.usable[some], seen.central)
-        return basins.std_of(part, [GIVEN.lights[k] for k in some], u, everything)
+        return distance_search.std_of(part, [GIVEN.lights[k] for k in some], u, everything)
 
     six, four, three = std([0, 1, 2, 3, 4, 5]), std([0, 1, 3, 4]), std([0, 2, 4])
     assert six < four < three
-    assert three == pytest.approx(basins.WORKING, rel=0.5), "no more than is known beforehand"
+    assert three == pytest.approx(distance_search.WORKING, rel=0.5), "no more than is known beforehand"
     assert six < 0.03

@@ -12,7 +12,7 @@ from lit_scene import SIZE, K, Scene, calibration, draw, truth
 from lpcal.records.calibration import Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.observations import RawCapture
-from lpcal.surface.basins import Basin, Basins
+from lpcal.surface.distance_search import DistanceMinima, DistanceMinimum
 from lpcal.surface.reading import DepthMap, Reading, weighed, word
 
 CAMERA = Camera(SIZE, "opencv4", K, np.zeros(4))
@@ -54,8 +54,8 @@ def test_a_beam_beside_the_object_says_nothing_of_it() -> None:
 def test_two_distances_that_the_light_allows_are_told_apart() -> None:
     """Two ends of nearly one cost, 0.30 and 0.41 m: the reading decides, and one of the wall leaves the order as it is."""
     mask = np.ones((SIZE[1] // 4, SIZE[0] // 4), bool)
-    ends = tuple(Basin(np.full(mask.sum(), np.log(z)), cost) for z, cost in ((0.30, 6.0), (0.41, 6.1)))
-    both = Basins(ends, mask, 4, 6, 0.35)
+    ends = tuple(DistanceMinimum(np.full(mask.sum(), np.log(z)), cost) for z, cost in ((0.30, 6.0), (0.41, 6.1)))
+    both = DistanceMinima(ends, mask, 4, 6, 0.35)
     assert both.others()
     first = [float(np.exp(weighed(both, read, CAMERA).ends[0].u[0])) for read in (reading_of(0.305), reading_of(0.405), reading_of(0.8))]
     assert np.allclose(first, [0.30, 0.41, 0.30])

@@ -9,7 +9,7 @@ import pytest
 
 from lit_scene import Scene, calibration, draw, truth
 from lpcal.records.observations import Radiance
-from lpcal.surface.basins import Basin, Basins, odds_of, search
+from lpcal.surface.distance_search import DistanceMinima, DistanceMinimum, odds_of, search
 from lpcal.view import pixel_list
 
 
@@ -28,9 +28,9 @@ def test_the_object_is_found_from_afar(about: float) -> None:
     assert list(odds) == sorted(odds, reverse=True)
 
 
-def ends(*costs: float) -> Basins:
+def ends(*costs: float) -> DistanceMinima:
     flat = np.zeros(4)
-    return Basins(tuple(Basin(flat + 0.2 * k, cost) for k, cost in enumerate(costs)), np.ones((2, 2), bool), 1, 6, 1.0)
+    return DistanceMinima(tuple(DistanceMinimum(flat + 0.2 * k, cost) for k, cost in enumerate(costs)), np.ones((2, 2), bool), 1, 6, 1.0)
 
 
 def test_a_basin_of_like_cost_is_stated_with_its_odds_and_a_dear_one_is_not() -> None:
@@ -43,7 +43,7 @@ def test_a_basin_of_like_cost_is_stated_with_its_odds_and_a_dear_one_is_not() ->
 
 def test_of_distances_that_the_light_allows_alike_the_working_distance_is_the_likeliest_and_no_more_than_that() -> None:
     flat = np.zeros(4)
-    at = {ratio: Basin(flat + np.log(ratio * 0.4), 2.0) for ratio in (0.4, 1.0, 2.5)}
+    at = {ratio: DistanceMinimum(flat + np.log(ratio * 0.4), 2.0) for ratio in (0.4, 1.0, 2.5)}
     odds = odds_of(list(at.values()), 6, 0.4)
     assert odds[1] > 0.6
     assert min(odds) > 0.05, "a broad prior"
@@ -58,5 +58,5 @@ def test_what_the_model_lacks_makes_basins_more_alike() -> None:
     assert ill.others()[0][1] > well.others()[0][1]
 
 
-def replace_all(given: Basins, by: float) -> Basins:
+def replace_all(given: DistanceMinima, by: float) -> DistanceMinima:
     return replace(given, ends=tuple(replace(one, cost=one.cost + by) for one in given.ends))

@@ -58,7 +58,7 @@ PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
 
 
 @dataclass(frozen=True)
-class Basin:
+class DistanceMinimum:
     """An end of the rounds."""
 
     u: Array
@@ -67,10 +67,10 @@ class Basin:
 
 
 @dataclass(frozen=True)
-class Basins:
+class DistanceMinima:
     """Ends of the rounds, the likeliest first."""
 
-    ends: tuple[Basin, ...]
+    ends: tuple[DistanceMinimum, ...]
     mask: Mask
     """(rows, columns) of the coarse pixels."""
     factor: int
@@ -99,7 +99,7 @@ class Basins:
         return [(float(np.exp(np.median(one.u - best.u))), float(p)) for one, p in both if p > UNLIKELY]
 
 
-def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
+def odds_of(ends: Sequence[DistanceMinimum], lights: int, about_m: float) -> Array:
     """The odds (N,) of ends, of sum 1, where objects stand about `about_m`."""
     cost = np.array([one.cost for one in ends])
     away = np.array([np.median(one.u) for one in ends]) - np.log(about_m)
@@ -111,7 +111,7 @@ def odds_of(ends: Sequence[Basin], lights: int, about_m: float) -> Array:
 
 def search(
     maps: SignalMaps, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
-) -> Basins | None:
+) -> DistanceMinima | None:
     """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
     factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
@@ -126,14 +126,14 @@ def search(
     grid = Grid.of(inside)
     done: list[float] = []
 
-    def ended(share_of_working: float) -> Basin:
+    def ended(share_of_working: float) -> DistanceMinimum:
         end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
         done.append(share_of_working)
         progress(f"{name}: distance", len(done), len(STARTS))
         return end
 
     progress(f"{name}: distance", 0, len(STARTS))
-    ends: list[Basin] = []
+    ends: list[DistanceMinimum] = []
     for end in bands.shared(ended, STARTS):
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
@@ -141,7 +141,7 @@ def search(
         elif end.cost < ends[twin].cost:
             ends[twin] = end
     odds = odds_of(ends, len(lights), about_m)
-    return Basins(tuple(ends[k] for k in np.argsort(-odds)), inside, factor, len(lights), about_m)
+    return DistanceMinima(tuple(ends[k] for k in np.argsort(-odds)), inside, factor, len(lights), about_m)
 
 
 @dataclass(frozen=True)
@@ -224,7 +224,7 @@ def _costs(found: Estimate) -> Array:
     return np.where(np.isfinite(found.b[:, 0]), found.cost, OUTLIER2 * len(found.inliers))
 
 
-def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> Basin:
+def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> DistanceMinimum:
     """Plain rounds from u (P,)."""
     pixels = np.arange(seen.pixels)
 
@@ -249,4 +249,4 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> Basin:
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, own, u, weight)
-    return Basin(u, cost)
+    return DistanceMinimum(u, cost)
