@@ -27,7 +27,7 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.segmentation import background, clues, flats, layers, mask, room_light
+from lpcal.segmentation import background, clues, layers, mask, plane_hough, room_light
 from lpcal.segmentation.clues import View
 from lpcal.view import network, pixel_list
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
@@ -126,7 +126,7 @@ def example(scene: Path, folds: Path | None) -> list[Example]:
     noisy = replace(image, signal=image.signal + NOISIER * image.sigma * rng.standard_normal(image.signal.shape))
     found = []
     for here in (image, noisy):
-        planes = flats.find(here, view.table, view.swept, lit, seen.distance_m)
+        planes = plane_hough.find(here, view.table, view.swept, lit, seen.distance_m)
         labels, them, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
         found.append(Example(scene.name, clues.channels(view, labels, them.planes, cost), of_object, here is image))
     return found

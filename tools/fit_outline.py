@@ -22,7 +22,7 @@ from scipy import optimize
 from fit_mask import WRONG, Seen, by_some, ellipse, elsewhere, iou, line_of, of_scenes
 from lpcal.geometry import raster
 from lpcal.geometry.raster import block_means
-from lpcal.segmentation import background, flats, layers, mask, outline
+from lpcal.segmentation import background, layers, mask, outline, plane_hough
 from lpcal.view import network
 from lpcal.view.coarse import joined
 from lpcal.view.network import Network
@@ -85,7 +85,7 @@ def example(scene: Path, lights: slice, judge: Network | None) -> Example:
     seen = Seen.of(scene, lights)
     view, lit = seen.view()
     image = view.image
-    planes = flats.find(image, view.table, view.swept, lit, seen.distance_m)
+    planes = plane_hough.find(image, view.table, view.swept, lit, seen.distance_m)
     labels, found, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
     judged = background.judged(view, labels, found.planes, cost, judge)
     apart = mask.apart_of(view, judged)

@@ -1,5 +1,5 @@
 /* What samples say of a pixel as matter of any normal or as part of a plane, and what a table of the lights' field makes of a plane.
-   Twins: segmentation/samples.py (free, planar) and segmentation/flats.py (white). Signals are (L, P), at most MOST_LIGHTS of them a pixel. */
+   Twins: segmentation/samples.py (free, planar) and segmentation/plane_hough.py (white). Signals are (L, P), at most MOST_LIGHTS of them a pixel. */
 
 #include "kernel.h"
 
@@ -220,7 +220,7 @@ KERNEL void lpcal_white(int64_t L, int64_t nodes, int64_t Q, const float *table,
 }
 
 /* Loss (1), gradient (3) and curvature (3, 3) of Cauchy's loss of a plane q (3) by signals and weights (L, Q), the albedo of each pixel
-   eliminated. Twin: segmentation/flats.py (_equations). */
+   eliminated. Twin: segmentation/plane_hough.py (_equations). */
 KERNEL void lpcal_plane(int64_t L, int64_t nodes, int64_t Q, const float *table, double first, double step, const double *q,
                         const double *rays, const int64_t *pixel, const double *signal, const double *weight, double least, double *found) {
     double length = sqrt(dot3(q, q)), n[3] = {-q[0] / length, -q[1] / length, -q[2] / length}, last = (double)nodes - 1.0;

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
-from lpcal.segmentation.flats import Sweep
+from lpcal.segmentation.plane_hough import Sweep
 from lpcal.view.coarse import Coarse, LightTable
 
 COST = 60.0

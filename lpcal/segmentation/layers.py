@@ -19,7 +19,7 @@ import numpy as np
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
-from lpcal.segmentation import background, flats, samples
+from lpcal.segmentation import background, plane_hough, samples
 from lpcal.segmentation.clues import SPARED, View
 from lpcal.view import bands
 from lpcal.view.coarse import LightTable
@@ -121,7 +121,7 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
 
     def in_plane(k: int) -> Array:
         q, appearance = layers.planes[k], layers.of_plane[k]
-        m, doubt = flats.white(q, at.rays_C, at.coarse, table)
+        m, doubt = plane_hough.white(q, at.rays_C, at.coarse, table)
         cost, albedo, _ = samples.planar(at.signal, at.sigma, at.usable, m, doubt)
         if appearance is not None:
             cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
@@ -160,12 +160,12 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
     """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
-    kept = [k for k in range(count) if np.sum(flat == k + 1) >= flats.SMALLEST * flat.size]
+    kept = [k for k in range(count) if np.sum(flat == k + 1) >= plane_hough.SMALLEST * flat.size]
 
     def again(k: int) -> tuple[Array, Appearance | None]:
         own = (flat == k + 1) & lit
-        q = flats.fitted(image, table, layers.planes[k], own, rounds=2)
-        albedo = np.log(np.maximum(flats.explained(image, table, q)[1][own], 1e-12))
+        q = plane_hough.fitted(image, table, layers.planes[k], own, rounds=2)
+        albedo = np.log(np.maximum(plane_hough.explained(image, table, q)[1][own], 1e-12))
         return q, _appearance(albedo, albedo)
 
     both = bands.shared(again, kept)

@@ -16,7 +16,7 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
-from lpcal.segmentation import background, cut, flats, layers, outline, planes
+from lpcal.segmentation import background, cut, layers, outline, plane_hough, planes
 from lpcal.segmentation.clues import View
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
@@ -157,7 +157,7 @@ def _by_layers(
         return None
     table, shape = LightTable.of(image, lights, distance_m), maps.signal.shape[1:]
     view = view_of(image, table, distance_m, hints, shape, room)
-    planes_found = flats.find(image, table, view.swept, lit, distance_m)
+    planes_found = plane_hough.find(image, table, view.swept, lit, distance_m)
     labels, found, cost = layers.label(view, planes_found, lit, float(np.log(distance_m)))
     count = len(found.planes)
     judged = background.judged(view, labels, found.planes, cost)
@@ -195,7 +195,7 @@ def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, s
         blocks = allowed[: rows * image.factor, : columns * image.factor].reshape(rows, image.factor, columns, image.factor)
         allowed = blocks.any(axis=(1, 3))
     points = tuple((min(y // image.factor, rows - 1), min(x // image.factor, columns - 1)) for x, y in hints.points)
-    swept, levels = flats.sweep(image, table, distance_m), outline.levels_of(image.maps, room, image.factor)
+    swept, levels = plane_hough.sweep(image, table, distance_m), outline.levels_of(image.maps, room, image.factor)
     return View(image, table, swept, distance_m, *levels, allowed, points)
 
 

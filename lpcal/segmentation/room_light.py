@@ -21,7 +21,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
-from lpcal.segmentation import flats, layers, room_samples
+from lpcal.segmentation import layers, plane_hough, room_samples
 from lpcal.segmentation.clues import SPARED
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
@@ -111,7 +111,7 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
     """
     image = replace(seen, room=room)
     everywhere = np.arange(len(image.rays_C))
-    swept = flats.sweep(image, table, distance_m, 1 if drawn else 2)
+    swept = plane_hough.sweep(image, table, distance_m, 1 if drawn else 2)
     least = room_samples.lowest(image.signal, image.usable, room)
     over = image.signal - room.share[:, None] * least > CERTAIN * image.sigma
     lit = np.sum(over & image.usable, axis=0) >= 2
@@ -119,8 +119,8 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
     B, doubt = table.at(swept.u[best], everywhere)
     free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, room)
     costs, ambient = [free.cost + layers.FREE_PRICE], [free.A]
-    for q in flats.find(image, table, swept, lit, distance_m):
-        m, doubt = flats.white(q, image.rays_C, everywhere, table)
+    for q in plane_hough.find(image, table, swept, lit, distance_m):
+        m, doubt = plane_hough.white(q, image.rays_C, everywhere, table)
         cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, room)
         costs.append(cost)
         ambient.append(A)

@@ -21,7 +21,7 @@ from lpcal.integration.integrate import Grid, system
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.segmentation import cut, flats, layers, planes, room_samples, samples
+from lpcal.segmentation import cut, layers, plane_hough, planes, room_samples, samples
 from lpcal.shading import field, gloss, normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance, interreflection
@@ -283,14 +283,16 @@ def rays(rng: np.random.Generator, count: int) -> Array:
 
 
 def white(rng: np.random.Generator) -> Array:
-    found = [flats.white(np.array(q), rays(rng, 500), rng.permutation(700)[:500], field_table(rng)) for q in ([1, 0.5, 4], [9, 0, 3.0])]
+    found = [
+        plane_hough.white(np.array(q), rays(rng, 500), rng.permutation(700)[:500], field_table(rng)) for q in ([1, 0.5, 4], [9, 0, 3.0])
+    ]
     return np.concatenate([each.ravel() for pair in found for each in pair])
 
 
 def plane(rng: np.random.Generator) -> Array:
     table, signal = field_table(rng), 5 * rng.random((5, 400))
     weight = np.where(rng.random((5, 400)) < 0.8, 1 / (0.1 + signal), 0.0)
-    fit = flats._Fit(rays(rng, 400), rng.permutation(700)[:400], table, signal, weight, None, np.ones(400))
+    fit = plane_hough._Fit(rays(rng, 400), rng.permutation(700)[:400], table, signal, weight, None, np.ones(400))
     found = [fit.equations(np.array(q)) for q in ([1, 0.5, 4], [9, 0, 3.0])]
     return np.concatenate([np.ravel(each) for one in found for each in (one.loss / 100, one.gradient / 1e3, one.curvature / 1e3)])
 

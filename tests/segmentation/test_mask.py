@@ -9,9 +9,9 @@ import pytest
 
 from lit_scene import calibration
 from lpcal.geometry import raster
-from lpcal.segmentation import background, cut, flats, layers, mask, planes, samples
+from lpcal.segmentation import background, cut, layers, mask, plane_hough, planes, samples
 from lpcal.segmentation.clues import View
-from lpcal.segmentation.flats import Sweep
+from lpcal.segmentation.plane_hough import Sweep
 from lpcal.view.coarse import Coarse, LightTable, coarse_of
 from lpcal.view.pixel_list import light_vectors, ray_map
 from plane_scene import FLOOR, WALL, WORKING_M, picture, scene
@@ -58,8 +58,8 @@ def test_planes_are_found_where_they_are() -> None:
     maps, rays = picture(scene(card=None, floor=True))
     image = coarse_of(maps, rays, 2)
     table = LightTable.of(image, calibration().lights, WORKING_M)
-    swept = flats.sweep(image, table, WORKING_M)
-    found = flats.find(image, table, swept, np.ones(len(image.rays_C), bool), WORKING_M)
+    swept = plane_hough.sweep(image, table, WORKING_M)
+    found = plane_hough.find(image, table, swept, np.ones(len(image.rays_C), bool), WORKING_M)
     for q in (WALL, FLOOR):
         nearest = min(found, key=lambda one, q=q: float(np.linalg.norm(one - q)))
         assert np.degrees(np.arccos(nearest @ q / np.linalg.norm(nearest) / np.linalg.norm(q))) < 1.5
