@@ -27,8 +27,8 @@ from lpcal.formats.calibration_yaml import read_calibration
 from lpcal.formats.capture import read_capture
 from lpcal.geometry.raster import block_means
 from lpcal.records.calibration import Light
-from lpcal.segmentation import background, clues, layers, mask, plane_hough, room_light
-from lpcal.segmentation.clues import View
+from lpcal.segmentation import background, features, layers, mask, plane_hough, room_light
+from lpcal.segmentation.features import View
 from lpcal.view import network, pixel_list
 from lpcal.view.coarse import LightTable, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS
@@ -128,7 +128,7 @@ def example(scene: Path, folds: Path | None) -> list[Example]:
     for here in (image, noisy):
         planes = plane_hough.find(here, view.table, view.swept, lit, seen.distance_m)
         labels, them, cost = layers.label(view, planes, lit, float(np.log(seen.distance_m)))
-        found.append(Example(scene.name, clues.channels(view, labels, them.planes, cost), of_object, here is image))
+        found.append(Example(scene.name, features.channels(view, labels, them.planes, cost), of_object, here is image))
     return found
 
 
@@ -202,7 +202,7 @@ def sampled(one: Example, names: Sequence[str], rng: np.random.Generator) -> tup
     if rng.random() < NO_ROOM:
         x = np.where(np.isin(names, ("room", "has room"))[:, None, None], 0, x)
     if rng.random() < 0.5:
-        x, share = x[..., ::-1] * np.where(np.isin(names, clues.MIRRORED), -1, 1)[:, None, None], share[:, ::-1]
+        x, share = x[..., ::-1] * np.where(np.isin(names, features.MIRRORED), -1, 1)[:, None, None], share[:, ::-1]
     return x, share
 
 
@@ -242,7 +242,7 @@ def fitted(train: Sequence[Example], seed: int = 0) -> dict[str, np.ndarray]:
             torch.nn.utils.clip_grad_norm_(net.parameters(), 2.0)
             optimizer.step()
             schedule.step()
-    return arrays(net, names, clues.MIRRORED, middle, spread)
+    return arrays(net, names, features.MIRRORED, middle, spread)
 
 
 def by_folds(examples: Sequence[Example]) -> dict[str, network.Network]:

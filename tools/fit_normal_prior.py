@@ -95,7 +95,7 @@ def example(scene: Path, some: slice = slice(None)) -> list[Example]:
         about = normal_prior.about_rays(part.seen.rays_C, np.nan_to_num(true))
         known = np.isfinite(true).all(axis=1).astype(float)
         named = dict(zip("xyz", about.T, strict=True)) | {"known": known}
-        found, of = normal_prior.clues(part, state), normal_prior.maps(named, part.seen.mask, side)
+        found, of = normal_prior.features(part, state), normal_prior.maps(named, part.seen.mask, side)
         mean = np.stack([of[axis] for axis in "xyz"])
         weight = np.where((of["known"] > 0.5) & (np.linalg.norm(mean, axis=0) > HALF), of["known"] * of["share"], 0.0)
         seen.append(

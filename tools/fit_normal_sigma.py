@@ -1,13 +1,13 @@
-"""Fit the standard deviation of normals: how each clue of ``surface/uncertainty.py`` counts.
+"""Fit the standard deviation of normals: how each indicator of ``surface/uncertainty.py`` counts.
 
 ``python tools/fit_normal_sigma.py SCENES... [--jobs N] [--on ENGINE] [--keep FILE.npz] [--distant] [--noise X]``: SCENES are simulated
 scenes with truth (folders that hold ``capture`` with an ambient image, ``calibration.yaml`` and ``truth/surface.npz``), or folders of
-such, to which the network of surface.normal_prior was not fitted. Each is reconstructed within its true mask; the clues of its pixels
-stand beside the angle between its normals and the true ones. The variance is a sum of squared clues, each with a factor that is not
+such, to which the network of surface.normal_prior was not fitted. Each is reconstructed within its true mask; the indicators of its pixels
+stand beside the angle between its normals and the true ones. The variance is a sum of squared indicators, each with a factor that is not
 negative; the factors are those of the greatest likelihood (Student's, so that outliers do not dominate), every scene counting alike,
 scaled so that the median scene has the share of pixels within two sigma that is expected.
 
-``--distant`` does not ask what is expected of the normals: the factors are then those of distant light. ``--keep`` writes the clues, or
+``--distant`` does not ask what is expected of the normals: the factors are then those of distant light. ``--keep`` writes the indicators, or
 reads them where the file is there. ``--noise`` holds the factor of the samples' own noise, the first of distant light: drawn matter is
 the model's, and so says less of it than real sets do (``tools/bench_surface.py`` prints median errors over sigma on DiLiGenT).
 
@@ -34,13 +34,13 @@ FREEDOM = 4.0
 """Degrees of freedom of Student's distribution: errors of normals have heavy tails."""
 EXPECTED = 93.0
 """Share of errors within two standard deviations at the median scene, per cent: 86.5 would be a normal distribution's, but scenes differ in
-what the clues do not see, and at the worst tenth of them two thirds should still be within."""
+what the indicators do not see, and at the worst tenth of them two thirds should still be within."""
 MOST_PIXELS = 4000
 """Pixels of a scene that are used, spread over it: neighbours err alike."""
 DISAGREES = 5.0
 """Spread of the true normals over 3x3 pixels, degrees, over which a pixel's true normal hangs on where in the pixel one looks."""
 NAMES = ("noise", "bend round", "bend", "edge", "three", "filled", "thrown", "unseen")
-"""The clues of distant light, in the order of `uncertainty.squares`."""
+"""The indicators of distant light, in the order of `uncertainty.squares`."""
 NEAR_NAMES = ("bend", "expected")
 """Those of near light."""
 
@@ -54,12 +54,12 @@ def scenes_of(paths: list[Path]) -> Iterator[Path]:
             yield from sorted(one for one in path.iterdir() if (one / "calibration.yaml").exists())
 
 
-def clues_of(scene: Path, *, distant: bool = False) -> tuple[str, Array, Array, float]:
-    """Squares of the clues (P, N) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
+def indicators_of(scene: Path, *, distant: bool = False) -> tuple[str, Array, Array, float]:
+    """Squares of the indicators (P, N) of a scene's pixels, the errors of their normals (P,) in degrees, and the calibration's part."""
     seen: list[tuple[Array, float]] = []
     plain, turned = uncertainty.normal_sigma_deg, normal_prior.turned
 
-    def heard(found: uncertainty.Clues, calibration_deg: float) -> Array:
+    def heard(found: uncertainty.Indicators, calibration_deg: float) -> Array:
         seen.append((uncertainty.squares(found), calibration_deg))
         return plain(found, calibration_deg)
 
@@ -139,7 +139,7 @@ def main() -> None:
             scenes = [(name, kept[f"{name}.square"], kept[f"{name}.error"], float(kept[f"{name}.calibration"])) for name in names]
     else:
         with engine_of(given.on, given.jobs, Path()).start() as pool:
-            scenes = list(pool.map(partial(clues_of, distant=given.distant), scenes_of(given.scenes)))
+            scenes = list(pool.map(partial(indicators_of, distant=given.distant), scenes_of(given.scenes)))
         if given.keep is not None:
             parts = ((f"{one[0]}.{key}", one[k]) for one in scenes for k, key in ((1, "square"), (2, "error"), (3, "calibration")))
             np.savez(given.keep, **{key: np.asarray(value) for key, value in parts})

@@ -1,6 +1,6 @@
 r"""Which coarse pixels are the object and which the wall behind it or the support under it: odds, and how far they leave the mask open.
 
-The odds are those of a network (view.network) that sees what the layers and the sweep of depths say (segmentation.clues). What they
+The odds are those of a network (view.network) that sees what the layers and the sweep of depths say (segmentation.features). What they
 leave uncertain is the mask's stated doubt. The user may say where the object is: a box takes the place of the image, and what a given point
 shows is the object.
 """
@@ -17,8 +17,8 @@ import numpy as np
 
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Labels, Mask
-from lpcal.segmentation import clues
-from lpcal.segmentation.clues import View
+from lpcal.segmentation import features
+from lpcal.segmentation.features import View
 from lpcal.view.constants import UNLIKELY
 from lpcal.view.network import Network
 
@@ -78,7 +78,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
 
     Where nothing is rather the object than not, it is what is likeliest.
     """
-    log_odds = log_odds_by(network or Network.read(FITTED), clues.channels(view, labels, planes, cost))
+    log_odds = log_odds_by(network or Network.read(FITTED), features.channels(view, labels, planes, cost))
     odds = np.zeros(labels.shape)
     odds[view.window] = 1 / (1 + np.exp(-np.clip(log_odds, -30, 30)))
     for at in view.points:

@@ -20,7 +20,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, plane_hough, samples
-from lpcal.segmentation.clues import SPARED, View
+from lpcal.segmentation.features import SPARED, View
 from lpcal.view import bands
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import UNLIKELY

@@ -17,7 +17,7 @@ from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import background, cut, layers, outline, plane_hough, planes
-from lpcal.segmentation.clues import View
+from lpcal.segmentation.features import View
 from lpcal.view.coarse import Coarse, LightTable, coarse_of, factor_of, joined
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.pixel_list import PixelList, SignalMaps, strength

@@ -22,7 +22,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
 from lpcal.segmentation import layers, plane_hough, room_samples
-from lpcal.segmentation.clues import SPARED
+from lpcal.segmentation.features import SPARED
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
 from lpcal.view.pixel_list import SignalMaps, second, strength

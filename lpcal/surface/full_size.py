@@ -266,10 +266,10 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
         expected = None
         if full.ground.turn is not None:
             expected = np.degrees(full.ground.between(full.ground.turn[..., 3], *tile.outer)[inside].astype(float))
-        clues = uncertainty.clues_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen, expected)
-        drawn = np.exp(-((clues.bend_deg / agree_deg) ** 2))[:, None]
+        features = uncertainty.indicators_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen, expected)
+        drawn = np.exp(-((features.bend_deg / agree_deg) ** 2))[:, None]
         n[inside] = lambert.unit(own + drawn * of_depth)[0]
-        sigma[inside] = uncertainty.normal_sigma_deg(clues, calibration_deg)
+        sigma[inside] = uncertainty.normal_sigma_deg(features, calibration_deg)
     return n[tile.within], sigma[tile.within]
 
 

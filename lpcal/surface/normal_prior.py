@@ -70,7 +70,7 @@ def expected(scene: Scene, state: State) -> tuple[Array, Array]:
     """
     scene = scene.closely()
     seen, side = scene.seen, factor_of(scene.seen.pixels)
-    found = clues(scene, state)
+    found = features(scene, state)
     begin = unit(np.stack([found[f"normal {axis}"] for axis in "xyz"]))
     n, log_sigma = answer(Network.read(FITTED), found, begin)
     square = np.sum((n - begin) ** 2, axis=0)
@@ -171,7 +171,7 @@ class _Whole:
         return _Whole(normals_of_depth(scene, state), _breaks(scene, state), level, room, middle)
 
 
-def clues(scene: Scene, state: State) -> dict[str, Array]:
+def features(scene: Scene, state: State) -> dict[str, Array]:
     """The channels, maps (rows, columns) of blocks of pixels, by a state of the rounds and a scene that is cut to its object.
 
     Besides those of `channels` they are the share of each block that is the object, and how far it is from the outline.

@@ -269,9 +269,9 @@ def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, fo
     albedo = _albedo(radiance, scene, state)
     whole = state.weight > pieces.BREAK_WEIGHT
     of_depth = normal_prior.normals_of_depth(scene, state)
-    clues = uncertainty.clues(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole, expected_rad)
-    sigma_deg = uncertainty.normal_sigma_deg(clues, uncertainty.calibration_deg(scene.lights))
-    drawn = np.exp(-((clues.bend_deg / AGREE_DEG) ** 2))[:, None]
+    features = uncertainty.indicators(grid, seen.mask, state.found, state.lit, state.normals, of_depth, whole, expected_rad)
+    sigma_deg = uncertainty.normal_sigma_deg(features, uncertainty.calibration_deg(scene.lights))
+    drawn = np.exp(-((features.bend_deg / AGREE_DEG) ** 2))[:, None]
     n = lambert.unit(state.normals + drawn * of_depth)[0]
     towards = -lambert.dot(n, seen.rays_C) / lambert.length(seen.rays_C)
     plane = seen.shape_C(np.ones_like(depth))[:, :2]

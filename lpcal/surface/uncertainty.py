@@ -28,7 +28,7 @@ from lpcal.view.constants import RIM_PX
 from lpcal.view.pixel_list import Illumination
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
-"""What the square of each clue adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
+"""What the square of each indicator adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
 tools/fit_normal_sigma.py on 200 simulated scenes, the first held: drawn matter is the model's and says less of it than DiLiGenT's does."""
 NEAR_FACTORS = (0.388, 1.75)
 """The same of near light, where a network says how far it trusts a normal: R, and what the network states; fitted by
@@ -49,7 +49,7 @@ it holds the error within 1.3 sigma rms there.
 
 
 @dataclass(frozen=True)
-class Clues:
+class Indicators:
     """Indicators of errors, a pixel: (P,) each."""
 
     noise_deg: Array
@@ -71,7 +71,7 @@ class Clues:
     """What surface.normal_prior states of each normal; None where it is not asked."""
 
 
-def clues(
+def indicators(
     grid: Grid,
     mask: Mask,
     found: Estimate,
@@ -80,15 +80,17 @@ def clues(
     of_depth: Array,
     whole: Mask,
     expected_rad: Array | None = None,
-) -> Clues:
-    """The clues of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold.
+) -> Indicators:
+    """The indicators of each pixel, from the estimate, its normals and those of the depth (P, 3), and the edges (edges,) that hold.
 
     `expected_rad` (P,) is what surface.normal_prior states of the normals.
     """
     noise, misfit = noise_deg(found, normals)
     unseen = np.zeros(len(normals)) if lit.unseen is None else lit.unseen
     expected_deg = None if expected_rad is None else np.degrees(expected_rad)
-    return clues_of(grid, mask, normals, of_depth, whole, noise, misfit, found.used, interreflected_share(lit, found), unseen, expected_deg)
+    return indicators_of(
+        grid, mask, normals, of_depth, whole, noise, misfit, found.used, interreflected_share(lit, found), unseen, expected_deg
+    )
 
 
 def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
@@ -105,7 +107,7 @@ def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
     return np.where(filled, np.nan, noise), misfit
 
 
-def clues_of(
+def indicators_of(
     grid: Grid,
     mask: Mask,
     normals: Array,
@@ -117,8 +119,8 @@ def clues_of(
     interreflected: Array,
     unseen: Array,
     expected_deg: Array | None = None,
-) -> Clues:
-    """The clues of each pixel, those that come from its samples given."""
+) -> Indicators:
+    """The indicators of each pixel, those that come from its samples given."""
     bend = np.degrees(2 * np.arcsin(np.clip(lambert.length(normals - of_depth) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
@@ -126,11 +128,11 @@ def clues_of(
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
     edge = raster.away(rim)[mask] < RIM_PX
-    return Clues(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), interreflected, unseen, expected_deg)
+    return Indicators(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), interreflected, unseen, expected_deg)
 
 
-def squares(found: Clues) -> Array:
-    """The squares of the clues: (P, 8), or (P, 2) with what surface.normal_prior states."""
+def squares(found: Indicators) -> Array:
+    """The squares of the indicators: (P, 8), or (P, 2) with what surface.normal_prior states."""
     if found.expected_deg is not None:
         return np.stack([found.bend_deg, found.expected_deg], axis=1) ** 2
     noise = found.noise_deg * np.maximum(1, np.sqrt(found.misfit))
@@ -138,7 +140,7 @@ def squares(found: Clues) -> Array:
     return np.stack([noise, found.bend_round_deg, found.bend_deg, *flags, found.interreflected, found.unseen], axis=1) ** 2
 
 
-def normal_sigma_deg(found: Clues, calibration_deg: float) -> Array:
+def normal_sigma_deg(found: Indicators, calibration_deg: float) -> Array:
     """Standard deviation (P,) of a normal per axis, degrees."""
     factors = FACTORS if found.expected_deg is None else NEAR_FACTORS
     return np.asarray(np.sqrt(squares(found) @ np.array(factors) + calibration_deg**2))

@@ -10,7 +10,7 @@ import pytest
 from lit_scene import calibration
 from lpcal.geometry import raster
 from lpcal.segmentation import background, cut, layers, mask, plane_hough, planes, samples
-from lpcal.segmentation.clues import View
+from lpcal.segmentation.features import View
 from lpcal.segmentation.plane_hough import Sweep
 from lpcal.view.coarse import Coarse, LightTable, coarse_of
 from lpcal.view.pixel_list import light_vectors, ray_map

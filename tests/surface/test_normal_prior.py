@@ -69,11 +69,11 @@ def random_clues(net: Network, shape: tuple[int, int]) -> dict[str, np.ndarray]:
 
 def test_left_and_right_are_alike() -> None:
     net = Network.read(FITTED)
-    clues = random_clues(net, (40, 52))
-    begin = normal_prior.unit(np.stack([clues[f"normal {axis}"] for axis in "xyz"]))
+    features = random_clues(net, (40, 52))
+    begin = normal_prior.unit(np.stack([features[f"normal {axis}"] for axis in "xyz"]))
     flip = np.array([-1, 1, 1])[:, None, None]
-    mirror = {name: (-1 if name in normal_prior.MIRRORED else 1) * value[:, ::-1] for name, value in clues.items()}
-    n, log_sigma = answer(net, clues, begin)
+    mirror = {name: (-1 if name in normal_prior.MIRRORED else 1) * value[:, ::-1] for name, value in features.items()}
+    n, log_sigma = answer(net, features, begin)
     other, other_sigma = answer(net, mirror, (flip * begin)[..., ::-1])
     np.testing.assert_allclose((flip * other)[..., ::-1], n, atol=1e-4)
     np.testing.assert_allclose(other_sigma[:, ::-1], log_sigma, atol=1e-3)
@@ -97,7 +97,7 @@ def test_channels_are_those_of_the_network_and_have_no_scale(sphere: tuple[Solve
     """An object that is three times as bright gives the same."""
     one, _ = sphere
     scene, state = one.scene.closely(), one.state
-    found = normal_prior.clues(scene, state)
+    found = normal_prior.features(scene, state)
     assert set(Network.read(FITTED).channels) == set(found)
     assert set(normal_prior.MIRRORED) < set(found)
     assert all(np.isfinite(value).all() for value in found.values())
@@ -105,7 +105,7 @@ def test_channels_are_those_of_the_network_and_have_no_scale(sphere: tuple[Solve
     whole, estimate = replace(state.field, b=3 * state.field.b), replace(state.found, b=3 * state.found.b)
     if estimate.gloss is not None:
         estimate = replace(estimate, gloss=3 * estimate.gloss)
-    again = normal_prior.clues(brighter, replace(state, field=whole, found=estimate))
+    again = normal_prior.features(brighter, replace(state, field=whole, found=estimate))
     for name, value in found.items():
         np.testing.assert_allclose(again[name], value, atol=1e-9, err_msg=name)
 

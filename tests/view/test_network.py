@@ -1,4 +1,4 @@
-"""The mask's network: by a convolution written out, by what it must not depend on, and that its channels are those of the clues."""
+"""The mask's network: by a convolution written out, by what it must not depend on, and that its channels are those of segmentation.features."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from lpcal.segmentation import clues
+from lpcal.segmentation import features
 from lpcal.segmentation.background import FITTED, log_odds_by
 from lpcal.view.network import Convolution, Network, doubled, halved
 
@@ -45,7 +45,7 @@ def test_left_and_right_are_alike(shape: tuple[int, int]) -> None:
     """In a mirror the answer is the mirror image; and normals' x counts: without its sign the answer differs."""
     net = Network.read(FITTED)
     seen = random_channels(shape, net)
-    mirror = {name: (-1 if name in clues.MIRRORED else 1) * value[:, ::-1] for name, value in seen.items()}
+    mirror = {name: (-1 if name in features.MIRRORED else 1) * value[:, ::-1] for name, value in seen.items()}
     np.testing.assert_allclose(log_odds_by(net, mirror)[:, ::-1], log_odds_by(net, seen), atol=1e-3)
     wrong = {name: value[:, ::-1] for name, value in seen.items()}
     assert np.abs(log_odds_by(net, wrong)[:, ::-1] - log_odds_by(net, seen)).max() > 0.05
