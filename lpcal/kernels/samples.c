@@ -1,5 +1,5 @@
 /* What samples say of a pixel as matter of any normal or as part of a plane, and what a table of the lights' field makes of a plane.
-   Twins: segmentation/samples.py (free, planar) and segmentation/plane_hough.py (white). Signals are (L, P), at most MOST_LIGHTS of them a pixel. */
+   Twins: segmentation/sample_costs.py (free, planar) and segmentation/plane_hough.py (white). Signals are (L, P), at most MOST_LIGHTS of them a pixel. */
 
 #include "kernel.h"
 

@@ -1,7 +1,7 @@
 r"""What of a picture says which of its coarse pixels are the object: the channels of the network (view.network).
 
 Symbols: u is a log depth, in units of the working distance. A channel needs no scale of brightness: it holds a natural logarithm of
-brightness or depth, a cost of segmentation.samples, a normal, or what a label says.
+brightness or depth, a cost of segmentation.sample_costs, a normal, or what a label says.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 r"""Every coarse pixel's layer: matter of any normal, one of the planes, other matter like theirs, or nothing.
 
-Each layer states a cost (see segmentation.samples) and an appearance, the histogram of log albedo over its own pixels; the labels
+Each layer states a cost (see segmentation.sample_costs) and an appearance, the histogram of log albedo over its own pixels; the labels
 minimise::
 
     sum_p  cost_l(p) - 2 log(appearance_l(p))   +   sum_ab  w_ab [l_a != l_b]
@@ -19,7 +19,7 @@ import numpy as np
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
-from lpcal.segmentation import background, plane_hough, samples
+from lpcal.segmentation import background, plane_hough, sample_costs
 from lpcal.segmentation.features import SPARED, View
 from lpcal.view import bands
 from lpcal.view.coarse import LightTable
@@ -111,8 +111,8 @@ def shine(at: Pixels, E: Array) -> Array:
 def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: Array) -> Array:
     """Costs from those of free matter (Q,), by irradiances E (L, Q) at the working distance."""
     bright = shine(at, E)
-    nothing = samples.nothing(at.signal, at.sigma, at.usable, np.exp(layers.brightest) * E)
-    matter = NOTHING_PRICE * (nothing < samples.DARK)
+    nothing = sample_costs.nothing(at.signal, at.sigma, at.usable, np.exp(layers.brightest) * E)
+    matter = NOTHING_PRICE * (nothing < sample_costs.DARK)
     ratio = np.zeros(len(free))
     if layers.of_object is not None and layers.of_rest:
         rest = np.max([one.at(bright) for one in layers.of_rest], axis=0)
@@ -122,7 +122,7 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     def in_plane(k: int) -> Array:
         q, appearance = layers.planes[k], layers.of_plane[k]
         m, doubt = plane_hough.white(q, at.rays_C, at.coarse, table)
-        cost, albedo, _ = samples.planar(at.signal, at.sigma, at.usable, m, doubt)
+        cost, albedo, _ = sample_costs.planar(at.signal, at.sigma, at.usable, m, doubt)
         if appearance is not None:
             cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
         return np.asarray(cost + matter)

@@ -18,7 +18,7 @@ from lpcal.geometry import cauchy_fit, lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.cauchy_fit import Equations
 from lpcal.kernels.library import kernel
-from lpcal.segmentation import room_samples, samples
+from lpcal.segmentation import room_samples, sample_costs
 from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior
 from lpcal.view.pixel_list import Indices
@@ -94,9 +94,9 @@ def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -
 
 
 def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
-    """`samples.free` of the coarse pixels."""
+    """`sample_costs.free` of the coarse pixels."""
     if image.room is None:
-        return samples.free(image.signal, image.sigma, image.usable, B, doubt)
+        return sample_costs.free(image.signal, image.sigma, image.usable, B, doubt)
     found = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
     return found.b, found.cost
 
@@ -126,12 +126,12 @@ def _placed(q: Array, rays_C: Array, pixels: Indices) -> tuple[npt.NDArray[np.ge
 
 
 def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None = None) -> tuple[Array, Array, Mask]:
-    """`samples.planar` of (some of) the coarse pixels."""
+    """`sample_costs.planar` of (some of) the coarse pixels."""
     some = np.arange(len(image.rays_C)) if pixels is None else pixels
     m, doubt = white(q, image.rays_C[some], some, table)
     signal, sigma, usable = image.signal[:, some], image.sigma[:, some], image.usable[:, some]
     if image.room is None:
-        return samples.planar(signal, sigma, usable, m, doubt)
+        return sample_costs.planar(signal, sigma, usable, m, doubt)
     return room_samples.planar(signal, sigma, usable, m, doubt, image.room)[:3]
 
 
@@ -208,7 +208,7 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
             break
         _, doubt = white(q, image.rays_C[own], own, table)
         signal = image.signal[:, own]
-        weight = lit[:, good] / np.sqrt(samples.variance(signal, image.sigma[:, own], doubt))
+        weight = lit[:, good] / np.sqrt(sample_costs.variance(signal, image.sigma[:, own], doubt))
         fit = _Fit(image.rays_C[own], own, table, signal, weight, image.room, albedo[good])
         q = cauchy_fit.fitted(fit.equations, q, float(np.linalg.norm(q)), FIT_STEPS)
     return q
@@ -233,7 +233,7 @@ class _Fit:
             room = self.room
             return Equations.differenced(lambda x: self.in_room(x, room), q)
         L, Q = self.signal.shape
-        if L <= samples.MOST_LIGHTS and (run := kernel("plane")):
+        if L <= sample_costs.MOST_LIGHTS and (run := kernel("plane")):
             found, table = np.empty(13), self.table
             given = (np.ascontiguousarray(one, float) for one in (self.signal, self.weight))
             placed = _placed(q, self.rays_C, self.pixels)

@@ -15,7 +15,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.segmentation.samples import MODEL
+from lpcal.segmentation.sample_costs import MODEL
 from lpcal.view import bands
 from lpcal.view.pixel_list import PixelList, light_vectors
 

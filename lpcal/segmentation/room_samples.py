@@ -1,10 +1,10 @@
 r"""What samples say for and against an explanation of a pixel, where they hold a room's light that no image shows by itself.
 
 Symbols: signal ``I_k = m_k + A / h_k`` of light k, whose intensity h_k signals were divided by; m_k is what the lamp sends back, 0 in
-its shadow; A is the room's. As segmentation.samples, with A free at every pixel under a prior: light from all over a room acts on
+its shadow; A is the room's. As segmentation.sample_costs, with A free at every pixel under a prior: light from all over a room acts on
 matter of ``b = rho n`` as ``A = level |b|``, more or less by SPREAD where the object hides the room or its light comes from one side.
 Of matter of any normal ``|b| = n . b`` makes this linear in b for the normal n of the step before. Costs are those of
-segmentation.samples on what is left without A, and that of the prior.
+segmentation.sample_costs on what is left without A, and that of the prior.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
-from lpcal.segmentation import samples
+from lpcal.segmentation import sample_costs
 from lpcal.view.coarse import RoomPrior
 from lpcal.view.constants import OUTLIER2, SHADOW
 from lpcal.view.pixel_list import second
@@ -27,7 +27,7 @@ SPREAD = 0.35
 DEEP = 0.02
 """Light that surfaces throw into shadow, as a share of a pixel's brightest sample: by so much a dark sample may differ from A."""
 BRIGHTER = 0.03
-"""Light from other surfaces, as in segmentation.samples but less of it: with more, the room's level comes out too low by a third."""
+"""Light from other surfaces, as in segmentation.sample_costs but less of it: with more, the room's level comes out too low by a third."""
 STEPS = 4
 """Solves of b and A, the first with half of the least sample for A."""
 PLANE_STEPS = 3
@@ -51,8 +51,8 @@ class Free:
 
 
 def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> Free:
-    """Pixels as matter of any normal lit by B (L, P, 3), as `samples.free`."""
-    if len(signal) <= samples.MOST_LIGHTS and (run := kernel("room_free")):
+    """Pixels as matter of any normal lit by B (L, P, 3), as `sample_costs.free`."""
+    if len(signal) <= sample_costs.MOST_LIGHTS and (run := kernel("room_free")):
         b, (A, cost, information) = np.empty(B.shape[1:]), np.empty((3, B.shape[1]))
         run(*signal.shape, *_given(signal, sigma, usable, B, doubt, room), STEPS, b, A, cost, information)
         return Free(b, A, cost, information)
@@ -78,8 +78,8 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
-    """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels as parts of a plane of signals m (L, P), as `samples.planar`."""
-    if len(signal) <= samples.MOST_LIGHTS and (run := kernel("room_planar")):
+    """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels as parts of a plane of signals m (L, P), as `sample_costs.planar`."""
+    if len(signal) <= sample_costs.MOST_LIGHTS and (run := kernel("room_planar")):
         (cost, albedo, A), lit = np.empty((3, m.shape[1])), np.empty(m.shape, bool)
         run(*signal.shape, *_given(signal, sigma, usable, m, doubt, room), PLANE_STEPS, cost, albedo, lit, A)
         return cost, albedo, lit, A
@@ -100,19 +100,27 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
         consider(one, room.level * one, usable[k] & (m[k] > 0))
     for _ in range(PLANE_STEPS):
         lamps, spread2 = _without(signal, sigma, doubt, share * A)
-        dark = usable & ~lit & (lamps < samples.DARK_SHARE * albedo * m)
+        dark = usable & ~lit & (lamps < sample_costs.DARK_SHARE * albedo * m)
         weight = (lit | dark) / (spread2 + (DEEP * lamps.max(axis=0)) ** 2)
         one, ambient = albedo_and_room(signal, weight, np.where(dark, 0.0, m), albedo, room)
         consider(one, np.maximum(ambient, 0.0), one > 0)
     blind = usable.sum(axis=0) < 2
-    return np.where(blind, 0.0, np.where(np.isfinite(least), least, samples.OUTLIER * len(m))), albedo, lit, A
+    return np.where(blind, 0.0, np.where(np.isfinite(least), least, sample_costs.OUTLIER * len(m))), albedo, lit, A
 
 
 def _given(
     signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array, room: RoomPrior
 ) -> tuple[npt.NDArray[np.generic] | float, ...]:
     """What the kernels are given: samples (L, P), their light, the room's, and the constants."""
-    constants = [samples.MODEL**2, BRIGHTER, samples.DARKER, samples.OUTLIER, samples.DARK, samples.HALF_DARK, samples.DARK_SHARE]
+    constants = [
+        sample_costs.MODEL**2,
+        BRIGHTER,
+        sample_costs.DARKER,
+        sample_costs.OUTLIER,
+        sample_costs.DARK,
+        sample_costs.HALF_DARK,
+        sample_costs.DARK_SHARE,
+    ]
     constants += [SHADOW, OUTLIER2, DEEP, SPREAD, LEVEL_TIE]
     signal, sigma, light, share = (np.ascontiguousarray(one, float) for one in (signal, sigma, light, room.share))
     doubts = np.ascontiguousarray(doubt, np.float32)
@@ -120,11 +128,11 @@ def _given(
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:
-    """Cost (P,), as `samples.nothing`, of places that the room alone lights, and A (P,) there."""
-    share, spread2 = room.share[:, None], sigma**2 + (samples.INTERREFLECTED * around) ** 2
+    """Cost (P,), as `sample_costs.nothing`, of places that the room alone lights, and A (P,) there."""
+    share, spread2 = room.share[:, None], sigma**2 + (sample_costs.INTERREFLECTED * around) ** 2
     weight = usable / spread2
     A = np.sum(weight * share * signal, axis=0) / np.maximum(np.sum(weight * share**2, axis=0), 1e-30)
-    return np.sum(np.where(usable, np.minimum((signal - share * A) ** 2 / spread2, samples.OUTLIER), 0.0), axis=0) / 2, A
+    return np.sum(np.where(usable, np.minimum((signal - share * A) ** 2 / spread2, sample_costs.OUTLIER), 0.0), axis=0) / 2, A
 
 
 def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room: RoomPrior) -> tuple[Array, Array]:
@@ -157,23 +165,23 @@ def lowest(signal: Array, usable: Mask, room: RoomPrior) -> Array:
 def _without(signal: Array, sigma: Array, doubt: Array, ambient: Array) -> tuple[Array, Array]:
     """Signals (L, P) without the room's, and their variance."""
     lamps = signal - ambient
-    return lamps, samples.variance(lamps, sigma, doubt)
+    return lamps, sample_costs.variance(lamps, sigma, doubt)
 
 
 def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: Array, ambient: Array) -> tuple[Array, Array]:
     """Cost (L, P) and square residual (L, P) of samples; one that is darker than the room's light is no shadow."""
     lamps, spread2 = _without(signal, sigma, doubt, ambient)
     top = np.max(np.where(usable, lamps, 0.0), axis=0)
-    indirect = np.where(lamps > predicted, BRIGHTER, samples.DARKER) * top
+    indirect = np.where(lamps > predicted, BRIGHTER, sample_costs.DARKER) * top
     square = (lamps - predicted) ** 2 / (spread2 + indirect**2)
-    below = np.minimum(np.minimum(lamps, 0.0) ** 2 / (spread2 + (DEEP * top) ** 2), samples.OUTLIER)
-    shadow = np.where(lamps < samples.DARK_SHARE * predicted, samples.DARK, samples.HALF_DARK) + below
-    return np.minimum(square, np.where(lamps < predicted, shadow, samples.OUTLIER)), square
+    below = np.minimum(np.minimum(lamps, 0.0) ** 2 / (spread2 + (DEEP * top) ** 2), sample_costs.OUTLIER)
+    shadow = np.where(lamps < sample_costs.DARK_SHARE * predicted, sample_costs.DARK, sample_costs.HALF_DARK) + below
+    return np.minimum(square, np.where(lamps < predicted, shadow, sample_costs.OUTLIER)), square
 
 
 def _prior(A: Array, size: Array, room: RoomPrior) -> Array:
     """Cost (P,) of A beside level |b|."""
-    return np.asarray(np.minimum((A - room.level * size) ** 2 * prior_weight(size, room), samples.OUTLIER))
+    return np.asarray(np.minimum((A - room.level * size) ** 2 * prior_weight(size, room), sample_costs.OUTLIER))
 
 
 def _second(values: Array, usable: Mask) -> Array:

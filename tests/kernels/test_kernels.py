@@ -21,7 +21,7 @@ from lpcal.integration.integrate import Grid, system
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.segmentation import cut, layers, plane_hough, planes, room_samples, samples
+from lpcal.segmentation import cut, layers, plane_hough, planes, room_samples, sample_costs
 from lpcal.shading import field, gloss, normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance, interreflection
@@ -248,13 +248,13 @@ def explained(rng: np.random.Generator) -> tuple[Any, ...]:
 
 
 def free(rng: np.random.Generator) -> Array:
-    return np.concatenate([each.ravel() for each in samples.free(*explained(rng))])
+    return np.concatenate([each.ravel() for each in sample_costs.free(*explained(rng))])
 
 
 def planar(rng: np.random.Generator) -> Array:
     signal, sigma, usable, _, doubt = explained(rng)
     m = np.maximum(signal * rng.uniform(0.7, 1.4, signal.shape) - 0.1, 0.0)
-    return np.concatenate([each.ravel() for each in samples.planar(signal, sigma, usable, m, doubt)])
+    return np.concatenate([each.ravel() for each in sample_costs.planar(signal, sigma, usable, m, doubt)])
 
 
 def in_room(rng: np.random.Generator) -> tuple[tuple[Any, ...], RoomPrior]:

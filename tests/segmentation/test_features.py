@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lit_scene import calibration
-from lpcal.segmentation import features, layers, mask, samples
+from lpcal.segmentation import features, layers, mask, sample_costs
 from lpcal.segmentation.background import FITTED
 from lpcal.segmentation.features import View
 from lpcal.view.coarse import LightTable, coarse_of
@@ -31,7 +31,7 @@ def seen(scale: float = 1.0, factor: int = 4) -> tuple[View, np.ndarray, np.ndar
     at = layers.Pixels(image.signal, image.sigma, image.usable, image.rays_C, np.arange(len(image.rays_C)))
     found = layers.Layers([WALL, CARD], [None, None], 0.0)
     B, doubt = table.at(np.full(len(image.rays_C), np.log(0.4)), at.coarse)
-    free = samples.free(at.signal, at.sigma, at.usable, B, doubt)[1]
+    free = sample_costs.free(at.signal, at.sigma, at.usable, B, doubt)[1]
     cost = layers.with_planes(found, at, table, free, np.linalg.norm(B, axis=2)).reshape(-1, *image.shape)
     return view, labels, cost
 

@@ -9,7 +9,7 @@ import pytest
 
 from lit_scene import calibration
 from lpcal.geometry import raster
-from lpcal.segmentation import background, cut, layers, mask, plane_hough, planes, samples
+from lpcal.segmentation import background, cut, layers, mask, plane_hough, planes, sample_costs
 from lpcal.segmentation.features import View
 from lpcal.segmentation.plane_hough import Sweep
 from lpcal.view.coarse import Coarse, LightTable, coarse_of
@@ -96,10 +96,10 @@ def test_shadow_costs_less_than_half_light_and_a_highlight_most() -> None:
     for factor in (1.0, 0.0, 0.6, 3.0):
         signal = 0.4 * m
         signal[2] *= factor
-        cost.append(float(np.median(samples.planar(signal, sigma, usable, m, doubt)[0])))
+        cost.append(float(np.median(sample_costs.planar(signal, sigma, usable, m, doubt)[0])))
     lit, dark, half, bright = cost
-    assert lit < 1 < dark == pytest.approx(samples.DARK)
-    assert dark < half == pytest.approx(samples.HALF_DARK)
+    assert lit < 1 < dark == pytest.approx(sample_costs.DARK)
+    assert dark < half == pytest.approx(sample_costs.HALF_DARK)
     assert bright > half
 
 
