@@ -1,4 +1,4 @@
-/* What samples that hold a room's light say of a pixel, as matter of any normal or as part of a plane. Twin: segmentation/room_samples.py (free,
+/* What samples that hold a room's light say of a pixel, as matter of any normal or as part of a plane. Twin: segmentation/ambient_sample_costs.py (free,
    planar). Signals are (L, P), at most MOST_LIGHTS of them a pixel; the room's light A of a pixel is share[k] A in the signal of light k. */
 
 #include "kernel.h"

@@ -18,7 +18,7 @@ from lpcal.geometry import cauchy_fit, lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.cauchy_fit import Equations
 from lpcal.kernels.library import kernel
-from lpcal.segmentation import room_samples, sample_costs
+from lpcal.segmentation import ambient_sample_costs, sample_costs
 from lpcal.view import bands
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior
 from lpcal.view.pixel_list import Indices
@@ -97,7 +97,7 @@ def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
     """`sample_costs.free` of the coarse pixels."""
     if image.room is None:
         return sample_costs.free(image.signal, image.sigma, image.usable, B, doubt)
-    found = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
+    found = ambient_sample_costs.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
     return found.b, found.cost
 
 
@@ -132,7 +132,7 @@ def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None
     signal, sigma, usable = image.signal[:, some], image.sigma[:, some], image.usable[:, some]
     if image.room is None:
         return sample_costs.planar(signal, sigma, usable, m, doubt)
-    return room_samples.planar(signal, sigma, usable, m, doubt, image.room)[:3]
+    return ambient_sample_costs.planar(signal, sigma, usable, m, doubt, image.room)[:3]
 
 
 def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
@@ -249,7 +249,7 @@ class _Fit:
     def in_room(self, q: Array, room: RoomPrior) -> Array:
         """Residuals (M,) where a room's light is in the signals."""
         m, _ = white(q, self.rays_C, self.pixels, self.table)
-        return room_samples.residuals(self.signal, self.weight, m, self.albedo, room)
+        return ambient_sample_costs.residuals(self.signal, self.weight, m, self.albedo, room)
 
     def _turned(self, q: Array) -> tuple[Array, Array]:
         """Signals (L, Q) of a white plane q (3,), and their derivatives (3, L, Q) by q."""

@@ -1,7 +1,7 @@
 r"""How much light of the room a capture holds that has no image without lights: over wall, support and object alike.
 
 At a coarse scale all that is seen is explained as matter of any normal, as planes or as a place that no lamp reaches, at one level of the
-room's light after another (see segmentation.room_samples); the level at which all together cost least is that of the room, and each pixel's
+room's light after another (see segmentation.ambient_sample_costs); the level at which all together cost least is that of the room, and each pixel's
 best explanation says what it holds of it. What is left without it is seen as a capture whose room light was taken away.
 
 What the explanations lack is smooth over a surface and changes the cost by more than noise does, so the costs' curvature says little of
@@ -21,7 +21,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Light
-from lpcal.segmentation import layers, plane_hough, room_samples
+from lpcal.segmentation import ambient_sample_costs, layers, plane_hough
 from lpcal.segmentation.features import SPARED
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior, coarse_of, factor_of
 from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
@@ -112,22 +112,22 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
     image = replace(seen, room=room)
     everywhere = np.arange(len(image.rays_C))
     swept = plane_hough.sweep(image, table, distance_m, 1 if drawn else 2)
-    least = room_samples.lowest(image.signal, image.usable, room)
+    least = ambient_sample_costs.lowest(image.signal, image.usable, room)
     over = image.signal - room.share[:, None] * least > CERTAIN * image.sigma
     lit = np.sum(over & image.usable, axis=0) >= 2
     best = np.argmin(swept.cost, axis=0)
     B, doubt = table.at(swept.u[best], everywhere)
-    free = room_samples.free(image.signal, image.sigma, image.usable, B, doubt, room)
+    free = ambient_sample_costs.free(image.signal, image.sigma, image.usable, B, doubt, room)
     costs, ambient = [free.cost + layers.FREE_PRICE], [free.A]
     for q in plane_hough.find(image, table, swept, lit, distance_m):
         m, doubt = plane_hough.white(q, image.rays_C, everywhere, table)
-        cost, _, _, A = room_samples.planar(image.signal, image.sigma, image.usable, m, doubt, room)
+        cost, _, _, A = ambient_sample_costs.planar(image.signal, image.sigma, image.usable, m, doubt, room)
         costs.append(cost)
         ambient.append(A)
     E = lambert.length(table.at(np.full(len(everywhere), np.log(distance_m)), everywhere)[0])
     bright = np.max(np.where(image.usable, image.signal / np.maximum(E, 1e-12), 0.0), axis=0)
     around = np.median(bright[lit]) * E if lit.any() else np.median(bright) * E
-    cost, A = room_samples.nothing(image.signal, image.sigma, image.usable, around, room)
+    cost, A = ambient_sample_costs.nothing(image.signal, image.sigma, image.usable, around, room)
     every, each = np.stack([*costs, cost]), np.stack([*ambient, A])
     for _ in range(RARE_ROUNDS):
         part = np.bincount(np.argmin(every, axis=0), minlength=len(every)) / every.shape[1]
@@ -202,7 +202,7 @@ def _spread(A: Array, image: Coarse, share: Array, maps: SignalMaps) -> Image:
     )
     by_light = maps.signal.reshape(len(share), -1).astype(float)
     whole = image.image(part)[np.ix_(row, column)].ravel() * _bright(by_light, share)
-    least = room_samples.lowest(by_light, maps.usable.reshape(by_light.shape), RoomPrior(share, 0.0))
+    least = ambient_sample_costs.lowest(by_light, maps.usable.reshape(by_light.shape), RoomPrior(share, 0.0))
     return np.asarray(np.minimum(np.maximum(whole, 0), least).reshape(maps.signal.shape[1:]), np.float32)
 
 

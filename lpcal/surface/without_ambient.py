@@ -30,7 +30,7 @@ from lpcal.records.calibration import Calibration, Light
 from lpcal.records.figures import AmbientFound
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.segmentation import background, mask, planes, room_light, room_samples
+from lpcal.segmentation import ambient_sample_costs, background, mask, planes, room_light
 from lpcal.segmentation.room_light import FEW_PIXELS, SHARED, USUAL_STD, RoomLight
 from lpcal.shading import normals
 from lpcal.view import pixel_list
@@ -239,11 +239,11 @@ def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | N
     themselves, as parts of the picture do: how sure the law is counts such parts, not pixels.
     """
     d, E = light_vectors(lights, seen.points_C(depth))
-    found = room_samples.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
+    found = ambient_sample_costs.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
     b, length = found.b, np.maximum(lambert.length(found.b), 1e-20)
     known = np.maximum(found.information, REGULARISATION)
     rows, ratio = np.c_[np.ones(seen.pixels), b / length[:, None]], 1 + (found.A / length / light.room.level - 1) / known
-    own2 = room_samples.SPREAD**2 * (1 - known) / known
+    own2 = ambient_sample_costs.SPREAD**2 * (1 - known) / known
     prior = np.diag([light.level_std**-2, *3 * [TILT**-2]])
     right = np.array([light.level_std**-2, 0, 0, 0])
     if wall is not None:
@@ -256,8 +256,8 @@ def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | N
     c, mean = light.room.level * law, (length @ rows) / length.sum()
     by_parts = weighted.T @ rows * FEW_PIXELS / seen.mask.size
     of_law = float(np.sqrt(mean @ np.linalg.solve(by_parts + prior, mean))) / max(float(mean @ law), REGULARISATION)
-    A = np.clip(c[0] * length + b @ c[1:], 0.0, room_samples.lowest(seen.signal, seen.usable, light.room))
-    interreflected = room_samples.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
+    A = np.clip(c[0] * length + b @ c[1:], 0.0, ambient_sample_costs.lowest(seen.signal, seen.usable, light.room))
+    interreflected = ambient_sample_costs.DEEP * float(np.median(seen.signal.mean(axis=0))) / max(float(np.median(A)), 1e-20)
     return Room(c, float(np.hypot(np.hypot(LAW_STD, of_law), interreflected))), A
 
 

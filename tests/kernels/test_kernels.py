@@ -21,7 +21,7 @@ from lpcal.integration.integrate import Grid, system
 from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels import library
 from lpcal.kernels.library import SWITCH, kernel
-from lpcal.segmentation import cut, layers, plane_hough, planes, room_samples, sample_costs
+from lpcal.segmentation import ambient_sample_costs, cut, layers, plane_hough, planes, sample_costs
 from lpcal.shading import field, gloss, normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance, interreflection
@@ -268,14 +268,14 @@ def in_room(rng: np.random.Generator) -> tuple[tuple[Any, ...], RoomPrior]:
 
 def room_free(rng: np.random.Generator) -> Array:
     given, room = in_room(rng)
-    found = room_samples.free(*given, room)
+    found = ambient_sample_costs.free(*given, room)
     return np.concatenate([each.ravel() for each in (found.b, found.A, found.cost / 10, found.information)])
 
 
 def room_planar(rng: np.random.Generator) -> Array:
     (signal, sigma, usable, _, doubt), room = in_room(rng)
     m = np.maximum(signal * rng.uniform(0.7, 1.4, signal.shape) - 0.1, 0.0)
-    return np.concatenate([each.ravel() for each in room_samples.planar(signal, sigma, usable, m, doubt, room)])
+    return np.concatenate([each.ravel() for each in ambient_sample_costs.planar(signal, sigma, usable, m, doubt, room)])
 
 
 def rays(rng: np.random.Generator, count: int) -> Array:

@@ -13,8 +13,8 @@ from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.calibration import Light
 from lpcal.records.observations import RawCapture
+from lpcal.segmentation import ambient_sample_costs, planes
 from lpcal.segmentation import mask as mask_of
-from lpcal.segmentation import planes, room_samples
 from lpcal.segmentation import room_light as whole
 from lpcal.segmentation.mask import Found
 from lpcal.segmentation.room_light import RoomLight
@@ -152,18 +152,18 @@ def test_samples_tell_their_room_light(shadowed: int) -> None:
     m[:shadowed] = 0
     signal, none = m + known.share[:, None] * A, np.zeros((8, 200))
     sigma, usable = np.full((8, 200), 1e-3), np.ones((8, 200), bool)
-    found = room_samples.free(signal, sigma, usable, B, none, known)
+    found = ambient_sample_costs.free(signal, sigma, usable, B, none, known)
     assert np.median(np.abs(found.A / A - 1)) < 0.04
     assert np.median(found.information) > 0.6
     assert np.median(np.linalg.norm(found.b - b, axis=1) / np.linalg.norm(b, axis=1)) < 0.02
     assert np.median(found.cost) < 8 + 5 * shadowed
     white = m / np.linalg.norm(b, axis=1)
     white[:shadowed] = 0.5
-    _, albedo, lit, told = room_samples.planar(signal, sigma, usable, white, none, known)
+    _, albedo, lit, told = ambient_sample_costs.planar(signal, sigma, usable, white, none, known)
     assert np.median(np.abs(told / A - 1)) < 0.02
     assert np.median(np.abs(albedo / np.linalg.norm(b, axis=1) - 1)) < 0.02
     assert not lit[:shadowed].any()
-    assert np.median(room_samples.nothing(known.share[:, None] * A, sigma, usable, none, known)[0]) < 1e-9
+    assert np.median(ambient_sample_costs.nothing(known.share[:, None] * A, sigma, usable, none, known)[0]) < 1e-9
 
 
 def test_a_level_is_as_sure_as_the_parts_of_the_picture_agree() -> None:
