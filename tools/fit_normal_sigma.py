@@ -7,9 +7,9 @@ stand beside the angle between its normals and the true ones. The variance is a 
 negative; the factors are those of the greatest likelihood (Student's, so that outliers do not dominate), every scene counting alike,
 scaled so that the median scene has the share of pixels within two sigma that is expected.
 
-``--distant`` does not ask what is expected of the normals: the factors are then those of distant light. ``--keep`` writes the indicators, or
-reads them where the file is there. ``--noise`` holds the factor of the samples' own noise, the first of distant light: drawn matter is
-the model's, and so says less of it than real sets do (``tools/bench_surface.py`` prints median errors over sigma on DiLiGenT).
+``--distant`` fits the factors of distant light, without the network's expected normals. ``--keep`` writes the indicators, or reads them if
+the file exists. ``--noise`` fixes the factor of the samples' own noise, the first of distant light: simulated matter follows the model, so
+it says less about that factor than real sets do (``tools/bench_surface.py`` prints median errors over sigma on DiLiGenT).
 
 Printed: the factors; for each scene the share of pixels within two sigma, by factors fitted on all the others (cross-validated by scene);
 the median and the worst tenth of these.

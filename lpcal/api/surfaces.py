@@ -48,7 +48,7 @@ from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
 from lpcal.surface import reconstruct as solver
-from lpcal.surface.reading import reading_of
+from lpcal.surface.sensor_reading import reading_of
 from lpcal.view.crop import Crop
 
 DISTANCE_M = 0.35

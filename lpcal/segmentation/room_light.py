@@ -1,14 +1,13 @@
-r"""How much light of the room a capture holds that has no image without lights: over wall, support and object alike.
+r"""The ambient (room) light of a capture without an ambient image, estimated over wall, support and object alike.
 
-At a coarse scale all that is seen is explained as matter of any normal, as planes or as a place that no lamp reaches, at one level of the
-room's light after another (see segmentation.ambient_sample_costs); the level at which all together cost least is that of the room, and each pixel's
-best explanation says what it holds of it. What is left without it is seen as a capture whose room light was taken away.
+The binned image is explained as surfaces of any normal, as planes, or as places that no lamp reaches, for one ambient level after another
+(see segmentation.ambient_sample_costs). The level of least total cost is the room's, and each pixel's best explanation gives its ambient
+part A. The capture without A is then treated as one whose ambient image was subtracted.
 
-What the explanations lack is smooth over a surface and changes the cost by more than noise does, so the costs' curvature says little of
-how sure a level is: how far parts of the picture disagree does. The picture's blocks are drawn again and again, with repetition, and what
-is said by all draws together counts (the block bootstrap, Kunsch 1989, Ann. Statist. 17; of posteriors, Buhlmann 2014, Statist. Sci. 29).
-With it goes what is known beforehand: what levels are usual, and that a place which no lamp reaches is a part of the same room, matter
-under the same light, which sends back about what the object does.
+Model errors are smooth over a surface and change the cost by more than noise does, so the curvature of the cost says little about the
+uncertainty of the level; the disagreement between parts of the image does. It is measured by the block bootstrap (Kunsch 1989, Ann.
+Statist. 17; of posteriors, Buhlmann 2014, Statist. Sci. 29). There are two priors: usual levels of rooms, and that a place which no lamp
+reaches is matter under the same ambient light, which reflects about as much of it as the object does.
 """
 
 from __future__ import annotations

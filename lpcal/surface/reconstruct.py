@@ -35,17 +35,17 @@ from lpcal.surface import (
     components,
     distance_search,
     normal_prior,
-    reading,
     rounds,
     self_calibration,
+    sensor_reading,
     surroundings,
     uncertainty,
     without_ambient,
 )
 from lpcal.surface.distance_search import DistanceMinima
-from lpcal.surface.reading import Reading
 from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
+from lpcal.surface.sensor_reading import Reading
 from lpcal.view import bands, pixel_list
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS
 from lpcal.view.pixel_list import PixelList
@@ -146,7 +146,7 @@ def reconstruct(
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
         minima = distance_search.search(maps, rays_C, object_mask, lights, float(begin), progress, radiance.name)
-        minima = reading.weighed(minima, options.reading, calibration.camera)
+        minima = sensor_reading.weighed(minima, options.reading, calibration.camera)
         u = minima.start(object_mask) if minima is not None else u
     around = beside()
     room, likely = room_of(radiance, object_mask), _of_object(background if wanted else None, radiance, options)
@@ -215,15 +215,15 @@ def _read(
     """The state and its surface with the piece that the distance sensor's beam meets put at the distance of light and reading together."""
     if options.reading is None or options.distance_m is not None or camera is None:
         return state, surface
-    said = reading.of_surface(surface, camera, options.reading)
-    if said.word is not None and abs(said.word.log_scale) > rounds.SETTLED:
+    said = sensor_reading.of_surface(surface, camera, options.reading)
+    if said.fused is not None and abs(said.fused.log_scale) > rounds.SETTLED:
         inside = surface.component[scene.seen.mask] == said.label
-        u = state.u + said.word.log_scale * inside
+        u = state.u + said.fused.log_scale * inside
         again = rounds.once(scene, u, state)
         again.u[:] = u  # the reading is in it already
         state = replace(again, weight=state.weight)
         surface = surface_of(radiance, scene, state, surface.rays_C, found)
-    return state, reading.said_of(surface, said)
+    return state, sensor_reading.with_reading(surface, said)
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:

@@ -1,4 +1,4 @@
-"""The mask's network: by a convolution written out, by what it must not depend on, and that its channels are those of segmentation.features."""
+"""The mask network: checked by an explicit convolution, by its invariances, and for having the channels of segmentation.features."""
 
 from __future__ import annotations
 

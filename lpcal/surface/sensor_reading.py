@@ -71,7 +71,7 @@ class DepthMap:
 
 
 @dataclass(frozen=True)
-class Word:
+class FusedDistance:
     """What a reading and near light together say of a piece's scale."""
 
     log_scale: float
@@ -86,7 +86,7 @@ class Word:
     """Distance along the beam at which the piece stands as near light has it; NaN where the beam misses it."""
 
 
-def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
+def fused(read: Reading, piece: DepthMap, light_std: float) -> FusedDistance:
     """Combine a reading with near light's estimate, of relative standard deviation `light_std`, of a piece's distance."""
     sensor, reading_m = read.sensor, read.reading_m
     r, std_m = sensor.along_m(reading_m), float(np.hypot(sensor.std_m(reading_m), SLOPE * sensor.across_std_m(reading_m)))
@@ -105,7 +105,7 @@ def word(read: Reading, piece: DepthMap, light_std: float) -> Word:
     mean = float(np.sum(weight * grid)) if odds > 0.5 else 0.0
     std = float(np.sqrt(np.sum(weight * (grid - mean) ** 2))) if odds > 0.5 else light_std
     middle = float(t_hit[NODES // 2])
-    return Word(mean, std if std > 0 else light_std, odds, float(np.log(evidence)), middle)
+    return FusedDistance(mean, std if std > 0 else light_std, odds, float(np.log(evidence)), middle)
 
 
 def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera | None) -> DistanceMinima | None:
@@ -118,7 +118,7 @@ def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera |
     for end in found.ends:
         depth = np.full(found.mask.shape, np.nan)
         depth[found.mask] = np.exp(end.u)
-        said.append(word(read, DepthMap(depth, camera, found.factor), APART).log_evidence)
+        said.append(fused(read, DepthMap(depth, camera, found.factor), APART).log_evidence)
     less = 2 * unit * (max(said) - np.array(said))
     ends = [replace(end, cost=float(end.cost + more)) for end, more in zip(found.ends, less, strict=True)]
     odds = odds_of(ends, found.lights, found.about_m)
@@ -126,38 +126,40 @@ def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera |
 
 
 @dataclass(frozen=True)
-class Said:
+class ReadingResult:
     """What a reading says of a surface: of which piece (0: of none), and what."""
 
     label: int
-    word: Word | None
+    fused: FusedDistance | None
     figures: DistanceRead
     alternatives: tuple[Alternative, ...] = ()
     """The other distances of that piece that the reading leaves likely."""
 
 
-def of_surface(surface: Surface, camera: Camera, read: Reading) -> Said:
+def of_surface(surface: Surface, camera: Camera, read: Reading) -> ReadingResult:
     """Weigh a reading against the surface found from the light, at the piece that the beam meets."""
     whole = DepthMap(np.asarray(surface.depth, float), camera)
     label = _label_met(read, whole, surface.component)
     if label == 0:
-        return Said(0, None, DistanceRead(reading_m=read.reading_m, expected_m=float("nan"), hit=0.0, moved=0.0))
+        return ReadingResult(0, None, DistanceRead(reading_m=read.reading_m, expected_m=float("nan"), hit=0.0, moved=0.0))
     own = next(one for one in surface.components if one.label == label)
     light_std = own.scale_std
     depth = np.where(surface.component == label, surface.depth, np.nan)
-    found = word(read, DepthMap(depth, camera), max(light_std, STATED_STD))
+    found = fused(read, DepthMap(depth, camera), max(light_std, STATED_STD))
     expected_m = read.sensor.bias_m + read.sensor.scale * found.expected_m
     moved = float(np.expm1(found.log_scale))
     figures = DistanceRead(reading_m=read.reading_m, expected_m=expected_m, hit=found.hit, moved=moved)
-    return Said(label, found, figures, _left(own, read, DepthMap(depth, camera), found))
+    return ReadingResult(label, found, figures, _left(own, read, DepthMap(depth, camera), found))
 
 
-def _left(own: Component, read: Reading, piece: DepthMap, found: Word) -> tuple[Alternative, ...]:
+def _left(own: Component, read: Reading, piece: DepthMap, found: FusedDistance) -> tuple[Alternative, ...]:
     """A piece's other distances with their odds by light and reading, those of UNLIKELY odds left out."""
     ratios = [1.0, *(other.mean_depth_m / own.mean_depth_m for other in own.alternatives)]
     odds = np.array([max(1 - sum(other.odds for other in own.alternatives), 1e-3), *(other.odds for other in own.alternatives)])
     here = np.exp(found.log_scale)
-    said = [word(read, replace(piece, depth=piece.depth * ratio * (here if k == 0 else 1.0)), STATED_STD) for k, ratio in enumerate(ratios)]
+    said = [
+        fused(read, replace(piece, depth=piece.depth * ratio * (here if k == 0 else 1.0)), STATED_STD) for k, ratio in enumerate(ratios)
+    ]
     evidence = np.array([one.log_evidence for one in said])
     odds = odds * np.exp(evidence - evidence.max())
     odds = odds / odds.sum()
@@ -165,12 +167,12 @@ def _left(own: Component, read: Reading, piece: DepthMap, found: Word) -> tuple[
     return tuple(replace(other, odds=float(one)) for other, one in both if one > UNLIKELY)
 
 
-def said_of(surface: Surface, said: Said) -> Surface:
+def with_reading(surface: Surface, said: ReadingResult) -> Surface:
     """The surface with the distance of its piece as sure as the reading makes it, and what was read among its figures."""
     figures = replace(surface.figures, distance_reading=said.figures)
-    if said.word is None or said.word.hit <= 0.5:
+    if said.fused is None or said.fused.hit <= 0.5:
         return replace(surface, figures=figures)
-    std = said.word.std
+    std = said.fused.std
     pieces = tuple(
         replace(one, scale_std=std, alternatives=tuple(replace(other, scale_std=std) for other in said.alternatives))
         if one.label == said.label

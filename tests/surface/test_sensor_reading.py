@@ -13,7 +13,7 @@ from lpcal.records.calibration import Camera
 from lpcal.records.distance import DistanceSensor
 from lpcal.records.observations import RawCapture
 from lpcal.surface.distance_search import DistanceMinima, DistanceMinimum
-from lpcal.surface.reading import DepthMap, Reading, weighed, word
+from lpcal.surface.sensor_reading import DepthMap, Reading, fused, weighed
 
 CAMERA = Camera(SIZE, "opencv4", K, np.zeros(4))
 U = np.array([-0.08, 0.0, 1.0]) / np.linalg.norm([-0.08, 0.0, 1.0])
@@ -29,7 +29,7 @@ def reading_of(depth_m: float) -> Reading:
 
 def test_a_reading_and_the_light_are_joined_by_their_variances() -> None:
     light_std = 0.02
-    found = word(reading_of(0.37), FRONT, light_std)
+    found = fused(reading_of(0.37), FRONT, light_std)
     sensor_std = np.hypot(SENSOR.std_m(0.37), 0.5 * SENSOR.across_std_m(0.37)) / 0.36
     share = light_std**2 / (light_std**2 + sensor_std**2)
     assert found.log_scale == pytest.approx(share * np.log(0.37 / 0.36), rel=0.06)
@@ -39,7 +39,7 @@ def test_a_reading_and_the_light_are_joined_by_their_variances() -> None:
 
 
 def test_a_reading_of_the_wall_moves_nothing() -> None:
-    found = word(reading_of(0.62), FRONT, 0.02)
+    found = fused(reading_of(0.62), FRONT, 0.02)
     assert (found.log_scale, found.std) == (0.0, 0.02)
     assert found.hit < 0.01
 
@@ -47,7 +47,7 @@ def test_a_reading_of_the_wall_moves_nothing() -> None:
 def test_a_beam_beside_the_object_says_nothing_of_it() -> None:
     depth = FRONT.depth.copy()
     depth[:, : SIZE[0] // 2 + 20] = np.nan  # the beam comes from the right and crosses to the left
-    found = word(reading_of(0.36), DepthMap(np.where(np.arange(SIZE[0]) < 20, 0.36, np.nan) + 0 * depth, CAMERA), 0.02)
+    found = fused(reading_of(0.36), DepthMap(np.where(np.arange(SIZE[0]) < 20, 0.36, np.nan) + 0 * depth, CAMERA), 0.02)
     assert found.hit < 0.5
 
 
