@@ -14,7 +14,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.formats.corner_cache import Sighting
 from lpcal.geometry.arrays import Array, Image
 from lpcal.records.observations import Board, BoardView, BoardViews
-from lpcal.view.bands import workers
+from lpcal.view.parallel import workers
 
 COUNTED_IMAGES = 3
 """Number of images without a board that are searched for a board of another count, before the rest is looked at where they come first."""

@@ -28,7 +28,7 @@ from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground, between
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
 from lpcal.view import pixel_list
-from lpcal.view.bands import shared
+from lpcal.view.parallel import run_all
 from lpcal.view.pixel_list import Indices
 
 SOLVED = 10_000_000
@@ -197,7 +197,7 @@ def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, s
         ]
 
     for row in rows_of_tiles:
-        for tile, found in zip(row, shared(outlined, row), strict=True):
+        for tile, found in zip(row, run_all(outlined, row), strict=True):
             inside[tile.core] = found
     return inside
 
@@ -224,7 +224,7 @@ def _surface(whole: solver.Full, found: solver.Maps, coarse: Surface) -> Surface
 
     height = inside.shape[0]
     bands = [slice(first, min(first + BAND_ROWS, height)) for first in range(0, height, BAND_ROWS)]
-    pixels = np.sum(shared(fill, bands), axis=0)
+    pixels = np.sum(run_all(fill, bands), axis=0)
     components = tuple(replace(piece, pixels=int(pixels[piece.label])) for piece in coarse.components)
     used = found.lights_used[inside]
     three = int(np.sum(np.isfinite(found.normal_std_deg[inside]) & (used >= 3)))

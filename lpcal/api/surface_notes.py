@@ -14,7 +14,7 @@ from lpcal.integration.convention import exchanged, hollow, mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
-from lpcal.view import bands
+from lpcal.view import parallel
 
 OUTSIDE = (0.5, 2.0)
 """Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
@@ -193,7 +193,7 @@ def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -
         good &= np.isfinite(expected) & (expected > 0)
         return float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan
 
-    found = bands.shared(of, range(len(radiance.lights)))
+    found = parallel.run_all(of, range(len(radiance.lights)))
     middle = np.nanmedian(found) if np.isfinite(found).any() else np.nan
     return {name: float(value - middle) for name, value in zip(radiance.lights, found, strict=True)}
 

@@ -49,7 +49,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
 
         return compare(open_workspace(options), options.compare)
     from lpcal.pipeline import intrinsics
-    from lpcal.view.bands import cores
+    from lpcal.view.parallel import cores
 
     absent = [image for image in options.images if not image.is_file()]
     if absent:

@@ -19,7 +19,7 @@ def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Write lights.yaml."""
     from lpcal.pipeline import refine
     from lpcal.pipeline.run import run_stage
-    from lpcal.view.bands import cores
+    from lpcal.view.parallel import cores
 
     with cores(jobs_of(options.jobs)):
         return run_stage(open_workspace(options), refine.STAGE, progress)

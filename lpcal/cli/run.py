@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, progress: Progress) -> Outcome:
     """Run what is out of date."""
     from lpcal.pipeline.run import rigs_in, run_all, run_rigs
-    from lpcal.view.bands import cores
+    from lpcal.view.parallel import cores
 
     with cores(jobs_of(options.jobs)):
         if not options.rigs:

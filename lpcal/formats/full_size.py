@@ -141,21 +141,21 @@ def settled(raw: RawCapture, sieve: Sieve, full: FullScale, mask: Mask | None) -
 
 def read_all[P](paths: Sequence[P], read: Callable[[P], Numbers], lights: int, first: Numbers, store: Keeper | None = None) -> Sieve:
     """A sieve that has taken the images of these paths, by threads that share them; they are kept in `store`, else in a file of its own."""
-    from lpcal.view.bands import shared
+    from lpcal.view.parallel import run_all
 
     sieve = Sieve.of(first, len(paths), lights, store)
-    shared(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
+    run_all(lambda k: sieve.take(k, first if k == 0 else read(paths[k])), range(len(paths)))
     return sieve
 
 
 def made_coarse(raw: RawCapture) -> RawCapture:
     """A capture that is held in coarse pixels, its images beside it in full size."""
-    from lpcal.view.bands import shared
+    from lpcal.view.parallel import run_all
 
     ambient = [] if raw.ambient is None else [*raw.ambient]
     store = InMemory([*raw.images, *ambient, *raw.short.values()])
     sieve = Sieve(store, 1.0, raw.step, factor_for(raw.images.shape[1:]), len(raw.images))
-    shared(lambda k: sieve.take(k, Numbers(store.images[k], 1.0, raw.step)), range(len(store.images)))
+    run_all(lambda k: sieve.take(k, Numbers(store.images[k], 1.0, raw.step)), range(len(store.images)))
     white = raw.white_level or 1.0
     full = FullScale(white_level=piled_level(raw.images, white, raw.step) or white)
     L, K = len(raw.images), len(ambient)

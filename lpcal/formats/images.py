@@ -36,7 +36,7 @@ from lpcal.geometry.arrays import Image
 from lpcal.geometry.tone_curve import decode
 from lpcal.records.quantities import LEAST_GAMMA, MOST_GAMMA
 from lpcal.records.sensor import ToneClaim
-from lpcal.view import bands
+from lpcal.view import parallel
 
 RAW_NUMBERS = ToneClaim("are a camera's raw numbers", 1.0)
 """What a raw file says of its tone curve."""
@@ -143,7 +143,7 @@ def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple
     def fill(k: int) -> None:
         found[k] = read(paths[k]).image.pixels
 
-    bands.shared(fill, range(len(paths)))
+    parallel.run_all(fill, range(len(paths)))
     return found
 
 

@@ -36,7 +36,7 @@ from lpcal.integration.mesh import DISPLAY_GAMMA, MeshBands
 from lpcal.records.figures import SurfaceFigures
 from lpcal.records.placement import Placement
 from lpcal.records.surface import Component, Surface, SurfaceSummary
-from lpcal.view import bands
+from lpcal.view import parallel
 
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component")
 BAND_ROWS = 512
@@ -98,7 +98,7 @@ def write_surface(
             lambda: said.extend(write_meshes(draft, surface, outputs, surface.placement if placed_mesh else None)),
             lambda: _write_images(draft, surface, outputs),
         ]
-        bands.shared(lambda work: work(), works)
+        parallel.run_all(lambda work: work(), works)
         files = {path.name: path.stat().st_size for path in sorted(draft.iterdir())}
         notes = {"notes": [*summary["notes"], *said]} if said else {}
         (draft / SUMMARY).write_text(json.dumps(plain({**summary, **notes, "files": files}), indent=1) + "\n", encoding="utf-8")

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.shown import Shown
 from lpcal.records.surface import Surface
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.crop import Crop
 
 DISPLAY_GAMMA = 2.2
@@ -68,7 +68,7 @@ class MeshBands:
         if not surface.breaks.size:
             surface = replace(surface, breaks=ends_of(surface.mask))
         used, counts = np.zeros(surface.mask.shape, bool), np.zeros(len(CORNERS), int)
-        for rows in bands.bands(*_squares(surface)):
+        for rows in parallel.bands(*_squares(surface)):
             for kind in range(len(CORNERS)):
                 kept = _kept(surface, rows, kind)
                 counts[kind] += np.count_nonzero(kept)
@@ -105,13 +105,13 @@ class MeshBands:
     def faces(self) -> Iterator[Faces]:
         """Triangles (F, 3), kind by kind."""
         for kind, corners in enumerate(CORNERS):
-            for rows in bands.bands(*_squares(self.surface)):
+            for rows in parallel.bands(*_squares(self.surface)):
                 kept = _kept(self.surface, rows, kind)
                 yield np.stack([_corner(self.number, rows, corner)[kept] for corner in corners], axis=1)
 
     def _used(self) -> Iterator[tuple[slice, Mask]]:
         """Bands of rows, and which pixels (h, W) of them are vertices."""
-        for rows in bands.bands(*self.number.shape):
+        for rows in parallel.bands(*self.number.shape):
             yield rows, self.number[rows] >= 0
 
 

@@ -12,7 +12,7 @@ from lpcal.integration.multigrid import Matrix, Pyramid
 from lpcal.kernels.library import kernel
 from lpcal.records.figures import Flatness
 from lpcal.records.surface import Surface
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import FEWEST_PIXELS, REGULARISATION, RIM_PX, SMALLEST_SHARE
 from lpcal.view.pixel_list import Indices
 
@@ -135,7 +135,7 @@ def flatness(surface: Surface) -> Flatness | None:
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST_PIXELS:
         return None
     places = np.flatnonzero(inside)
-    places = places[:: max(1, len(places) // bands.SAMPLES)]
+    places = places[:: max(1, len(places) // parallel.SAMPLES)]
     points = (surface.rays_C.reshape(-1, 3)[places] * surface.depth.ravel()[places, None]).astype(float)
     centred = points - points.mean(axis=0)
     along = np.linalg.svd(centred.T @ centred)[0]

@@ -44,7 +44,7 @@ from lpcal.records.sensor import StatedSensor
 from lpcal.records.surface import Surface
 from lpcal.report.relight_page import render
 from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
-from lpcal.view.bands import cores, shared
+from lpcal.view.parallel import cores, run_all
 
 CALIBRATION = "calibration.yaml"
 MASK_WORDS = {"auto", "none"}
@@ -215,7 +215,7 @@ def peak_memory_mb() -> int | None:
 def hashes_of(task: Task, calibration_path: Path) -> Hashes:
     """sha256 of the calibration and of every file of the capture, which cores share."""
     files = [calibration_path, *files_of(task.capture)]
-    return dict(zip(files, shared(sha256, files), strict=True))
+    return dict(zip(files, run_all(sha256, files), strict=True))
 
 
 def made_from_of(task: Task, wishes: Wishes, hashes: Hashes) -> str:

@@ -34,7 +34,7 @@ from lpcal.records.observations import RawCapture, SphereView
 from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.rig import SphereSection
 from lpcal.records.sensor import Sensor
-from lpcal.view.bands import shared
+from lpcal.view.parallel import run_all
 
 FILE = "lights.yaml"
 NEAREST, FARTHEST = 0.4, 2.5
@@ -153,7 +153,7 @@ def _looked(
         return found
 
     progress("spheres", 0, len(spheres))
-    return dict(zip(spheres, shared(look, spheres.items()), strict=True))
+    return dict(zip(spheres, run_all(look, spheres.items()), strict=True))
 
 
 def _thinned(finding: SphereFinding) -> SphereFinding:

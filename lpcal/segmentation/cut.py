@@ -12,7 +12,7 @@ import numpy as np
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.crop import Crop
 
 STEPS = 200
@@ -109,7 +109,7 @@ def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
     box, found = Crop.about(mask), mask.copy()
     inside = box.of(mask)
     signal, sigma = (one[:, box.rows, box.columns] for one in (signal, sigma))
-    (within, inner), (beyond, outer) = bands.shared(near, (inside, ~inside))
+    (within, inner), (beyond, outer) = parallel.run_all(near, (inside, ~inside))
     step = (inner - outer) / sigma
     share = np.sum((signal - outer) / sigma * step, axis=0) / np.maximum(np.sum(step**2, axis=0), 1e-12)
     box.of(found)[...] = np.where((within <= BESIDE_PX) & (beyond <= BESIDE_PX), share > HALF, inside)

@@ -21,7 +21,7 @@ from lpcal.geometry.arrays import Array, Image, Labels, Mask
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import background, plane_hough, sample_costs
 from lpcal.segmentation.features import SPARED, View
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import UNLIKELY
 from lpcal.view.pixel_list import Indices, strength
@@ -127,7 +127,7 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
             cost = cost - np.clip(2 * np.log(appearance.at(np.log(np.maximum(albedo, 1e-12)))), -PLANE_SAYS, PLANE_SAYS)
         return np.asarray(cost + matter)
 
-    found += bands.shared(in_plane, range(len(layers.planes)))
+    found += parallel.run_all(in_plane, range(len(layers.planes)))
     other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
     total = np.stack([*found, nothing + layers.nothing, other])
     blind = at.usable.sum(axis=0) < 3
@@ -168,7 +168,7 @@ def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, 
         albedo = np.log(np.maximum(plane_hough.explained(image, table, q)[1][own], 1e-12))
         return q, _appearance(albedo, albedo)
 
-    both = bands.shared(again, kept)
+    both = parallel.run_all(again, kept)
     planes, of_plane = [q for q, _ in both], [appearance for _, appearance in both]
     new = np.full(count + 3, 0)
     new[[k + 1 for k in kept]] = np.arange(1, len(kept) + 1)

@@ -19,7 +19,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.cauchy_fit import Equations
 from lpcal.kernels.library import kernel
 from lpcal.segmentation import ambient_sample_costs, sample_costs
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.coarse import Coarse, LightTable, RoomPrior
 from lpcal.view.pixel_list import Indices
 
@@ -89,7 +89,7 @@ def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -
         B, doubt = table.at(np.full(len(everywhere), u[k]), everywhere)
         b[k], cost[k] = _free(image, B, doubt)
 
-    bands.shared(ask, range(len(u)))
+    parallel.run_all(ask, range(len(u)))
     return Sweep(u, b, cost)
 
 
@@ -152,7 +152,7 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
         return size(explains(q)), q
 
     while len(found) < MOST and left.sum() > SMALLEST * left.size:
-        trials = bands.shared(trial, votes.peaks(left))
+        trials = parallel.run_all(trial, votes.peaks(left))
         if not trials:
             break
         q = fitted(image, table, max(trials, key=lambda one: one[0])[1], left, rounds=4)

@@ -16,7 +16,7 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
 from lpcal.segmentation.sample_costs import MODEL
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.pixel_list import PixelList, light_vectors
 
 SHADE = 0.5
@@ -86,7 +86,7 @@ def between(lattice: Array, place: Array) -> Array:
             run(len(found), len(lattice), len(some), lattice, some, found)
             return found
 
-        return np.concatenate(bands.each(len(place), lattice.shape[2], of), axis=1)
+        return np.concatenate(parallel.run_bands(len(place), lattice.shape[2], of), axis=1)
     node = np.clip(place.astype(int), 1, len(lattice) - 3)
     f = (place - node).T
     weight = np.stack([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6])
@@ -139,7 +139,7 @@ def misfit(seen: PixelList, m: Array, *, shaded: bool = True) -> tuple[Array, Ar
         signal, sigma, white = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma, m))
         given = (*m.shape, signal, sigma, np.ascontiguousarray(seen.usable), white, shaded, np.array([MODEL, SHADE, WEAK]))
         square, count = np.empty(seen.pixels), np.empty(seen.pixels)
-        bands.each(seen.pixels, len(m), lambda at: run(*given, at.start, at.stop, square, count))
+        parallel.run_bands(seen.pixels, len(m), lambda at: run(*given, at.start, at.stop, square, count))
         return square, count
     r, count = residuals(seen, m, shaded=shaded)
     return np.where(count >= 2, np.sum(r**2, axis=0) / np.maximum(count - 1, 1), np.inf), count

@@ -31,7 +31,7 @@ from lpcal.integration.multigrid import MOST, PRECISION
 from lpcal.kernels.library import kernel
 from lpcal.shading import gloss
 from lpcal.shading.normals import Estimate, joined
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import DOUBT, LEAST_COSINE, OUTLIER2
 from lpcal.view.pixel_list import Illumination, PixelList
 
@@ -216,13 +216,13 @@ def _gathered(
     """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrices (P, 3, 3) and right sides (P, 3)."""
     if run := kernel("gathered"):
         given, own, right = _given(seen, lit, b, v, hidden, shine, warmth), np.empty((seen.pixels, 3, 3)), np.empty((seen.pixels, 3))
-        bands.each(seen.pixels, len(seen.signal), lambda at: run(*given, at.start, at.stop, own, right))
+        parallel.run_bands(seen.pixels, len(seen.signal), lambda at: run(*given, at.start, at.stop, own, right))
         return own, right
 
     def of(at: slice) -> tuple[Array, Array]:
         return _gathered_of(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine, warmth)
 
-    parts = bands.each(seen.pixels, len(seen.signal), of)
+    parts = parallel.run_bands(seen.pixels, len(seen.signal), of)
     return np.concatenate([own for own, _ in parts]), np.concatenate([right for _, right in parts])
 
 
@@ -310,7 +310,7 @@ def strengths_seen(
     own, pull, C, square, slope = _evidence(seen, lit, hidden, before, parts)
     system = _System.at(grid, before.b, own)
     smooth = system.times(before.b) - np.einsum("pij,pj->pi", own, before.b)
-    answers = bands.shared(lambda one: system.solved(one, np.zeros_like(before.b)), (*C, pull - smooth))
+    answers = parallel.run_all(lambda one: system.solved(one, np.zeros_like(before.b)), (*C, pull - smooth))
     taken = np.array([[np.sum(one * answer) for answer in answers] for one in C])
     curvature = square - taken[:, :-1]
     return (curvature + curvature.T) / 2, slope - taken[:, -1]
@@ -331,7 +331,7 @@ def _evidence(
             run(*given, at.start, at.stop, own, pull, across, sums)
             return sums
 
-        total = np.sum(bands.each(P, L, summed), axis=0)
+        total = np.sum(parallel.run_bands(P, L, summed), axis=0)
         return own, pull, across, total[: N * N].reshape(N, N), total[N * N :]
 
     def of(at: slice) -> tuple[Array, Array, Array, Array, Array]:
@@ -345,7 +345,7 @@ def _evidence(
         across = np.einsum("kp,nkp,kpi->npi", weight, column, light.B)
         return own, pull, across, np.einsum("kp,nkp,mkp->nm", weight, column, column), np.einsum("kp,nkp->n", weight * state.lit, column)
 
-    owns, pulls, acrosses, squares, slopes = zip(*bands.each(seen.pixels, len(seen.signal), of), strict=True)
+    owns, pulls, acrosses, squares, slopes = zip(*parallel.run_bands(seen.pixels, len(seen.signal), of), strict=True)
     return np.concatenate(owns), np.concatenate(pulls), np.concatenate(acrosses, axis=1), sum(squares), sum(slopes)
 
 
@@ -360,13 +360,13 @@ def _by_pixels(seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: M
             some = np.empty((3, L, 64))  # BLOCK of kernels/states.c
             run(*given, lambert.SINGULAR, at.start, at.stop, some, own, inliers, covariance, chi2, cost, shown)
 
-        bands.each(P, L, work)
+        parallel.run_bands(P, L, work)
         return Estimate(own, inliers, covariance, chi2, cost, None if shine is None else shown)
 
     def of(at: slice) -> Estimate:
         return _of_pixels(seen.at(at), lit.at(at), b[at], v[at], None if hidden is None else hidden[:, at], shine)
 
-    return joined(bands.each(seen.pixels, len(seen.signal), of))
+    return joined(parallel.run_bands(seen.pixels, len(seen.signal), of))
 
 
 def _of_pixels(seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:

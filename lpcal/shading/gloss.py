@@ -24,7 +24,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER2, OUTLIER_RATE, REGULARISATION, UNLIKELY
 from lpcal.view.pixel_list import Illumination
 
@@ -108,7 +108,7 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Illumination, n: Ar
         one = _unexplained(residual, lit.E * lobe(lit.d, n, v, roughness), weight, spread2, B)
         return one, _costs(*one, ks, weight, spread2, DOUBT).sum(axis=1)
 
-    found = bands.shared(of, ROUGHNESSES)
+    found = parallel.run_all(of, ROUGHNESSES)
     cost = np.stack([each for _, each in found])
     common = np.exp(-((np.log(F0 / COMMON_F0) / COMMON_SPREAD) ** 2) / 2)
     prior = ((1 - OUTLIER_RATE) * common / common.sum() + OUTLIER_RATE / len(F0)) / len(ROUGHNESSES)

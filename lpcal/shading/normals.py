@@ -21,7 +21,7 @@ import numpy as np
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.kernels.library import kernel
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import LEAST_COSINE, OUTLIER, OUTLIER2, SHADOW
 from lpcal.view.pixel_list import LIGHTS_NEEDED, Illumination, Indices, PixelList, vectors
 
@@ -86,7 +86,7 @@ def candidates(seen: PixelList, E: Array, hidden: Mask | None = None) -> Mask:
         found = lit & (shading > SHADOW * bright) & (signal > OUTLIER * seen.sigma[:, at])
         return found if hidden is None else found & ~hidden[:, at]
 
-    return np.concatenate(bands.each(seen.pixels, len(E), of), axis=1)
+    return np.concatenate(parallel.run_bands(seen.pixels, len(E), of), axis=1)
 
 
 def variances(seen: PixelList) -> Array:
@@ -104,7 +104,7 @@ def estimate(seen: PixelList, light: Illumination | Array, usable: Mask, varianc
     def of(at: slice) -> Estimate:
         return way(seen.signal[:, at], vectors(light, at), usable[:, at], variance[:, at], seen.rays_C[at])
 
-    return joined(bands.each(seen.pixels, len(seen.signal), of))
+    return joined(parallel.run_bands(seen.pixels, len(seen.signal), of))
 
 
 def joined(parts: list[Estimate]) -> Estimate:
@@ -137,7 +137,7 @@ def gloss_share(lit: Illumination, found: Estimate) -> Array:
         direct = np.where(inliers, lambert.predicted(lit.at(at).direct, np.nan_to_num(found.b[at])), 0.0).sum(axis=0)
         return np.asarray(np.where(inliers, shown[:, at], 0.0).sum(axis=0) / np.maximum(direct, 1e-12))
 
-    return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
+    return np.concatenate(parallel.run_bands(len(found.b), len(found.inliers), of))
 
 
 def interreflected_share(lit: Illumination, found: Estimate) -> Array:
@@ -153,7 +153,7 @@ def interreflected_share(lit: Illumination, found: Estimate) -> Array:
         )
         return np.asarray(interreflected / np.maximum(direct, 1e-12))
 
-    return np.concatenate(bands.each(len(found.b), len(found.inliers), of))
+    return np.concatenate(parallel.run_bands(len(found.b), len(found.inliers), of))
 
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:

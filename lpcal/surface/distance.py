@@ -21,7 +21,7 @@ from lpcal.integration.integrate import Own
 from lpcal.kernels.library import kernel
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate, interreflected_share, variances
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import DOUBT, FEWEST_PIXELS, OUTLIER, REGULARISATION
 from lpcal.view.pixel_list import Illumination, Indices, PixelList, vectors
 
@@ -42,7 +42,7 @@ def own_distance(light: Illumination | Array, slope_of: Callable[[slice], Array]
     def of(at: slice) -> Own:
         return _own(vectors(light, at), slope_of(at), depth[at], seen.at(at), found.at(at))
 
-    parts = bands.each(seen.pixels, len(seen.signal), of)
+    parts = parallel.run_bands(seen.pixels, len(seen.signal), of)
     return Own(np.concatenate([part.curvature for part in parts]), np.concatenate([part.optimum for part in parts]))
 
 

@@ -30,7 +30,7 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance
-from lpcal.view import bands, coarse
+from lpcal.view import coarse, parallel
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
 from lpcal.view.crop import Crop
@@ -134,7 +134,7 @@ def search(
 
     progress(f"{name}: distance", 0, len(STARTS))
     ends: list[DistanceMinimum] = []
-    for end in bands.shared(ended, STARTS):
+    for end in parallel.run_all(ended, STARTS):
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
             ends.append(end)

@@ -32,7 +32,7 @@ from lpcal.shading.normals import Estimate, albedo_of
 from lpcal.surface import uncertainty
 from lpcal.surface.ground import Ground
 from lpcal.surface.rounds import FULL_ROUNDS, Scene
-from lpcal.view import bands, pixel_list
+from lpcal.view import parallel, pixel_list
 from lpcal.view.constants import LEAST_COSINE, OUTLIER2, REGULARISATION
 from lpcal.view.crop import MARGIN_PX
 from lpcal.view.pixel_list import Illumination
@@ -127,7 +127,7 @@ class Full:
         what = f"{self.scene.name}: normals in full size"
         for k, row in enumerate(rows_of_tiles):
             progress(what, k, len(rows_of_tiles))
-            bands.shared(lambda tile: self._shaded(tile, found), [tile for tile in row if self.mask[tile.core].any()])
+            parallel.run_all(lambda tile: self._shaded(tile, found), [tile for tile in row if self.mask[tile.core].any()])
         progress(what, len(rows_of_tiles), len(rows_of_tiles))
         self._integrated(found, progress)
         return found
@@ -192,7 +192,7 @@ class Full:
         for k, row in enumerate(rows_of_tiles):
             progress(what, k, len(rows_of_tiles))
             some = [tile for tile in row if self.mask[tile.core].any()]
-            for tile, u in zip(some, bands.shared(lambda tile: self._front(tile, found), some), strict=True):
+            for tile, u in zip(some, parallel.run_all(lambda tile: self._front(tile, found), some), strict=True):
                 ramp = _ramp(tile, size, margin)
                 found.depth[tile.outer] += ramp * u
                 total[tile.outer] += ramp
@@ -239,7 +239,7 @@ def finished(full: Full, found: Maps, agree_deg: float, calibration_deg: float) 
         def of(tile: Tile, measured: Image = measured) -> tuple[Image, Image]:
             return _drawn(full, found, tile, measured[:, tile.columns], agree_deg, calibration_deg)
 
-        for tile, (n, sigma) in zip(row, bands.shared(of, row), strict=True):
+        for tile, (n, sigma) in zip(row, parallel.run_all(of, row), strict=True):
             found.normals[tile.core], found.normal_std_deg[tile.core] = n, sigma
 
 

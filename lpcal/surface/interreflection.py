@@ -31,7 +31,7 @@ from lpcal.shading.normals import Estimate
 from lpcal.surface import relief as body
 from lpcal.surface.relief import Relief, interreflected_by_sides
 from lpcal.surface.surroundings import Around, Patches
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, OUTLIER_RATE, REGULARISATION, RIM_PX
 from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
@@ -171,7 +171,7 @@ class _Joined:
 
     def at_pixels(self, values: Array) -> Array:
         """Light vectors (L, P, 3) of those of the patches (L, Q, 3)."""
-        return np.stack(bands.shared(lambda of_light: self.spread(of_light.T).T, values))
+        return np.stack(parallel.run_all(lambda of_light: self.spread(of_light.T).T, values))
 
 
 @dataclass(frozen=True)
@@ -265,9 +265,9 @@ def _received(at: Patches, of: Patches, relief: Relief) -> Array:
         def of_band(some: slice) -> None:
             run(*found.shape[:2], len(of.x_C), *patches, found, *between, LEAST_COSINE, OFF, some.start, some.stop)
 
-        bands.each(len(at.x_C), bands.SAMPLES // BLOCK, of_band)
+        parallel.run_bands(len(at.x_C), parallel.SAMPLES // BLOCK, of_band)
         return found
-    for some in bands.bands(len(at.x_C), bands.SAMPLES // BLOCK):
+    for some in parallel.bands(len(at.x_C), parallel.SAMPLES // BLOCK):
         e = of.x_C[None] - at.x_C[some, None]
         square = np.maximum(lambert.dot(e, e), 1e-18)
         e /= np.sqrt(square)[..., None]

@@ -20,7 +20,7 @@ from lpcal.integration.integrate import normals_of, settle, steps
 from lpcal.integration.pieces import BREAK_WEIGHT
 from lpcal.shading import field, normals
 from lpcal.shading.normals import Estimate
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import MANY_PIXELS
 from lpcal.view.network import Network
 from lpcal.view.pixel_list import Illumination, PixelList
@@ -188,7 +188,7 @@ def features(scene: Scene, state: State) -> dict[str, Array]:
         own = own - first
         return first, {name: np.bincount(own, one) for name, one in channels(scene, state, whole, at).items()}
 
-    parts = bands.each(seen.pixels, len(seen.signal), summed)
+    parts = parallel.run_bands(seen.pixels, len(seen.signal), summed)
     total = {name: np.zeros(len(count)) for name in parts[0][1]}
     for first, part in parts:
         for name, one in part.items():

@@ -46,7 +46,7 @@ from lpcal.surface.distance_search import DistanceMinima
 from lpcal.surface.rounds import Scene, State
 from lpcal.surface.self_calibration import exchanged
 from lpcal.surface.sensor_reading import Reading
-from lpcal.view import bands, pixel_list
+from lpcal.view import parallel, pixel_list
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS
 from lpcal.view.pixel_list import PixelList
 
@@ -141,7 +141,7 @@ def reconstruct(
         lights = tuple(replace(light, intensity=light.intensity * factor) for light, factor in zip(lights, gain, strict=True))
         maps = pixel_list.grey(radiance, lights)
         seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=central)
-    beside = bands.begun(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
+    beside = parallel.start(partial(surroundings.found_beside, maps, rays_C, object_mask, background if near else None, lights))
     minima = None
     u = np.full(seen.pixels, np.log(begin) if central else 0.0)
     if near and options.distance_m is None:
@@ -308,7 +308,7 @@ def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
     def of(at: slice) -> Array:
         return albedo_of(signal[:, inside[at]], intensity, state.lit.at(at), state.normals[at], state.found.at(at), seen.at(at))
 
-    found = np.concatenate(bands.each(seen.pixels, len(lights), of))
+    found = np.concatenate(parallel.run_bands(seen.pixels, len(lights), of))
     return found[:, 0] if channels == 1 else found
 
 

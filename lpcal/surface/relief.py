@@ -25,7 +25,7 @@ from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import LEAST_COSINE, MANY_PIXELS, SHADOW_STEPS
 from lpcal.view.pixel_list import Indices, PixelList, light_vectors, powers
 
@@ -142,7 +142,7 @@ def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
             given = (np.ascontiguousarray(one[some], float) for one in (x_C, way))
             run(some.stop - some.start, *given, len(REACHES), REACHES, HALVINGS, *body, found[some], far[some])
 
-        bands.each(len(x_C), len(REACHES), of)
+        parallel.run_bands(len(x_C), len(REACHES), of)
         at = np.flatnonzero(found)
         return _unseen(at, x_C[at] + far[at, None] * way[at], relief)
     low, high = np.zeros(len(x_C)), np.zeros(len(x_C))

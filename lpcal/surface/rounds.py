@@ -24,7 +24,7 @@ from lpcal.surface import distance, distance_search, interreflection
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
-from lpcal.view import bands, pixel_list
+from lpcal.view import parallel, pixel_list
 from lpcal.view.coarse import SPAN
 from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION, SHADOW_STEPS, STATED_STD
 from lpcal.view.crop import Crop
@@ -272,7 +272,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Illumination) 
         if scene.around is not None:
             by_any[k, maybe] |= scene.around.front.hidden_from(x_C[maybe], source_C, SHADOW_STEPS)
 
-    bands.shared(of, range(len(scene.lights)))
+    parallel.run_all(of, range(len(scene.lights)))
     return by_object, by_any
 
 

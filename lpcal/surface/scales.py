@@ -15,7 +15,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array
 from lpcal.integration.integrate import Grid, Own
 from lpcal.shading.normals import Estimate
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import LEAST_COSINE, REGULARISATION
 from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
@@ -109,7 +109,7 @@ class Blocks:
 
     def lit(self, lights: Illumination, lit: Illumination) -> Illumination:
         """The light at the pixels: of the `lights` there, and of other surfaces linear between that of the blocks."""
-        interreflected = None if lit.interreflected is None else np.stack(bands.shared(self.between, lit.interreflected))
+        interreflected = None if lit.interreflected is None else np.stack(parallel.run_all(self.between, lit.interreflected))
         unseen = None if lit.unseen is None else self.between(lit.unseen)
         return replace(lights, interreflected=interreflected, unseen=unseen)
 

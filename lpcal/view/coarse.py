@@ -18,7 +18,7 @@ from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.kernels.library import kernel
 from lpcal.records.calibration import Light
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.pixel_list import Indices, SignalMaps, light_vectors
 
 SPAN = (0.25, 6.0)
@@ -163,7 +163,7 @@ class LightTable:
             def fill(k: int) -> None:
                 np.matmul(by_column, (by_row[k] @ lattice).reshape(LATTICE[1], -1), out=found[k])
 
-            bands.shared(fill, range(len(found)))
+            parallel.run_all(fill, range(len(found)))
             return found.reshape(-1, *values.shape[2:])
 
         of_lattice = np.moveaxis(B, 0, 3).transpose(1, 2, 0, 3, 4)

@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import CERTAIN
 
 PLACE = 40.0
@@ -91,7 +91,7 @@ class Network:
         counted = np.ones(x.shape[1:], bool) if inside is None else inside
         mirror = self.mirrored[:, None, None] * x[:, :, ::-1]
         both = (x, counted), (mirror, counted[:, ::-1])
-        own, mirrored = bands.shared(lambda one: self._once(*one), both)
+        own, mirrored = parallel.run_all(lambda one: self._once(*one), both)
         return own, mirrored[..., ::-1]
 
     def _once(self, x: Image, inside: Mask) -> Image:

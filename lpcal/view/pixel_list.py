@@ -16,7 +16,7 @@ from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.calibration import Calibration, Camera, Light
 from lpcal.records.observations import Radiance
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.constants import LEAST_COSINE
 
 type Indices = npt.NDArray[np.int64]
@@ -216,7 +216,7 @@ def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
         pixels[..., 0], pixels[..., 1] = np.arange(width), np.arange(rows.start, rows.stop)[:, None]
         rays_C[rows, :, :2] = camera.slopes(pixels)
 
-    bands.each(height, width, fill)
+    parallel.run_bands(height, width, fill)
     return rays_C
 
 
@@ -251,7 +251,7 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
     def fill(place: tuple[int, slice]) -> None:
         d[place], E[place] = lights[place[0]].unit_field(x_C[place[1]], single=True)
 
-    bands.shared(fill, [(k, at) for k in range(len(lights)) for at in bands.bands(len(x_C), 1)])
+    parallel.run_all(fill, [(k, at) for k in range(len(lights)) for at in parallel.bands(len(x_C), 1)])
     return d, E
 
 

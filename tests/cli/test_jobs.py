@@ -10,7 +10,7 @@ import pytest
 
 from lpcal.cli.engine_words import add_cores, jobs_of
 from lpcal.errors import UsageError
-from lpcal.view.bands import cores, shared, workers
+from lpcal.view.parallel import cores, run_all, workers
 
 
 def asked(*words: Any) -> Any:
@@ -39,7 +39,7 @@ def test_what_is_said_outside_holds_inside_unless_that_says_more() -> None:
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_work_comes_back_in_its_order(count: Any) -> None:
     with cores(count):
-        assert shared(lambda k: k * k, range(20)) == [k * k for k in range(20)]
+        assert run_all(lambda k: k * k, range(20)) == [k * k for k in range(20)]
 
 
 @pytest.mark.parametrize("command", ["intrinsics", "refine", "run", "reconstruct"])

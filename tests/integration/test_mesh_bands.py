@@ -20,7 +20,7 @@ from lpcal.integration import mesh
 from lpcal.records.surface import Surface
 from lpcal.report import packing, pictures
 from lpcal.report.pictures import bounds, shaded, shrink, shrunk
-from lpcal.view import bands
+from lpcal.view import parallel
 
 CAMERA = lpcal.Camera((90, 70), "opencv4", np.array([[100.0, 0, 44], [0, 100, 34], [0, 0, 1]]), np.zeros(4))
 
@@ -47,7 +47,7 @@ def test_a_mesh_is_the_same_in_bands_of_any_height(
 ) -> None:
     surface = broken(camera=camera, colours=colours)
     whole = mesh.build(surface)
-    monkeypatch.setattr(bands, "SAMPLES", pixels)
+    monkeypatch.setattr(parallel, "SAMPLES", pixels)
     found = mesh.build(surface)
     for one in fields(mesh.Mesh):
         assert np.array_equal(getattr(found, one.name), getattr(whole, one.name)), one.name
@@ -81,7 +81,7 @@ def test_a_mesh_holds_the_triangles_of_unbroken_corners_and_their_pixels_alone()
 def test_the_files_of_a_mesh_in_bands_hold_the_mesh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     surface = broken()
     whole = mesh.build(surface)
-    monkeypatch.setattr(bands, "SAMPLES", 90 * 5)
+    monkeypatch.setattr(parallel, "SAMPLES", 90 * 5)
     write_meshes(tmp_path, surface, {"ply", "glb"})
     for name, turn in (("mesh.ply", [1, 1, 1]), ("mesh.glb", [1, -1, -1])):
         found: Any = trimesh.load(tmp_path / name, process=False, force="mesh")
@@ -90,7 +90,7 @@ def test_the_files_of_a_mesh_in_bands_hold_the_mesh(tmp_path: Path, monkeypatch:
 
 
 def test_a_mesh_is_written_in_less_memory_than_a_fifth_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bands, "SAMPLES", 4000)
+    monkeypatch.setattr(parallel, "SAMPLES", 4000)
     surface = broken(500, 700, None)
     taken = most_held(lambda: write_meshes(tmp_path, surface, {"ply", "glb"}))
     assert taken < 0.2 * sum(path.stat().st_size for path in tmp_path.iterdir())

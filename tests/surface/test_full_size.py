@@ -19,7 +19,7 @@ from lpcal.formats.full_size import Scratch
 from lpcal.records.full_images import PART
 from lpcal.surface.full_size import _ramp, tiles
 from lpcal.surface.ground import between
-from lpcal.view.bands import cores
+from lpcal.view.parallel import cores
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.3, 0.3, -1]])
 S /= np.linalg.norm(S, axis=1, keepdims=True)

@@ -29,7 +29,7 @@ from lpcal.pipeline.workspace import Workspace
 from lpcal.records.calibration import Camera, LightsSolution, Wings
 from lpcal.records.observations import SphereView
 from lpcal.records.outcome import silent
-from lpcal.view.bands import cores
+from lpcal.view.parallel import cores
 
 RIG = Path(__file__).resolve().parents[3] / "calib_data" / "demo_rig"
 Run = Callable[..., tuple[int, str, str]]

@@ -14,7 +14,7 @@ from lpcal.integration.integrate import Grid
 from lpcal.records.calibration import LedCluster, Lobe
 from lpcal.records.outcome import silent
 from lpcal.surface import rounds
-from lpcal.view import bands
+from lpcal.view import parallel
 from lpcal.view.crop import MARGIN_PX, Crop
 from lpcal.view.pixel_list import PixelList, light_vectors, ray_map
 
@@ -23,11 +23,11 @@ S /= np.linalg.norm(S, axis=1, keepdims=True)
 DOME = lpcal.Calibration("dome", tuple(lpcal.Light(f"L{k}", s, np.ones(1)) for k, s in enumerate(S)))
 
 
-@pytest.mark.parametrize(("pixels", "lights"), [(1, 1), (100_000, 6), (3_000, 96), (5, 10 * bands.SAMPLES)])
+@pytest.mark.parametrize(("pixels", "lights"), [(1, 1), (100_000, 6), (3_000, 96), (5, 10 * parallel.SAMPLES)])
 def test_bands_hold_every_pixel_once_and_no_more_samples_than_fit(pixels: int, lights: int) -> None:
-    found = bands.bands(pixels, lights)
+    found = parallel.bands(pixels, lights)
     assert [pixel for one in found for pixel in range(pixels)[one]] == list(range(pixels))
-    assert max(one.stop - one.start for one in found) * lights <= max(bands.SAMPLES, lights)
+    assert max(one.stop - one.start for one in found) * lights <= max(parallel.SAMPLES, lights)
 
 
 def test_work_is_shared_by_no_more_threads_than_asked_and_kept_in_order() -> None:
@@ -36,21 +36,21 @@ def test_work_is_shared_by_no_more_threads_than_asked_and_kept_in_order() -> Non
 
         def work(item: int, seen: set[int] = seen) -> int:
             seen.add(threading.get_ident())
-            return bands.shared(lambda one: 2 * one, [item])[0]
+            return parallel.run_all(lambda one: 2 * one, [item])[0]
 
-        with bands.cores(count):
-            assert bands.shared(work, range(40)) == list(range(0, 80, 2))
+        with parallel.cores(count):
+            assert parallel.run_all(work, range(40)) == list(range(0, 80, 2))
         assert len(seen) <= count
 
 
 @pytest.mark.parametrize("scene", [Scene()])
 def test_any_number_of_cores_gives_the_same_bytes(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bands, "SAMPLES", 5000)
+    monkeypatch.setattr(parallel, "SAMPLES", 5000)
     lights = calibration()
     mask = truth(scene)[0]
     found = []
     for count in (1, 3):
-        with bands.cores(count):
+        with parallel.cores(count):
             surface = lpcal.reconstruct(draw(scene, lights), lights, mask=mask)
         found.append([getattr(surface, name).tobytes() for name in ("normals", "depth", "albedo", "normal_std_deg", "depth_std", "breaks")])
     assert found[0] == found[1]

@@ -45,12 +45,12 @@ def bands(pixels: int, lights: int) -> list[slice]:
     return [slice(first, last) for first, last in pairwise(ends)]
 
 
-def each[T](pixels: int, lights: int, work: Callable[[slice], T]) -> list[T]:
+def run_bands[T](pixels: int, lights: int, work: Callable[[slice], T]) -> list[T]:
     """What the work makes of each band, in their order."""
-    return shared(work, bands(pixels, lights))
+    return run_all(work, bands(pixels, lights))
 
 
-def begun[T](work: Callable[[], T]) -> Callable[[], T]:
+def start[T](work: Callable[[], T]) -> Callable[[], T]:
     """Work begun on a thread of its own, and how to wait for what it makes; on one core it is done when that is asked for."""
     if workers() <= 1:
         return cache(work)
@@ -60,7 +60,7 @@ def begun[T](work: Callable[[], T]) -> Callable[[], T]:
     return future.result
 
 
-def shared[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:
+def run_all[S, T](work: Callable[[S], T], items: Iterable[S]) -> list[T]:
     """What the work makes of each item, in their order, by as many threads as there are cores.
 
     Work that shares its own in turn does that alone.
