@@ -24,7 +24,7 @@ from lpcal.detect.stored_checks import refuse_mosaic, refuse_over_white, twins
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import raster
 from lpcal.geometry.arrays import Array, Image, Mask
-from lpcal.geometry.piled import piled_level, piled_words
+from lpcal.geometry.clipping import clipping_level, clipping_words
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import FlatField, Sensor, StatedSensor
 
@@ -79,16 +79,16 @@ def to_radiance(raw: RawCapture, sensor: Sensor) -> Radiance:
         )
     refuse_over_white(raw, sensor, saturated)
     refuse_mosaic(raw)
-    piled = piled_level(raw.images, sensor.white_level, raw.step)
-    if piled is not None:
-        saturated |= over_white(raw.images, replace(sensor, white_level=piled), raw.step)
+    clipped_at = clipping_level(raw.images, sensor.white_level, raw.step)
+    if clipped_at is not None:
+        saturated |= over_white(raw.images, replace(sensor, white_level=clipped_at), raw.step)
     signal = _linear(raw, sensor)
     noise = noise_model(signal, saturated, raw.step)
     _refuse_black(raw, sensor, signal)
     same = twins(raw, noise, signal)
     response = sensor.response(signal.shape)
     notes = [*raw.notes, *(f"left out: {name} is no light's" for name in raw.left_out)]
-    notes += [] if piled is None else [piled_words(piled)]
+    notes += [] if clipped_at is None else [clipping_words(clipped_at)]
     notes += [NO_AMBIENT] if raw.ambient is None else []
     sigma, ambient = _unit_exposure(raw, sensor, signal, noise, response)
     dark = _dark(raw, signal, sigma)

@@ -22,7 +22,7 @@ import numpy.typing as npt
 from lpcal.formats.full_scale import FullScale, full_scale
 from lpcal.formats.images import Numbers
 from lpcal.geometry.arrays import Image, Mask
-from lpcal.geometry.piled import piled, piled_level
+from lpcal.geometry.clipping import clipped_at, clipping_level
 from lpcal.records.full_images import PART, FullImages, Store
 from lpcal.records.observations import RawCapture
 
@@ -119,7 +119,7 @@ class Sieve:
         if not self.counts.size:
             return white
         used = np.flatnonzero(self.counts)
-        return piled(used / self.full_scale, self.counts[used], white, self.step) or white
+        return clipped_at(used / self.full_scale, self.counts[used], white, self.step) or white
 
     def coarse(self, ks: Sequence[int], full: FullScale) -> Image:
         """Some images in coarse pixels (N, h, w[, 3]), as fractions of full scale; saturated ones are as bright as the numbers get."""
@@ -157,7 +157,7 @@ def made_coarse(raw: RawCapture) -> RawCapture:
     sieve = Sieve(store, 1.0, raw.step, factor_for(raw.images.shape[1:]), len(raw.images))
     run_all(lambda k: sieve.take(k, Numbers(store.images[k], 1.0, raw.step)), range(len(store.images)))
     white = raw.white_level or 1.0
-    full = FullScale(white_level=piled_level(raw.images, white, raw.step) or white)
+    full = FullScale(white_level=clipping_level(raw.images, white, raw.step) or white)
     L, K = len(raw.images), len(ambient)
     coarse = replace(
         raw,

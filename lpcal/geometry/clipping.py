@@ -23,16 +23,16 @@ WIDEST = 0.15
 """Share of the largest number over which the numbers below may lie: on a flat surface without noise there is none for long."""
 
 
-def piled_level(images: Image, white_level: float, step: float) -> float | None:
+def clipping_level(images: Image, white_level: float, step: float) -> float | None:
     """The number, a fraction of full scale, at which images (L, H, W[, 3]) are clipped below the white level; None where they are not."""
     top = float(images.max())
     if top <= 0 or top >= white_level - 1.5 * step:
         return None
     values, counts = np.unique(np.concatenate([image[image > NEAR_TOP * top] for image in images]), return_counts=True)
-    return piled(values, counts, white_level, step)
+    return clipped_at(values, counts, white_level, step)
 
 
-def piled(values: Array | Image, counts: npt.NDArray[np.integer], white_level: float, step: float) -> float | None:
+def clipped_at(values: Array | Image, counts: npt.NDArray[np.integer], white_level: float, step: float) -> float | None:
     """The same by the numbers that occur, from the least, and how often each does."""
     top = float(values[-1]) if len(values) else 0.0
     if top <= 0 or top >= white_level - 1.5 * step:
@@ -43,7 +43,7 @@ def piled(values: Array | Image, counts: npt.NDArray[np.integer], white_level: f
     return top if values[-1 - BELOW] > (1 - WIDEST) * top else None
 
 
-def piled_words(level: float) -> str:
+def clipping_words(level: float) -> str:
     """What is said of it."""
     percent = f"{100 * level:.1f} %"
     return f"the brightest numbers pile up at {percent} of full scale: taken as saturated there; state white_level: {percent}"
