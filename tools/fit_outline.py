@@ -133,8 +133,8 @@ def replaced(
         x, share = x.copy(), share.copy()
         x[:, part], share[part] = x[:, there[:, 0], there[:, 1]], 0.0
         odds = x[names.index("odds")]
-        near = raster.grown(part, round(2 * SMOOTH_PX))
-        odds[near] = raster.blurred(odds.astype(float), SMOOTH_PX)[near] + rng.uniform(-2, 2)
+        near = raster.dilated(part, round(2 * SMOOTH_PX))
+        odds[near] = raster.gaussian_filtered(odds.astype(float), SMOOTH_PX)[near] + rng.uniform(-2, 2)
     return x, share
 
 
@@ -150,10 +150,10 @@ def dimmed(x: np.ndarray, part: np.ndarray, names: Sequence[str], rng: np.random
     if rng.random() < 0.5:
         for name in ("second darkest", "darkest"):
             x[names.index(name), part] = np.log(outline.FAINTEST)
-    near = raster.grown(part, round(2 * SMOOTH_PX))
+    near = raster.dilated(part, round(2 * SMOOTH_PX))
     odds = x[names.index("odds")]
     odds[part] = rng.uniform(-outline.UNSURE, outline.UNSURE)
-    odds[near] = raster.blurred(odds.astype(float), SMOOTH_PX)[near]
+    odds[near] = raster.gaussian_filtered(odds.astype(float), SMOOTH_PX)[near]
     return x
 
 

@@ -124,7 +124,7 @@ def _assembled(name: str, normals_C: Image, depth: Array, mask: Mask, rays_C: Ar
         return np.where(mask, values, np.nan).astype(np.float32)
 
     most = np.iinfo(np.uint8).max
-    component = np.minimum(raster.labelled(mask)[0], most).astype(np.uint8)
+    component = np.minimum(raster.connected_components(mask)[0], most).astype(np.uint8)
     labels = [int(one) for one in np.unique(component[mask])]
     return Surface(
         name=name,

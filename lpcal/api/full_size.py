@@ -189,7 +189,7 @@ def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, s
         far = int(OUTLINE_PX * full.factor)
         first = share > 0.5
         said = np.where(first, 2.0, -2.0).astype(np.float32)
-        said[~raster.shrunk(first, far, beyond=True) & ~raster.shrunk(~first, far, beyond=True)] = 0.0
+        said[~raster.eroded(first, far, beyond=True) & ~raster.eroded(~first, far, beyond=True)] = 0.0
         bright = pixel_list.strength(pixel_list.grey(radiance_of(*tile.outer), solved.scene.lights))
         picture = np.log(np.maximum(bright, max(0.01 * float(np.percentile(bright, 99)), 1e-9))).astype(np.float32)
         return cut.total_variation(np.where(said == 0, np.where(first, 1e-3, -1e-3), said).astype(np.float32), picture, STIFFNESS)[

@@ -46,7 +46,7 @@ def parted(component: Labels, breaks: Mask, normals: Image, std_deg: Image) -> t
     found = np.zeros(component.shape, np.intp)
     of: list[int] = [0]
     for label in (int(label) for label in np.unique(component[component > 0])):
-        numbers, _ = raster.labelled(core & (component == label))
+        numbers, _ = raster.connected_components(core & (component == label))
         size = np.bincount(numbers.ravel())
         size[0] = 0
         large = [int(number) for number in np.argsort(-size) if size[number] >= least] or [-1]
@@ -84,7 +84,7 @@ def near(right: Mask, below: Mask, reach_px: int) -> Mask:
     broken[:, 1:] |= right
     broken[:-1] |= below
     broken[1:] |= below
-    return raster.grown(broken, reach_px - 1)
+    return raster.dilated(broken, reach_px - 1)
 
 
 def grown(found: Index, component: Labels, right: Mask, below: Mask) -> Index:

@@ -23,7 +23,7 @@ BLOCK = 256
 """What the kernel wants of work space beyond a line's own."""
 
 
-def labelled(mask: Mask) -> tuple[npt.NDArray[np.int32], int]:
+def connected_components(mask: Mask) -> tuple[npt.NDArray[np.int32], int]:
     """A label (H, W) from 1 for each set of pixels of a mask (H, W) that touch by their sides, in reading order, and how many there are."""
     if run := kernel("labelled"):
         of, label, count = np.empty(mask.shape, np.int32), np.empty(mask.shape, np.int32), np.zeros(1, np.int32)
@@ -39,7 +39,7 @@ def nearest(mask: Mask) -> Index:
     return _nearest(mask)[0]
 
 
-def away(mask: Mask) -> Array:
+def distance_to(mask: Mask) -> Array:
     """How far (H, W), in pixels, each pixel is from the nearest one of a mask (H, W); infinitely where it is empty."""
     return np.sqrt(_nearest(mask)[1])
 
@@ -58,7 +58,7 @@ def _nearest(mask: Mask) -> tuple[Index, Array]:
     return np.where(row < 0, -1, row * mask.shape[1] + column), np.where(row < 0, np.inf, far)
 
 
-def blurred[T: np.floating](values: npt.NDArray[T], sigma: float | Sequence[float], border: Border = "reflect") -> npt.NDArray[T]:
+def gaussian_filtered[T: np.floating](values: npt.NDArray[T], sigma: float | Sequence[float], border: Border = "reflect") -> npt.NDArray[T]:
     """Gaussian means (...) of values (...) along all axes, of a standard deviation in pixels, or one an axis."""
     if kernel("joined"):
         return _joined(values, [_gaussian(float(one)) for one in np.broadcast_to(sigma, values.ndim)], border)
@@ -74,7 +74,7 @@ def _gaussian(sigma: float) -> Array:
     return np.asarray((both / both.sum())[radius:])
 
 
-def boxed[T: np.floating](values: npt.NDArray[T], side: int) -> npt.NDArray[T]:
+def box_filtered[T: np.floating](values: npt.NDArray[T], side: int) -> npt.NDArray[T]:
     """Means (...) of values (...) in boxes of an odd side about each pixel; the picture is mirrored at its borders."""
     if kernel("joined"):
         return _joined(values, [np.full(side // 2 + 1, 1 / side)] * values.ndim, "reflect")
@@ -109,7 +109,7 @@ def block_means(picture: npt.NDArray[np.floating], side: int) -> Array:
     return np.asarray(total / side**2)
 
 
-def grown(mask: Mask, by: int = 1) -> Mask:
+def dilated(mask: Mask, by: int = 1) -> Mask:
     """A mask (H, W) with the pixels that touch it by a side, `by` times."""
     for _ in range(by):
         before, mask = mask, mask.copy()
@@ -120,7 +120,7 @@ def grown(mask: Mask, by: int = 1) -> Mask:
     return mask
 
 
-def shrunk(mask: Mask, by: int = 1, *, beyond: bool = False) -> Mask:
+def eroded(mask: Mask, by: int = 1, *, beyond: bool = False) -> Mask:
     """A mask (H, W) without the pixels that touch others by a side, `by` times; `beyond`: whether what lies beyond the picture is in it."""
     for _ in range(by):
         before, mask = mask, mask.copy()
@@ -136,15 +136,15 @@ def shrunk(mask: Mask, by: int = 1, *, beyond: bool = False) -> Mask:
 
 def opened(mask: Mask, by: int = 1) -> Mask:
     """A mask (H, W) without what is thinner than twice `by`."""
-    return grown(shrunk(mask, by), by)
+    return dilated(eroded(mask, by), by)
 
 
 def closed(mask: Mask) -> Mask:
     """A mask (H, W) with its gaps of a pixel or two filled, and without the picture's border."""
-    return shrunk(grown(mask))
+    return eroded(dilated(mask))
 
 
-def highest[T: np.generic](values: npt.NDArray[T], reach: int, beyond: T | bool | float) -> npt.NDArray[T]:
+def max_filtered[T: np.generic](values: npt.NDArray[T], reach: int, beyond: T | bool | float) -> npt.NDArray[T]:
     """The highest value in squares (H, W) that reach so far about each pixel; `beyond` is what lies beyond the picture."""
     rows, columns = values.shape
     about = np.pad(values, reach, constant_values=beyond)

@@ -78,7 +78,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
         place[mask] = label == one
         rows, columns = np.nonzero(place)
         close = place[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
-        if raster.shrunk(close, SLIVER_PX // 2).any():
+        if raster.eroded(close, SLIVER_PX // 2).any():
             kept.append(one)
     if not kept:
         return weight
@@ -96,7 +96,7 @@ def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
     at[grid.a[broken]] = at[grid.b[broken]] = True
     place = np.zeros(mask.shape, bool)
     place[mask] = at
-    near = raster.grown(place)[mask]
+    near = raster.dilated(place)[mask]
     return np.asarray(near[grid.a] | near[grid.b])
 
 
@@ -131,7 +131,7 @@ def flatness(surface: Surface) -> Flatness | None:
     Plane by total least squares on the points of the piece, its outermost pixels left out; deviations w along its normal. Bowl: what the
     best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
     """
-    inside = raster.shrunk(surface.component == 1, RIM_PX)
+    inside = raster.eroded(surface.component == 1, RIM_PX)
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST_PIXELS:
         return None
     places = np.flatnonzero(inside)

@@ -82,7 +82,7 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
     odds = np.zeros(labels.shape)
     odds[view.window] = 1 / (1 + np.exp(-np.clip(log_odds, -30, 30)))
     for at in view.points:
-        shown, _ = raster.labelled(labels == labels[at])
+        shown, _ = raster.connected_components(labels == labels[at])
         odds[shown == shown[at]] = 1.0
     likeliest = float(odds.max())
     least = 0.5 if likeliest > 0.5 else max(likeliest / 2, UNLIKELY)
@@ -114,7 +114,7 @@ def logit(odds: Array | float) -> Array:
 
 def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     """A mask (rows, columns) without crumbs and small holes; where points are given it is the pieces that they lie on."""
-    piece, count = raster.labelled(mask)
+    piece, count = raster.connected_components(mask)
     if not count:
         return np.zeros(mask.shape, bool)
     size = np.bincount(piece.ravel()).astype(float)
@@ -122,7 +122,7 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
     kept = np.isin(np.arange(count + 1), [piece[at] for at in points]) if points else size >= SMALLEST_PIECE * size.max()
     kept[0] = False
     found = kept[piece]
-    hole, _ = raster.labelled(~found)
+    hole, _ = raster.connected_components(~found)
     area = np.bincount(hole.ravel())
     small = np.flatnonzero(area < HOLE * max(int(found.sum()), 1))
     return np.asarray(found | np.isin(hole, small[small > 0]))

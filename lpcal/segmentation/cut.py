@@ -42,7 +42,7 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
     (top, bottom), (left, right) = ((max(at.min() - MARGIN, 0), at.max() + MARGIN + 1) for at in np.nonzero(unsettled))
     box = (slice(top, bottom), slice(left, right))
     rows, columns = evidence[box].shape
-    free = raster.highest(unsettled[box], MARGIN, beyond=False)
+    free = raster.max_filtered(unsettled[box], MARGIN, beyond=False)
     found[box] = _relaxed(evidence[box], weight[0][box][:, : columns - 1], weight[1][box][: rows - 1], free) > 0.5
     return np.asarray(found)
 

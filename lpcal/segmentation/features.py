@@ -112,7 +112,7 @@ def _of_regions(labels: Labels, planes: int) -> dict[str, Channel]:
     """How large the connected component of the label is, and how much of the image's frame it and the whole label hold; square roots."""
     region, count = np.zeros(labels.shape, int), 0
     for one in range(planes + 3):
-        piece, pieces = raster.labelled(labels == one)
+        piece, pieces = raster.connected_components(labels == one)
         region[piece > 0] = piece[piece > 0] + count - 1
         count += pieces
     size = np.bincount(region.ravel(), minlength=count) / labels.size

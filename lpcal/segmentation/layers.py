@@ -65,7 +65,7 @@ class Appearance:
     def of(values: Array, low: float, high: float) -> Appearance:
         """The appearance of log values (N,), smoothed over a bin."""
         count, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
-        smooth = raster.blurred(count.astype(float), 1.0)
+        smooth = raster.gaussian_filtered(count.astype(float), 1.0)
         return Appearance(low, high, (1 - UNLIKELY) * BINS * smooth / max(smooth.sum(), 1e-12) + UNLIKELY)  # no albedo is impossible
 
     def at(self, values: Array) -> Array:

@@ -66,8 +66,8 @@ class Hints:
         mask = mask if allowed is None else mask & allowed
         if not self.points:
             return mask
-        piece, _ = raster.labelled(mask)
-        far, nearest = raster.away(mask), raster.nearest(mask)
+        piece, _ = raster.connected_components(mask)
+        far, nearest = raster.distance_to(mask), raster.nearest(mask)
         close = [(y, x) for x, y in self.points if far[y, x] <= BESIDE_POINT * min(mask.shape)]
         return np.asarray(mask & np.isin(piece, [piece.ravel()[nearest[y, x]] for y, x in close]))
 
@@ -225,7 +225,7 @@ def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> s
     """What the area in doubt may be and the box that holds the most of it, for messages; nothing where there is none."""
     if not doubt.place.any():
         return ""
-    piece, _ = raster.labelled(doubt.place)
+    piece, _ = raster.connected_components(doubt.place)
     size = np.bincount(piece.ravel())
     size[0] = 0
     row, column = (factor * np.array([one.min(), one.max() + 1]) for one in np.nonzero(piece == np.argmax(size)))
@@ -246,13 +246,13 @@ def _plane(q: Array, seen: PixelList, lights: Sequence[Light], own: Mask) -> pla
 
 def tidy(mask: Mask) -> Mask:
     """Without crumbs and small holes."""
-    label, count = raster.labelled(raster.opened(mask))
+    label, count = raster.connected_components(raster.opened(mask))
     if not count:
         return np.asarray(mask & False)
     size = np.bincount(label.ravel())
     size[0] = 0
     kept = np.isin(label, np.flatnonzero(size >= SMALLEST_SHARE * size.max()))
-    holes, _ = raster.labelled(~kept)
+    holes, _ = raster.connected_components(~kept)
     area = np.bincount(holes.ravel())
     small = np.flatnonzero(area < background.HOLE * kept.sum())
     return np.asarray(kept | np.isin(holes, small[small > 0]))

@@ -91,7 +91,7 @@ def log_odds(apart: Apart, here: SignalMaps, room: Image | None, factor: int) ->
     found, window = channels(apart, here, room, factor)
     said = np.full(here.signal.shape[1:], -SURE)
     said[window] = np.mean(Network.read(FITTED).answers(found), axis=0)[0]
-    near = raster.away(resampled(apart.log_odds, apart.image.factor / factor, said.shape) > 0) <= MARGIN
+    near = raster.distance_to(resampled(apart.log_odds, apart.image.factor / factor, said.shape) > 0) <= MARGIN
     return np.where(near, said, -SURE)
 
 

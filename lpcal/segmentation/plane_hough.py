@@ -176,7 +176,7 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
         cost, albedo, shown = explained(image, table, q)
         own = image.image(lit & (cost < ACCEPTED * len(shown)) & (albedo > 0))
         tone = np.where(own, np.log(np.maximum(image.image(albedo), 1e-12)), 0.0)
-        part, _ = raster.labelled(own & (_step(tone) < PAINT))
+        part, _ = raster.connected_components(own & (_step(tone) < PAINT))
         size = np.bincount(part.ravel())
         for one in np.setdiff1d(np.flatnonzero(size >= SMALLEST * part.size), [0, *np.unique(part[rim])]):
             inside = (part == one).ravel()
@@ -193,7 +193,7 @@ def _step(tone: Array) -> Array:
     about = np.pad(tone, 1, mode="edge")
     nine = np.stack([about[i : i + rows, j : j + columns] for i in range(3) for j in range(3)])
     middle = np.partition(nine, 4, axis=0)[4]
-    return raster.highest(middle, 1, -np.inf) + raster.highest(-middle, 1, -np.inf)
+    return raster.max_filtered(middle, 1, -np.inf) + raster.max_filtered(-middle, 1, -np.inf)
 
 
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
@@ -289,7 +289,7 @@ class _Votes:
         """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
         cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
         votes = np.bincount(self.cell[:, left].ravel(), self.weight[:, left].ravel(), int(np.prod(cells)))
-        total = raster.blurred(votes.reshape(cells), BLUR)
+        total = raster.gaussian_filtered(votes.reshape(cells), BLUR)
         found = []
         for _ in range(PEAKS):
             top = np.unravel_index(int(np.argmax(total)), cells)

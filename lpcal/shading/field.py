@@ -148,7 +148,7 @@ def _begin(seen: PixelList, grid: Grid, b: Array) -> Array:
     reach = np.sqrt(seen.pixels) / ACROSS
     picture = np.zeros(seen.mask.shape)
     picture[seen.mask] = albedo
-    square, plain = (raster.blurred(one, reach, "constant")[seen.mask] for one in (picture**2, picture))
+    square, plain = (raster.gaussian_filtered(one, reach, "constant")[seen.mask] for one in (picture**2, picture))
     known &= albedo > JUNK * square / np.maximum(plain, 1e-12)
     return pieces.fill(grid, b, known & (alike(grid, b, known) >= FRIENDS))
 

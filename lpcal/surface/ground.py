@@ -65,7 +65,7 @@ class Ground:
         broken = state.weight <= BREAK_WEIGHT
         at = np.zeros(scene.seen.pixels, bool)
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
-        loose = raster.grown(np.asarray(scene.seen.map(at, 0), bool))
+        loose = raster.dilated(np.asarray(scene.seen.map(at, 0), bool))
         share = np.asarray(filled(interreflected_share(lit, state.found).astype(np.float32)), np.float32)
         other, sigma_rad = normal_prior.turned(scene, state)
         turn = None

@@ -153,7 +153,7 @@ class _Joined:
         rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches of the object, not of the picture about it
         _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
         area = _areas(seen, depth, n)
-        inside = np.asarray(raster.blurred(seen.mask.astype(float), size / 2, "constant")[seen.mask])
+        inside = np.asarray(raster.gaussian_filtered(seen.mask.astype(float), size / 2, "constant")[seen.mask])
         bare = _Joined(seen, size, of_pixel, area, np.bincount(of_pixel, area), inside, (depth, depth))
         return replace(bare, places=(bare.means(seen.points_C(depth)), lambert.unit(bare.means(n))[0]))
 
@@ -166,7 +166,7 @@ class _Joined:
         many, reach = values.shape[:-1], self.size / 2
         blank = np.zeros((*many, *self.seen.mask.shape), np.float32)
         blank[..., self.seen.mask] = values[..., self.of_pixel]
-        smooth = raster.blurred(blank, (*(0.0,) * len(many), reach, reach), "constant")
+        smooth = raster.gaussian_filtered(blank, (*(0.0,) * len(many), reach, reach), "constant")
         return np.asarray(smooth[..., self.seen.mask] / np.maximum(self.inside, 1e-6))
 
     def at_pixels(self, values: Array) -> Array:
@@ -240,7 +240,7 @@ def in_shadow(seen: PixelList, lit: Illumination, n: Array, hidden: Mask) -> Mas
     dark = hidden | (lambert.dot(lit.d, n) < -LEAST_COSINE)
     found = np.zeros_like(dark)
     for k, one in enumerate(dark):
-        found[k] = raster.shrunk(np.asarray(seen.map(one, False), bool), RIM_PX)[seen.mask]
+        found[k] = raster.eroded(np.asarray(seen.map(one, False), bool), RIM_PX)[seen.mask]
     return found
 
 

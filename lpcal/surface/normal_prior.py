@@ -194,7 +194,7 @@ def features(scene: Scene, state: State) -> dict[str, Array]:
         for name, one in part.items():
             total[name][first : first + len(one)] += one
     means = {name: (one / np.maximum(count, 1)).reshape(shape) for name, one in total.items()}
-    away = raster.away(np.pad(~seen.mask, 1, constant_values=True))[1:-1, 1:-1]
+    away = raster.distance_to(np.pad(~seen.mask, 1, constant_values=True))[1:-1, 1:-1]
     more = maps({"edge": np.log1p(away[seen.mask] / side)}, seen.mask, side)
     return means | more
 

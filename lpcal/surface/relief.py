@@ -63,7 +63,7 @@ class Relief:
         first = places.min(axis=0)
         pixel_of_ray = np.linalg.lstsq(powers(seen.rays_C[some, :2]), (places[some] - first).astype(float), rcond=None)[0]
         pixel_of_ray[0] += first
-        front = raster.highest(front, 1, outside)
+        front = raster.max_filtered(front, 1, outside)
         return Relief(np.where(seen.mask, front, np.inf) if to_rim else front, pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:

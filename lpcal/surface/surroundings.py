@@ -121,7 +121,7 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
     samples fit. Where light from elsewhere or shadows keep the samples from the plane's prediction, or they are saturated, a plane's light
     is there all the same.
     """
-    seen, free = image.seen, ~raster.grown(image.hidden, RIM_PX).ravel()
+    seen, free = image.seen, ~raster.dilated(image.hidden, RIM_PX).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
     albedo: list[float] = []
     signal = seen.signal.copy()

@@ -124,10 +124,10 @@ def indicators_of(
     bend = np.degrees(2 * np.arcsin(np.clip(lambert.length(normals - of_depth) / 2, 0, 1)))
     square, inside = np.zeros(mask.shape), mask.astype(float)
     square[mask] = bend**2
-    bend_round = np.sqrt(np.maximum(raster.boxed(square, 5)[mask], 0) / np.maximum(raster.boxed(inside, 5)[mask], 1e-3))
+    bend_round = np.sqrt(np.maximum(raster.box_filtered(square, 5)[mask], 0) / np.maximum(raster.box_filtered(inside, 5)[mask], 1e-3))
     rim = np.zeros(mask.shape, bool)
     rim[mask] = np.bincount(grid.a[whole], minlength=len(bend)) + np.bincount(grid.b[whole], minlength=len(bend)) < 4
-    edge = raster.away(rim)[mask] < RIM_PX
+    edge = raster.distance_to(rim)[mask] < RIM_PX
     return Indicators(np.nan_to_num(noise), misfit, bend, bend_round, edge, used, np.isnan(noise), interreflected, unseen, expected_deg)
 
 

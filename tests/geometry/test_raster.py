@@ -15,18 +15,18 @@ from lpcal.geometry import raster
 def test_masks_grow_and_shrink_as_those_of_scipy_do(shape: tuple[int, int], share: float, by: int) -> None:
     mask = np.random.default_rng(by).random(shape) < share
     before = mask.copy()
-    np.testing.assert_array_equal(raster.grown(mask, by), ndimage.binary_dilation(mask, iterations=by))
-    np.testing.assert_array_equal(raster.shrunk(mask, by), ndimage.binary_erosion(mask, iterations=by))
-    np.testing.assert_array_equal(raster.shrunk(mask, by, beyond=True), ndimage.binary_erosion(mask, iterations=by, border_value=1))
+    np.testing.assert_array_equal(raster.dilated(mask, by), ndimage.binary_dilation(mask, iterations=by))
+    np.testing.assert_array_equal(raster.eroded(mask, by), ndimage.binary_erosion(mask, iterations=by))
+    np.testing.assert_array_equal(raster.eroded(mask, by, beyond=True), ndimage.binary_erosion(mask, iterations=by, border_value=1))
     np.testing.assert_array_equal(raster.opened(mask, by), ndimage.binary_opening(mask, iterations=by))
     np.testing.assert_array_equal(raster.closed(mask), ndimage.binary_closing(mask))
-    np.testing.assert_array_equal(raster.highest(mask, by, beyond=False), ndimage.maximum_filter(mask, 2 * by + 1, mode="constant"))
+    np.testing.assert_array_equal(raster.max_filtered(mask, by, beyond=False), ndimage.maximum_filter(mask, 2 * by + 1, mode="constant"))
     np.testing.assert_array_equal(mask, before)
 
 
 def test_the_highest_of_neighbours_counts_what_lies_beyond() -> None:
     values = np.random.default_rng(1).normal(size=(12, 15))
-    found = raster.highest(values, 1, 0.5)
+    found = raster.max_filtered(values, 1, 0.5)
     np.testing.assert_array_equal(found, ndimage.maximum_filter(values, 3, mode="constant", cval=0.5))
     assert (found[0] >= 0.5).all()
     assert found.flags.c_contiguous
@@ -35,7 +35,7 @@ def test_the_highest_of_neighbours_counts_what_lies_beyond() -> None:
 def test_nothing_is_near_where_a_mask_is_empty() -> None:
     empty = np.zeros((4, 5), bool)
     assert (raster.nearest(empty) == -1).all()
-    assert np.isinf(raster.away(empty)).all()
+    assert np.isinf(raster.distance_to(empty)).all()
 
 
 def test_blocks_are_means_of_their_pixels() -> None:

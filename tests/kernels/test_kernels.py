@@ -189,23 +189,25 @@ def masks(rng: np.random.Generator) -> list[Mask]:
 
 
 def labelled(rng: np.random.Generator) -> Array:
-    return np.concatenate([np.append(label.ravel(), count) for label, count in map(raster.labelled, masks(rng))]).astype(float)
+    return np.concatenate([np.append(label.ravel(), count) for label, count in map(raster.connected_components, masks(rng))]).astype(float)
 
 
 def nearest(rng: np.random.Generator) -> Array:
     some = masks(rng)
-    return np.concatenate([each.ravel() for one in some for each in (raster.nearest(one).astype(float), np.minimum(raster.away(one), 99))])
+    return np.concatenate(
+        [each.ravel() for one in some for each in (raster.nearest(one).astype(float), np.minimum(raster.distance_to(one), 99))]
+    )
 
 
 def blurred(rng: np.random.Generator) -> Array:
     pictures = [rng.random(shape) for shape in ((40, 300), (3, 2), (1, 1), (7,), (9, 8, 5))]
-    found = [raster.blurred(one, by, border) for one in pictures for by in (0.0, 0.4, 3.0) for border in raster.BORDERS]
-    uneven = raster.blurred(pictures[-1], (0.5, 2.0, 1.0))
-    return np.concatenate([each.ravel() for each in (*found, uneven, *(raster.boxed(one, 5) for one in pictures))])
+    found = [raster.gaussian_filtered(one, by, border) for one in pictures for by in (0.0, 0.4, 3.0) for border in raster.BORDERS]
+    uneven = raster.gaussian_filtered(pictures[-1], (0.5, 2.0, 1.0))
+    return np.concatenate([each.ravel() for each in (*found, uneven, *(raster.box_filtered(one, 5) for one in pictures))])
 
 
 def blurred_singles(rng: np.random.Generator) -> Array:
-    return np.concatenate([raster.blurred(rng.random((60, 270), np.float32), by, "nearest").ravel() for by in (0.5, 20.0)])
+    return np.concatenate([raster.gaussian_filtered(rng.random((60, 270), np.float32), by, "nearest").ravel() for by in (0.5, 20.0)])
 
 
 def thrown_fits(rng: np.random.Generator) -> Array:

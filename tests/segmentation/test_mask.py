@@ -233,7 +233,7 @@ def test_the_floor_carries_the_object_and_the_wall_does_not() -> None:
     found = mask.automatic(maps, rays, calibration().lights, WORKING_M)
     card, floor = parts[-1][2], parts[1][2]
     assert found.layer is not None
-    clear = ~raster.shrunk(~card, 3, beyond=True) == card  # away from the card's outline
+    clear = ~raster.eroded(~card, 3, beyond=True) == card  # away from the card's outline
     for value, true in ((background.Layer.WALL, ~card & ~floor), (background.Layer.SUPPORT, floor & ~card)):
         assert np.mean(found.layer[true & clear] == value) > 0.95
     assert np.array_equal(found.kept("object"), found.mask)
