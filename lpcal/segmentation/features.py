@@ -1,7 +1,7 @@
-r"""What of a picture says which of its coarse pixels are the object: the channels of the network (view.network).
+r"""Input channels of the mask network (view.network), which classifies coarse pixels as object or background.
 
-Symbols: u is a log depth, in units of the working distance. A channel needs no scale of brightness: it holds a natural logarithm of
-brightness or depth, a cost of segmentation.sample_costs, a normal, or what a label says.
+Symbols: u is a log depth, in units of the working distance. No channel has a scale of brightness: each holds a relative log brightness or
+log depth, a cost of segmentation.sample_costs, a normal, or a property of a label.
 """
 
 from __future__ import annotations
@@ -17,28 +17,28 @@ from lpcal.segmentation.plane_hough import Sweep
 from lpcal.view.coarse import Coarse, LightTable
 
 COST = 60.0
-"""Cost of matter of any normal at most: a few wild pixels are like others."""
+"""Upper bound of the cost of a free normal: outliers beyond it are all alike."""
 SPARED = 30.0
-"""Cost at most by which one explanation, or layer, is better than another: beyond, they are all alike."""
+"""Upper bound of the difference between the costs of two explanations or layers: beyond it the decision is certain anyway."""
 ABOVE = 20.0
-"""Cost at most by which a depth is worse than a pixel's best."""
+"""Upper bound of the excess of a depth's cost over that of the pixel's best depth."""
 DEPTHS = (-0.8, -0.5, -0.3, -0.15, 0.0, 0.15, 0.3, 0.5, 0.8, 1.2)
-"""Log depths, over the working distance, whose costs are channels."""
+"""Log depths, relative to the working distance, whose costs are channels."""
 NEAREST, FURTHEST = -1.5, 2.0
-"""Log depths, over the working distance, beyond which a plane's depth is held: no object lies there."""
+"""Bounds to which a plane's log depth, relative to the working distance, is clipped: no object lies beyond."""
 SPARED_BY_LABEL = (-10.0, 30.0)
-"""Bounds of the cost that its label spares a pixel."""
+"""Bounds of the difference between the cost of a free normal and that of the pixel's label."""
 MIRRORED = ("normal x", "free normal x")
-"""Channels that change their sign in a mirror."""
+"""Channels whose sign changes in the mirror image."""
 
 
 type Channel = npt.NDArray[np.floating] | Mask
-"""A number a pixel (rows, columns)."""
+"""One value a coarse pixel (rows, columns)."""
 
 
 @dataclass(frozen=True)
 class View:
-    """What labels are judged by; the user's hints are none by default."""
+    """Inputs of the mask network besides the labels, and the user's hints (none by default)."""
 
     image: Coarse
     table: LightTable
@@ -48,15 +48,15 @@ class View:
     bright: Image
     """(rows, columns) logarithm of the lights' brightness."""
     room: Image | None = None
-    """(rows, columns) logarithm of the image without lights; None where there is none."""
+    """(rows, columns) logarithm of the ambient image; None where there is none."""
     allowed: Mask | None = None
-    """(rows, columns) where the object may be: a box."""
+    """(rows, columns) mask of the user's box."""
     points: tuple[tuple[int, int], ...] = ()
-    """Rows and columns of places that show it."""
+    """Row and column of points that the user marked on the object."""
 
     @property
     def window(self) -> tuple[slice, slice]:
-        """The rows and columns of the box; all without one."""
+        """Rows and columns of the user's box; the whole image without one."""
         if self.allowed is None or not self.allowed.any():
             return slice(None), slice(None)
         rows, columns = (np.flatnonzero(self.allowed.any(axis=axis)) for axis in (1, 0))
@@ -64,7 +64,7 @@ class View:
 
 
 def channels(view: View, labels: Labels, planes: list[Array], cost: Array) -> dict[str, Array]:
-    """The channels in the view's window, from labels (rows, columns), planes (3,) and the layers' costs (layers, rows, columns)."""
+    """The channels in the view's window by name, from labels (rows, columns), planes (3,) and costs (layers, rows, columns)."""
     here = view.window
     labels, cost = labels[here], cost[:, *here]
     found = (
@@ -86,7 +86,7 @@ def _of_brightness(view: View) -> dict[str, Channel]:
 
 
 def _of_labels(view: View, labels: Labels, planes: list[Array], cost: Array) -> dict[str, Channel]:
-    """What a pixel is made of, what its label spares over matter of any normal, and which way it faces."""
+    """Indicators of the labels, cost differences to a free normal, and normals."""
     count = len(planes)
     free, other = labels == 0, labels == count + 2
     flat = cost[1 : count + 1].min(axis=0) if count else cost[0] + SPARED
@@ -109,7 +109,7 @@ def _of_labels(view: View, labels: Labels, planes: list[Array], cost: Array) -> 
 
 
 def _of_regions(labels: Labels, planes: int) -> dict[str, Channel]:
-    """How large the connected component of the label is, and how much of the image's frame it and the whole label hold; square roots."""
+    """Square roots of the area of each label's connected component, and of the shares of the image border in it and in the whole label."""
     region, count = np.zeros(labels.shape, int), 0
     for one in range(planes + 3):
         piece, pieces = raster.connected_components(labels == one)
@@ -122,13 +122,13 @@ def _of_regions(labels: Labels, planes: int) -> dict[str, Channel]:
 
 
 def _frame(of: Labels | npt.NDArray[np.int_], count: int) -> Array:
-    """The share (count,) of the image's frame that each number of a map (rows, columns) holds."""
+    """Share (count,) of the image's border pixels in each label of a map (rows, columns)."""
     edge = np.concatenate([of[0], of[-1], of[:, 0], of[:, -1]])
     return np.asarray(np.bincount(edge, minlength=count) / len(edge))
 
 
 def _of_depth(view: View, labels: Labels, planes: list[Array]) -> dict[str, Channel]:
-    """The plane's depth, that of the plane which holds most of the frame, and how well matter of any normal suits each depth."""
+    """Log depths of the pixel's plane and of the plane that covers most of the border, and costs of a free normal at some depths."""
     here, working_u = view.window, np.log(view.distance_m)
     rays, u = view.image.image(view.image.rays_C)[here], view.swept.u - working_u
     cost = view.swept.cost.reshape(len(u), *view.image.shape)[:, *here]

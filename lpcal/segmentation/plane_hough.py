@@ -1,8 +1,8 @@
-r"""Planes in a picture, found wherever they are by votes of its pixels.
+r"""Planes in an image, found by a Hough transform over the normals that photometric stereo gives at each depth.
 
-Symbols: at the log depth u a pixel of ray r has a normal n(u) from its lights, and so lies on the plane ``n . x = n . r e^u``. Over a
-sweep of u it votes for all these planes, by how well its lights agree with each; pixels of one plane agree on one only. A peak is then
-fitted by robust least squares over the pixels that it explains (see segmentation.planes for q), and what it explains leaves the vote.
+Symbols: at log depth u a pixel of ray r has the normal n(u) from its lights, and so lies on the plane ``n . x = n . r e^u``. Over a sweep
+of u it votes for all these planes, weighted by the likelihood of its samples; pixels of one plane share one vote only. Peaks are refined by
+robust least squares over the pixels that they explain (see segmentation.planes for q), and explained pixels are removed from the votes.
 Sources: Hough 1962; Isack and Boykov 2012, Int. J. Computer Vision 97 (hypotheses first, then labels).
 """
 
@@ -24,43 +24,43 @@ from lpcal.view.coarse import Coarse, LightTable, RoomPrior
 from lpcal.view.pixel_list import Indices
 
 SWEEP = (0.3, 5.0)
-"""Depths at which pixels vote, as shares of the working distance."""
+"""Depth range over which pixels vote, in working distances."""
 SLOPE_BINS, OFFSET_BINS = 61, 90
-"""Cells of the vote across the x and the y of a normal (2 degrees each) and across log offsets (5 per cent each)."""
+"""Cells of the accumulator along x and y of the normal (2 degrees each) and along the log offset (5 per cent each)."""
 OFFSETS = (-2.5, 2.0)
-"""Natural logarithms of a plane's distance from the camera over the working distance, from and to."""
+"""Range of the natural log of a plane's distance from the camera over the working distance."""
 BLUR = (0.8, 0.8, 1.2)
-"""Cells over which votes are smoothed: what noise of a normal spreads them by."""
+"""Standard deviation of the accumulator's smoothing, cells: the spread that noise of the normals gives the votes."""
 APART = (3, 3, 4)
-"""Cells about a peak that are no peaks of their own."""
+"""Half-widths, cells, of the neighbourhood of a peak that is suppressed before the next peak is taken."""
 PEAKS = 3
-"""Peaks of a vote that are fitted; that which explains most is kept."""
+"""Peaks of the accumulator that are refined; the one that explains most pixels is kept."""
 STEEPEST = 0.05
-"""Cosine to the viewer under which a pixel's normal places no plane."""
+"""Cosine between normal and view direction below which a pixel does not vote: its plane is undetermined."""
 EXPLAINED = 20.0
-"""Cost by which a plane may exceed matter of any normal, at a pixel that it explains."""
+"""Largest excess of a plane's cost over that of a free normal at a pixel that the plane explains."""
 SMALLEST = 0.006
-"""Share of the image under which a plane is not looked for, or dropped."""
+"""Share of the image below which a plane is not looked for, or is dropped."""
 MOST = 8
-"""Planes at most."""
+"""Largest number of planes."""
 PAINT = 0.1
-"""Natural logarithm of a step of albedo that encloses a part of a plane."""
+"""Step of log albedo that counts as an edge enclosing a part of a plane."""
 CLEARLY, CLEARLY_EACH = 60.0, 0.3
-"""Cost that a plane of its own must spare a part of another plane, in all and a pixel: errors of neighbouring pixels are alike."""
+"""Least gain in cost of a separate plane, in total and per pixel: high, as errors of neighbouring pixels are correlated."""
 FIT_PIXELS = 600
-"""Pixels that a plane is fitted to, spread over its own: more do not improve three numbers."""
+"""Pixels, spread over a plane, to which it is fitted: more do not improve its three parameters."""
 ACCEPTED = 3.0
-"""Cost a light under which a pixel takes part in the fit of a plane."""
+"""Cost per light below which a pixel takes part in the fit of a plane."""
 FIT_STEPS = 8
-"""Times that a fit asks for its equations at most: the pixels that take part are chosen anew after it."""
+"""Largest number of steps of a fit, after which its pixels are selected again."""
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """Every pixel as matter of any normal, at every depth: D depths, P pixels."""
+    """Fits of a free normal at every pixel and depth: D depths, P pixels."""
 
     u: Array
-    """(D,)."""
+    """(D,) log depths."""
     b: Array
     """(D, P, 3)."""
     cost: Array
@@ -79,7 +79,7 @@ class Sweep:
 
 
 def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -> Sweep:
-    """The sweep over the table's nodes, or every so many of them, from SWEEP[0] to SWEEP[1] working distances."""
+    """Fits of a free normal at the table's nodes, or at one of `every` so many, from SWEEP[0] to SWEEP[1] working distances."""
     low, high = np.log(distance_m) + np.log(SWEEP)
     u = table.nodes[(table.nodes >= low) & (table.nodes <= high)][::every]
     everywhere = np.arange(len(image.rays_C))
@@ -94,7 +94,7 @@ def sweep(image: Coarse, table: LightTable, distance_m: float, every: int = 1) -
 
 
 def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
-    """`sample_costs.free` of the coarse pixels."""
+    """`sample_costs.free` of the coarse pixels, with ambient light in the signals if the image has a room prior."""
     if image.room is None:
         return sample_costs.free(image.signal, image.sigma, image.usable, B, doubt)
     found = ambient_sample_costs.free(image.signal, image.sigma, image.usable, B, doubt, image.room)
@@ -102,7 +102,7 @@ def _free(image: Coarse, B: Array, doubt: Array) -> tuple[Array, Array]:
 
 
 def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[Array, Array]:
-    """Signals (L, Q) of a white plane q along rays (Q, 3) that lie in the table's pixels (Q,), and their doubt; 0 where a ray misses it."""
+    """Signals (L, Q) of a plane q of albedo 1 along rays (Q, 3) in the table's pixels (Q,), and their doubt; 0 where a ray misses it."""
     if run := kernel("white"):
         (_, nodes, L, _), Q = table.B.shape, len(rays_C)
         m, doubt = np.empty((L, Q)), np.empty((L, Q), table.doubt.dtype)
@@ -114,14 +114,14 @@ def white(q: Array, rays_C: Array, pixels: Indices, table: LightTable) -> tuple[
 
 
 def _met(q: Array, rays_C: Array, table: LightTable) -> tuple[Array, Mask]:
-    """Log depths (Q,) at which rays (Q, 3) meet a plane q (3,), and where they do within the table."""
+    """Log depths (Q,) at which rays (Q, 3) meet a plane q (3,), and the mask (Q,) of those within the table."""
     slope = rays_C @ q
     u = -np.log(np.maximum(slope, 1e-12))
     return u, (slope > 0) & table.holds(u)
 
 
 def _placed(q: Array, rays_C: Array, pixels: Indices) -> tuple[npt.NDArray[np.generic], ...]:
-    """A plane and pixels as kernels take them."""
+    """A plane and pixels as arguments of the kernels."""
     return np.ascontiguousarray(q, float), np.ascontiguousarray(rays_C, float), np.ascontiguousarray(pixels, np.int64)
 
 
@@ -136,7 +136,7 @@ def explained(image: Coarse, table: LightTable, q: Array, pixels: Indices | None
 
 
 def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: float) -> list[Array]:
-    """Planes q (3,), the one that explains most first, from the pixels `lit` (P,)."""
+    """Planes q (3,) found from the pixels `lit` (P,), in the order in which they are found."""
     left, votes = lit.copy(), _Votes.of(image, swept, distance_m)
     found: list[Array] = []
 
@@ -165,9 +165,9 @@ def find(image: Coarse, table: LightTable, swept: Sweep, lit: Mask, distance_m: 
 
 
 def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> list[Array]:
-    """Planes (3,) that stand before those found and are nearly parallel to them: each pixel suits both, all together suit one.
+    """Planes (3,) in front of those found and nearly parallel to them: only all of their pixels together tell the two apart.
 
-    Asked of the parts of a plane that an edge of its albedo encloses; a part becomes a plane where that pays by CLEARLY.
+    Each region of a plane that an albedo edge encloses is tested; it becomes a plane of its own if that lowers the cost by CLEARLY.
     """
     rim = np.ones(image.shape, bool)
     rim[1:-1, 1:-1] = False
@@ -188,7 +188,7 @@ def _before(image: Coarse, table: LightTable, found: list[Array], lit: Mask) -> 
 
 
 def _step(tone: Array) -> Array:
-    """The largest step (H, W) of a picture (H, W), single pixels left out, within 3x3 pixels."""
+    """Range (H, W) of a median-filtered image (H, W) within 3x3 pixels."""
     rows, columns = tone.shape
     about = np.pad(tone, 1, mode="edge")
     nine = np.stack([about[i : i + rows, j : j + columns] for i in range(3) for j in range(3)])
@@ -197,7 +197,7 @@ def _step(tone: Array) -> Array:
 
 
 def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int) -> Array:
-    """The plane q (3,) fitted to those pixels `among` (P,) that it explains."""
+    """The plane q (3,) fitted to those of the pixels `among` (P,) that it explains, selected again in each round."""
     pixels = np.flatnonzero(among)
     pixels = pixels[:: max(1, len(pixels) // FIT_PIXELS)]
     for _ in range(rounds):
@@ -216,7 +216,7 @@ def fitted(image: Coarse, table: LightTable, q: Array, among: Mask, rounds: int)
 
 @dataclass(frozen=True)
 class _Fit:
-    """Pixels that a plane is fitted to: Q of L lights."""
+    """Samples to which a plane is fitted: Q pixels, L lights."""
 
     rays_C: Array
     pixels: Indices
@@ -225,10 +225,10 @@ class _Fit:
     weight: Array
     room: RoomPrior | None
     albedo: Array
-    """(Q,) by the plane of the round before; a room's prior goes by it."""
+    """(Q,) from the previous round's plane; the prior of the ambient light depends on it."""
 
     def equations(self, q: Array) -> Equations:
-        """The loss of a plane q (3,) and its quadratic model, the albedo of each pixel eliminated."""
+        """Loss of a plane q (3,) and its quadratic model; the albedo of each pixel is eliminated."""
         if self.room is not None:
             room = self.room
             return Equations.differenced(lambda x: self.in_room(x, room), q)
@@ -247,12 +247,12 @@ class _Fit:
         return Equations.of((y - albedo * m).ravel(), -(change[:, None] * m + albedo * turned).reshape(3, -1))
 
     def in_room(self, q: Array, room: RoomPrior) -> Array:
-        """Residuals (M,) where a room's light is in the signals."""
+        """Residuals (M,) with ambient light in the signals."""
         m, _ = white(q, self.rays_C, self.pixels, self.table)
         return ambient_sample_costs.residuals(self.signal, self.weight, m, self.albedo, room)
 
     def _turned(self, q: Array) -> tuple[Array, Array]:
-        """Signals (L, Q) of a white plane q (3,), and their derivatives (3, L, Q) by q."""
+        """Signals (L, Q) of a plane q (3,) of albedo 1, and their derivatives (3, L, Q) by q."""
         u, hit = _met(q, self.rays_C, self.table)
         size, B = float(np.linalg.norm(q)), self.table.at(u, self.pixels)[0]
         n = -q / size
@@ -264,12 +264,12 @@ class _Fit:
 
 @dataclass(frozen=True)
 class _Votes:
-    """What each pixel votes for at each depth of a sweep: D depths, P pixels."""
+    """Votes of P pixels at D depths."""
 
     cell: Indices
-    """(D, P) number of the cell."""
+    """(D, P) index of the accumulator's cell."""
     weight: Array
-    """(D, P), of sum 1 a pixel."""
+    """(D, P) weight of the vote, of sum 1 for each pixel."""
     distance_m: float
 
     @staticmethod
@@ -286,7 +286,7 @@ class _Votes:
         return _Votes((column * SLOPE_BINS + row) * OFFSET_BINS + depth, weight, distance_m)
 
     def peaks(self, left: Mask) -> list[Array]:
-        """Planes (3,) of the highest peaks of the votes of pixels `left` (P,)."""
+        """Planes (3,) of the highest peaks of the accumulated votes of the pixels `left` (P,)."""
         cells = (SLOPE_BINS, SLOPE_BINS, OFFSET_BINS)
         votes = np.bincount(self.cell[:, left].ravel(), self.weight[:, left].ravel(), int(np.prod(cells)))
         total = raster.gaussian_filtered(votes.reshape(cells), BLUR)

@@ -1,8 +1,8 @@
-r"""Planes, placed by near light.
+r"""Signals and misfit of a plane under near light.
 
 Symbols: a plane is q (3,) with ``q . x = 1`` for its points x, so a ray r meets it at depth ``z = 1 / (q . r)``; its normal is -q / abs(q).
-Light k would give a white plane the signal ``m_k = E_k(x) (n . d_k)``; a pixel of albedo rho on it has ``I_k = rho m_k`` unless it lies in
-shadow. Near light alone places the plane: E and d change with x. Robust least squares over q, the albedo free at every pixel.
+Light k gives a plane of albedo 1 the signal ``m_k = E_k(x) (n . d_k)``; a pixel of albedo rho on it has ``I_k = rho m_k`` unless it is
+shadowed. Near light determines the plane, as E and d vary with x; the albedo is free at every pixel.
 """
 
 from __future__ import annotations
@@ -20,19 +20,20 @@ from lpcal.view import parallel
 from lpcal.view.pixel_list import PixelList, light_vectors
 
 SHADE = 0.5
-"""A signal under this share of what the second highest predicts is in shadow."""
+"""Share of the signal predicted from the reference albedo below which a sample counts as shadowed."""
 WEAK = 0.1
-"""A light that brings less than this share of what the strongest brings to a pixel is left out there: its lobe's tail."""
+"""Share of the strongest light's signal at a pixel below which a light is left out there: it is the tail of its lobe."""
 FIT_PIXELS = 700
+"""Largest number of pixels, spread over a plane, on which its misfit is judged."""
 BEHIND = 1e-3
-"""Reciprocal of a depth, 1/m, under which a ray misses a plane."""
+"""Reciprocal depth, 1/m, below which a ray misses a plane."""
 NODES = 64
-"""Nodes along a side of the lattice of rays on which the light of a plane is summed where there are twice as many rays as nodes: between
-the nodes it is right to 1e-4 of its most."""
+"""Nodes along a side of the lattice of rays on which a plane's signals are computed, when there are more than twice as many rays as nodes;
+interpolation between them is right to 1e-4 of the maximum."""
 FEW_LIGHTS = 64
-"""Lights up to which the kernel finds a plane's misfit."""
+"""Largest number of lights that the kernel of the misfit supports."""
 TRUSTED = 4.0
-"""Misfit of a pixel under which the plane is believed there."""
+"""Misfit of a pixel (mean square residual) below which it counts as part of the plane."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Plane:
 
 
 def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
-    """Signals m (L, P) of a white plane along rays (P, 3); NaN where a ray misses it."""
+    """Signals m (L, P) of a plane of albedo 1 along rays (P, 3); NaN where a ray misses it."""
     if len(rays_C) > 2 * NODES**2:
         m = interpolated(lambda xy: _at_infinity(q, np.column_stack([xy, np.ones(len(xy))]), lights), rays_C[:, :2], NODES)
     else:
@@ -57,16 +58,16 @@ def predicted(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
 
 
 def _at_infinity(q: Array, rays_C: Array, lights: Sequence[Light]) -> Array:
-    """Signals (L, P) of a white plane times the square of its depth, which stay smooth up to its horizon; negative where it looks away."""
+    """Signals (L, P) of a plane of albedo 1 times the squared depth: smooth up to the horizon, negative where it faces away."""
     depth = 1 / np.maximum(rays_C @ q, BEHIND)
     d, E = light_vectors(lights, depth[:, None] * rays_C)
     return E * (d @ (-q / np.linalg.norm(q))) * depth**2
 
 
 def interpolated(values: Callable[[Array], Array], at: Array, nodes: int) -> Array:
-    """Values (L, P) at places (P, 2), by those (L, N) at places (N, 2) on a lattice of nodes x nodes about them.
+    """Bicubic (Lagrange) interpolation of a function at places (P, 2), giving (L, P), from a lattice of nodes x nodes about them.
 
-    Cubic along each side, through the two nodes before a place and the two after it (Lagrange).
+    `values` takes places (N, 2) to (L, N).
     """
     low, high = at.min(axis=0), at.max(axis=0)
     step = np.maximum((high - low) / (nodes - 3), 1e-12)  # a node beyond each end
@@ -76,7 +77,7 @@ def interpolated(values: Callable[[Array], Array], at: Array, nodes: int) -> Arr
 
 
 def between(lattice: Array, place: Array) -> Array:
-    """Values (L, P) of a lattice (N, N, L) at places (P, 2) in steps from its first node."""
+    """Bicubic (Lagrange) interpolation (L, P) of a lattice (N, N, L) at places (P, 2), in steps from its first node."""
     if run := kernel("lattice"):
         lattice = np.ascontiguousarray(lattice, float)
 
@@ -98,9 +99,9 @@ def between(lattice: Array, place: Array) -> Array:
 
 
 def residuals(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Array, Array]:
-    """Residuals (L, P) in sigmas, 0 for samples in shadow or saturated, and the number (P,) of samples that count; pixels that miss: inf.
+    """Residuals (L, P) in standard deviations, 0 for shadowed or saturated samples, inf where the ray misses the plane; number (P,) used.
 
-    `shaded`: shadow may lie on most of the samples of a pixel, else on fewer than half.
+    `shaded`: all but two samples of a pixel may be shadowed; else fewer than half.
     """
     hit, albedo, counted, white = _fitted(seen, m, shaded=shaded)
     spread = np.sqrt(seen.sigma**2 + (MODEL * seen.signal) ** 2)
@@ -109,19 +110,19 @@ def residuals(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Array, Array]
 
 
 def strong(seen: PixelList, m: Array) -> tuple[Mask, Array]:
-    """The samples (L, P) by which a plane is judged, and m with 1 where a ray misses the plane."""
+    """The samples (L, P) that are used to judge a plane, and m with 1 where a ray misses it."""
     hit = _hit(m)
     white = np.where(hit, m, 1.0)
     return seen.usable & hit & (white > WEAK * white.max(axis=0)), white
 
 
 def _hit(m: Array) -> Mask:
-    """Where (P,) rays meet the plane and some light."""
+    """Mask (P,) of rays that meet the plane where some light reaches it."""
     return np.asarray(np.isfinite(m).all(axis=0) & (m > 0).any(axis=0))
 
 
 def _fitted(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Mask, Array, Mask, Array]:
-    """Where rays hit the plane (P,), albedo (P,), the samples (L, P) that it rests on, and m (L, P)."""
+    """Mask (P,) of rays that hit the plane, albedo (P,), samples (L, P) used for it, and m (L, P)."""
     sound, white = strong(seen, m)
     ratio = np.where(sound, seen.signal / np.maximum(white, 1e-9), -np.inf)
     ranked = np.sort(ratio, axis=0)
@@ -134,7 +135,7 @@ def _fitted(seen: PixelList, m: Array, *, shaded: bool) -> tuple[Mask, Array, Ma
 
 
 def misfit(seen: PixelList, m: Array, *, shaded: bool = True) -> tuple[Array, Array]:
-    """Mean square residual a degree of freedom (P,) of pixels against a plane's m, inf where fewer than two samples count; their number."""
+    """Squared residual per degree of freedom (P,) against a plane's m (L, P), inf for fewer than two samples; and their number (P,)."""
     if len(m) <= FEW_LIGHTS and (run := kernel("misfit")):
         signal, sigma, white = (np.ascontiguousarray(one, float) for one in (seen.signal, seen.sigma, m))
         given = (*m.shape, signal, sigma, np.ascontiguousarray(seen.usable), white, shaded, np.array([MODEL, SHADE, WEAK]))
@@ -146,5 +147,5 @@ def misfit(seen: PixelList, m: Array, *, shaded: bool = True) -> tuple[Array, Ar
 
 
 def thinned(seen: PixelList) -> PixelList:
-    """Every so many pixels, FIT_PIXELS at most."""
+    """A subset of about FIT_PIXELS pixels, evenly spaced in the list."""
     return seen.at(np.arange(0, seen.pixels, max(1, seen.pixels // FIT_PIXELS)))

@@ -1,12 +1,12 @@
-r"""What samples say for and against an explanation of a pixel: matter of any normal, or a plane whose normal and depth are known.
+r"""Robust costs of a pixel's samples under a hypothesis: a surface of free normal, a plane of known normal and depth, or no light.
 
-Symbols: signal I_k, predicted signal m_k, in units of the sample's standard deviation s_k::
+Symbols: signal I_k, predicted signal m_k, residual r_k = (I_k - m_k) / s_k with the sample's standard deviation s_k::
 
     s_k^2 = noise^2 + (MODEL^2 + doubt_k^2) I_k^2 + (indirect max_l I_l)^2
 
-A brighter sample costs min(r^2, OUTLIER), a darker one min(r^2, a shadow's price): DARK where next to nothing is left of it, HALF_DARK
-where it keeps much of its light. Light from elsewhere only adds, so `indirect` is BRIGHTER for brighter samples, DARKER for darker ones.
-Costs are twice negative logarithms of likelihoods: those of independent samples add up.
+A sample brighter than predicted costs min(r^2, OUTLIER). A darker one costs min(r^2, cost of a shadow): DARK where less than DARK_SHARE of
+the predicted signal is left, else HALF_DARK. Interreflection only adds light, so `indirect` is BRIGHTER for brighter samples and DARKER for
+darker ones. Costs are minus twice the log likelihood, so those of independent samples add up.
 """
 
 from __future__ import annotations
@@ -21,44 +21,44 @@ from lpcal.view.constants import OUTLIER2, SHADOW
 from lpcal.view.pixel_list import second
 
 MODEL = 0.03
-"""Share of a signal that a model of matte matter lacks: light from elsewhere, ripples of a lobe."""
+"""Relative standard deviation of the Lambertian model: interreflection, ripples of a lobe."""
 BRIGHTER, DARKER = 0.1, 0.015
-"""Light from other surfaces, as a share of a pixel's brightest sample, by which a sample may be brighter, and darker, than predicted."""
+"""Standard deviation of interreflected light, as a share of a pixel's brightest sample, for samples above and below the prediction."""
 OUTLIER = 25.0
-"""Cost of a sample that is brighter than predicted by any amount (5 sigmas): a highlight, or another surface."""
+"""Largest cost of a sample above its prediction (5 sigmas): a highlight, or another surface."""
 DARK, HALF_DARK = 5.0, 12.0
-"""Costs of a sample in shadow, twice the logarithm of how rare that is: with next to nothing left, and with more than DARK_SHARE left."""
+"""Costs of a shadowed sample, minus twice the log of its prior probability: below DARK_SHARE of the predicted signal, and above."""
 DARK_SHARE = 0.2
-"""Share of the predicted signal under which a sample is dark: shadows get light from elsewhere only."""
+"""Share of the predicted signal below which a sample is dark: only interreflected light reaches a cast shadow."""
 INTERREFLECTED = 0.04
-"""Light that surfaces throw into deep shadow, as a share of what the brightest matter sends back in full light (2 to 6 per cent)."""
+"""Interreflected light in deep shadow, as a share of the signal of the brightest matter in full light (measured: 2 to 6 per cent)."""
 ROUNDS = 3
-"""Solves of the normal, the first with all samples that no shadow darkens, the others by their residuals."""
+"""Solves for the normal: the first uses all unshadowed samples, the others are reweighted by their residuals."""
 MOST_LIGHTS = 32
-"""Lights that the kernels have room for."""
+"""Largest number of lights that the kernels support."""
 
 
 def variance(signal: Array, sigma: Array, doubt: Array) -> Array:
-    """Variance (L, P) of samples but for indirect light."""
+    """Variance (L, P) of samples, without that of interreflected light."""
     return np.asarray(sigma**2 + (MODEL**2 + np.asarray(doubt, float) ** 2) * signal**2)
 
 
 def square_residual(signal: Array, predicted: Array, spread2: Array) -> Array:
-    """Square residuals (L, P) in sigmas, indirect light counted."""
+    """Squared residuals (L, P) in standard deviations, with interreflected light in the variance."""
     indirect = np.where(signal > predicted, BRIGHTER, DARKER) * signal.max(axis=0)
     return np.asarray((signal - predicted) ** 2 / (spread2 + indirect**2))
 
 
 def price(signal: Array, predicted: Array, square: Array) -> Array:
-    """Cost (L, P) of samples by their square residuals."""
+    """Cost (L, P) of samples from their squared residuals."""
     shadow = np.where(signal < DARK_SHARE * predicted, DARK, HALF_DARK)
     return np.minimum(square, np.where(signal < predicted, shadow, OUTLIER))
 
 
 def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> tuple[Array, Array]:
-    """b (P, 3) by iteratively reweighted least squares, and the cost (P,) of pixels as matter of any normal, lit by B (L, P, 3).
+    """b (P, 3) and cost (P,) of pixels as surfaces of free normal under light vectors B (L, P, 3), by iteratively reweighted least squares.
 
-    A sample in shadow costs the same whether the surface turns away from its light or something stands between.
+    A shadowed sample costs the same for an attached shadow as for a cast one.
     """
     if len(signal) <= MOST_LIGHTS and (run := kernel("free")):
         b, cost = np.empty(B.shape[1:]), np.empty(B.shape[1])
@@ -79,9 +79,9 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array) -> t
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) -> tuple[Array, Array, Mask]:
-    """Cost (P,) of pixels as parts of a plane that sends back m (L, P) where it is white, their albedo (P,), and the lit samples (L, P).
+    """Cost (P,) and albedo (P,) of pixels on a plane that has signals m (L, P) at albedo 1, and the samples (L, P) that are lit.
 
-    The albedo of least cost among those that a sample by itself states is taken, then the mean of the samples that agree with it.
+    The albedo is the one of least cost among those of single samples, then the weighted mean of the samples that agree with it.
     """
     if len(signal) <= MOST_LIGHTS and (run := kernel("planar")):
         found, one, agreed = np.empty(m.shape[1]), np.empty(m.shape[1]), np.empty(m.shape, bool)
@@ -109,13 +109,13 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array) ->
 
 
 def _given(signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array) -> tuple[npt.NDArray[np.generic], ...]:
-    """What the kernels are given: samples (L, P), their light, and the constants."""
+    """Arguments of the kernels: samples (L, P), their light, and the constants."""
     constants = np.array([MODEL**2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, OUTLIER2, lambert.SINGULAR])
     signal, sigma, light = (np.ascontiguousarray(one, float) for one in (signal, sigma, light))
     return signal, sigma, np.ascontiguousarray(usable), light, np.ascontiguousarray(doubt, np.float32), constants
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array) -> Array:
-    """Cost (P,) of pixels as places that no light reaches but what other surfaces throw there, a share of `around` (L, P)."""
+    """Cost (P,) of pixels as places that no lamp reaches: their only light is interreflected, a share INTERREFLECTED of `around` (L, P)."""
     square = signal**2 / (sigma**2 + (INTERREFLECTED * around) ** 2)
     return np.asarray(np.sum(np.where(usable, np.minimum(square, OUTLIER), 0.0), axis=0) / 2)

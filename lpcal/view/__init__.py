@@ -1,1 +1,1 @@
-"""A capture as solvers see it: its pixels in a list, in part, in coarse pixels, in bands; their rays, and the lights at them."""
+"""A capture as the solvers use it: pixel lists, crops, binned images and bands of pixels, with their rays and the lights at them."""

@@ -1,8 +1,8 @@
-r"""A capture in coarse pixels, and the lights' field on each of them by log depth.
+r"""A binned capture of coarse pixels, and a table of the light field over log depth at each of them.
 
-Symbols: pixel p of ray r_p, u = log z; the table holds ``z^2 B_k(z r_p)`` at equal steps of u, cubic between them (Lagrange). The field is
-smooth: it is summed over the LEDs on a lattice of rays only. `doubt` is what an error of a light's direction makes of its irradiance, as a
-share of it: in the tail of a lobe a tenth of a degree is several per cent.
+Symbols: pixel p of ray r_p, u = log z; the table holds ``z^2 B_k(z r_p)`` at equal steps of u, with cubic (Lagrange) interpolation. The
+field is smooth, so it is summed over the LEDs only on a lattice of rays. `doubt` is the relative error of the irradiance that an error of
+the light's direction causes: in the tail of a lobe a tenth of a degree is several per cent.
 """
 
 from __future__ import annotations
@@ -22,27 +22,27 @@ from lpcal.view import parallel
 from lpcal.view.pixel_list import Indices, SignalMaps, light_vectors
 
 SPAN = (0.25, 6.0)
-"""Depths of the table, as shares of the working distance: beyond, lights do not reach, nor are they calibrated there."""
+"""Depth range of the table, in working distances: lights neither reach farther nor are calibrated there."""
 NODES = 60
-"""Steps of the table, 5 per cent of the depth each: cubic between them, the field is right to some thousandths."""
+"""Nodes of the table, 5 per cent of the depth apart: cubic interpolation is then right to some thousandths."""
 LATTICE = (19, 25)
-"""Rays down and across the image at which the field is summed: closer than the ripples of a cluster."""
+"""Rays down and across the image at which the field is summed: spaced more finely than the ripples of an LED cluster."""
 LEAST_DIRECTION_STD_RAD = 0.0026
-"""Radians by which the axis of a light is taken to err at least (0.15 degrees): what calibrations of panels reach."""
+"""Least standard deviation of a light's axis, radians (0.15 degrees): what calibrations of panels reach."""
 HELD = 12
-"""Nodes beyond each end at which a spline keeps the end's value: what is said further out changes it by 1e-7 of a step."""
+"""Nodes by which a spline's end values are continued: more would change it by less than 1e-7 of a step."""
 EVERYWHERE = (slice(None), slice(None))
 """The box of all rows and columns."""
 
 
 @dataclass(frozen=True)
 class RoomPrior:
-    """A room's light, as far as it is known beforehand."""
+    """Prior of the ambient (room) light."""
 
     share: Array
-    """(L,) what the signal of each light holds of A: 1 / h_k."""
+    """(L,) factor of the ambient part A in the signal of each light: 1 / h_k."""
     level: float
-    """A that matter of |b| = 1 sends back."""
+    """A of a surface of |b| = 1."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ class Coarse:
     shape: tuple[int, int]
     """Rows and columns."""
     factor: int
-    """Pixels a coarse pixel, along a side."""
+    """Side of a coarse pixel, in pixels."""
     room: RoomPrior | None = None
-    """What is known of a room's light that the signals hold; None where it has been taken away."""
+    """Prior of the ambient light in the signals; None where it has been subtracted."""
 
     def image[T: np.generic](self, values: npt.NDArray[T]) -> npt.NDArray[T]:
         """Values (P, ...) as a map (rows, columns, ...)."""
@@ -76,18 +76,18 @@ class Coarse:
 
 
 def factor_of(maps: SignalMaps, most: int) -> int:
-    """Pixels to be joined along a side, so that no more than `most` are left."""
+    """Least binning factor along a side that leaves no more than `most` pixels."""
     return int(np.ceil(np.sqrt(np.prod(maps.signal.shape[1:]) / most)))
 
 
 def coarse_of(maps: SignalMaps, rays_C: Array, factor: int) -> Coarse:
-    """The maps with blocks of factor x factor pixels joined; a block is usable where all its pixels are."""
+    """The maps binned by factor x factor pixels; a coarse pixel is usable where all its pixels are."""
     rows, columns = (side // factor for side in maps.signal.shape[1:])
     if run := kernel("blocks"):
         return _joined_by(run, maps, rays_C, factor)
 
     def cut[T: np.generic](values: npt.NDArray[T]) -> npt.NDArray[T]:
-        """Rows of a block, and whole rows of pixels (..., rows, factor, columns x factor)."""
+        """Values cropped to whole blocks, their rows grouped by block: (..., rows, factor, columns x factor)."""
         return values[..., : rows * factor, : columns * factor].reshape(*values.shape[:-2], rows, factor, columns * factor)
 
     def means(values: npt.NDArray[np.floating]) -> Array:
@@ -108,7 +108,7 @@ def coarse_of(maps: SignalMaps, rays_C: Array, factor: int) -> Coarse:
 
 
 def joined(maps: SignalMaps, rays_C: Array, factor: int) -> tuple[SignalMaps, Array]:
-    """The maps and rays (H, W, 3) with blocks of factor x factor pixels joined; single pixels as they are."""
+    """The maps and rays (H, W, 3) binned by factor x factor pixels; unchanged for a factor of 1."""
     if factor == 1:
         return maps, rays_C
     image = coarse_of(maps, rays_C, factor)
@@ -116,7 +116,7 @@ def joined(maps: SignalMaps, rays_C: Array, factor: int) -> tuple[SignalMaps, Ar
 
 
 def _joined_by(run: Callable[..., None], maps: SignalMaps, rays_C: Array, factor: int) -> Coarse:
-    """The same by kernels."""
+    """`coarse_of` by the kernels."""
     (L, height, width), average = maps.signal.shape, kernel("block_means")
     assert average is not None
     rows, columns = height // factor, width // factor
@@ -130,19 +130,19 @@ def _joined_by(run: Callable[..., None], maps: SignalMaps, rays_C: Array, factor
 
 @dataclass(frozen=True)
 class LightTable:
-    """The field on P coarse pixels."""
+    """Table of the light field on P coarse pixels."""
 
     first: float
     """u of the first node."""
     step: float
     B: Array
-    """(P, nodes, L, 3), times z^2: what a pixel is asked for lies together."""
+    """(P, nodes, L, 3) light vectors times z^2; the entries of a pixel are contiguous."""
     doubt: Array
-    """(P, nodes, L), a share of the irradiance."""
+    """(P, nodes, L) relative standard deviation of the irradiance."""
 
     @staticmethod
     def of(image: Coarse, lights: Sequence[Light], distance_m: float, box: tuple[slice, slice] = EVERYWHERE) -> LightTable:
-        """The table about a working distance, on the pixels of a box of rows and columns."""
+        """The table about a working distance `distance_m`, on the pixels of a box of rows and columns."""
         rows, columns = image.shape
         down, across = np.linspace(0, rows - 1, LATTICE[0]), np.linspace(0, columns - 1, LATTICE[1])
         by_row, by_column = (_linear(side, at) for side, at in zip(image.shape, (down, across), strict=True))
@@ -154,7 +154,7 @@ class LightTable:
         doubt = _doubt(lights, x_C, rays, E.reshape(len(lights), *x_C.shape[:3]))
 
         def spread(values: Array, order: Literal[1, 3]) -> Array:
-            """Values (lattice, N) at the pixels (P, N): splines of this order down and across."""
+            """Values (lattice, N) interpolated at the pixels (P, N) by splines of this order along both sides."""
             sides = zip(LATTICE, image.shape, box, strict=True)
             by_row, by_column = (_spline(nodes, side, order)[some].astype(np.float32) for nodes, side, some in sides)
             found = np.empty((len(by_row), len(by_column), values[0, 0].size), np.float32)
@@ -204,13 +204,13 @@ class LightTable:
         return found, doubt
 
     def _between(self, u: Array) -> tuple[Array, Array, Indices]:
-        """Places (Q,) of log depths in steps of the table, how far they lie beyond their second node, and the first node that they ask."""
+        """Positions (Q,) of log depths in steps of the table, their offsets from the second of four nodes, and the first of these nodes."""
         t = np.clip((u - self.first) / self.step, 0, self.B.shape[1] - 1.001)
         k = np.clip(t.astype(int), 1, self.B.shape[1] - 3)
         return t, t - k, k - 1
 
     def _joined(self, pixels: Indices, first: Indices, weights: Sequence[Array]) -> Array:
-        """Sums (Q, L, 3) of the nodes from the first on (Q,), by weights (Q,)."""
+        """Weighted sums (Q, L, 3) of four consecutive nodes, of which `first` (Q,) is the first."""
         total = np.zeros((len(pixels), *self.B.shape[2:]))
         for j, weight in enumerate(weights):
             total += self.B[pixels, first + j] * weight[:, None, None]
@@ -221,12 +221,12 @@ class LightTable:
         return LightTable(self.first, self.step, self.B[some], self.doubt[some])
 
     def holds(self, u: Array) -> Mask:
-        """Whether log depths lie in the table."""
+        """Mask (Q,) of log depths within the table."""
         return np.asarray((u >= self.first) & (u <= self.first + self.step * (self.B.shape[1] - 1)))
 
 
 def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
-    """Matrix (places, nodes) from values at nodes evenly apart to a spline at places evenly apart, both from end to end."""
+    """Matrix (places, nodes) that evaluates a spline through evenly spaced nodes at evenly spaced places over the same interval."""
     at = np.linspace(0, nodes - 1, places)
     if order == 1:
         return _linear(nodes, at)
@@ -245,7 +245,7 @@ def _spline(nodes: int, places: int, order: Literal[1, 3]) -> Array:
 
 
 def _linear(nodes: int, at: Array) -> Array:
-    """Matrix (N, nodes) from values at nodes evenly apart to values between them, at places (N,) in steps from the first."""
+    """Matrix (N, nodes) of linear interpolation between evenly spaced nodes, at positions (N,) in steps from the first."""
     before = np.clip(at.astype(int), 0, max(nodes - 2, 0))
     found = np.zeros((len(at), nodes))
     found[np.arange(len(at)), before] = 1 - (at - before)
@@ -254,7 +254,7 @@ def _linear(nodes: int, at: Array) -> Array:
 
 
 def _doubt(lights: Sequence[Light], x_C: Array, rays: Array, E: Array) -> Array:
-    """Share of the irradiance (L, nodes, lattice) that an error of a light's direction makes, from how the field changes across."""
+    """Relative standard deviation (L, nodes, lattice) of the irradiance due to the light's direction, from the field's lateral gradient."""
     fall = np.log(np.maximum(E, 1e-30))
     across = np.gradient(fall, axis=3) / np.gradient(rays[..., 0], axis=1)
     down = np.gradient(fall, axis=2) / np.gradient(rays[..., 1], axis=0)

@@ -1,4 +1,4 @@
-"""The part of a capture that a mask leaves to be solved, and the surface of the part put back into the picture."""
+"""The crop of a capture about a mask, and a surface of the crop put back into the full image."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 
 MARGIN_PX = 8
-"""Pixels about the mask that stay: what looks at a pixel's neighbours looks no further."""
+"""Margin about the mask, pixels: no neighbourhood operation reaches farther."""
 MAPS = ("normals", "depth", "albedo", "mask", "normal_std_deg", "depth_std", "lights_used", "component", "layer")
 
 
 @dataclass(frozen=True)
 class Crop:
-    """Rows and columns of a picture of a shape (H, W)."""
+    """A box of rows and columns in an image of a shape (H, W)."""
 
     rows: slice
     columns: slice
@@ -27,7 +27,7 @@ class Crop:
 
     @staticmethod
     def about(mask: Mask) -> Crop:
-        """The box of a mask (H, W) with its margin; all of the picture where the mask is empty."""
+        """The bounding box of a mask (H, W) with its margin; the whole image where the mask is empty."""
         sides = []
         for axis, size in ((1, mask.shape[0]), (0, mask.shape[1])):
             held = np.flatnonzero(mask.any(axis=axis))
@@ -35,13 +35,13 @@ class Crop:
         return Crop(sides[0], sides[1], (mask.shape[0], mask.shape[1]))
 
     def of[T: np.generic](self, maps: npt.NDArray[T]) -> npt.NDArray[T]:
-        """The part of a map (H, W, ...)."""
+        """A map (H, W, ...) cropped."""
         return maps[self.rows, self.columns]
 
     def radiance(self, whole: Radiance) -> Radiance:
-        """The part of a capture: copies, one after the other, so that nothing holds the rest."""
+        """A capture cropped: its maps are copied one after the other, so that the whole ones can be freed."""
         part = whole
-        del whole  # where the caller does not hold it either, each map goes once its part is there
+        del whole  # unless the caller holds it, each whole map is freed once its part is copied
         part = replace(part, saturated=self._copies(part.saturated))
         part = replace(part, signal=self._copies(part.signal))
         part = replace(part, sigma=self._copies(part.sigma))
@@ -50,18 +50,18 @@ class Crop:
         return replace(part, ambient=self.of(part.ambient).copy(), short=short, mask=mask)
 
     def _copies[T: np.generic](self, images: npt.NDArray[T]) -> npt.NDArray[T]:
-        """The part of images (L, H, W, ...)."""
+        """Images (L, H, W, ...) cropped, as a copy."""
         return images[:, self.rows, self.columns].copy()
 
     def surface(self, whole: Surface) -> Surface:
-        """The part of a surface: its maps are views of the whole one's, and what it says of no pixel stays as it is."""
+        """A surface cropped: its maps are views of the whole one's; all that is not a map is unchanged."""
         maps = {name: self.of(one) for name in (*MAPS, "rays_C") if (one := getattr(whole, name)).size}
         breaks = whole.breaks[:, self.rows, self.columns] if whole.breaks.size else whole.breaks
         changed: Any = {**maps, "breaks": breaks}
         return replace(whole, **changed)
 
     def put_back(self, part: Surface) -> Surface:
-        """The surface of the part in the whole picture; its rays must all be alike."""
+        """The surface of a crop in the full image; its rays must all be the same (no camera)."""
         maps = {name: self._whole(getattr(part, name)) for name in MAPS}
         breaks = np.ones((2, *self.shape), bool)
         breaks[:, self.rows, self.columns] = part.breaks

@@ -1,12 +1,13 @@
-r"""A small convolutional network that judges a coarse picture by some channels: which pixels are the object, which way they face.
+r"""A small U-Net on a coarse image of several channels: it classifies object pixels, refines an outline, or predicts normals.
 
-A U-Net: a picture of several channels is convolved and halved three times; the last scale also knows its own means over the picture. On the
-way back each scale is joined with what was found there before. A convolution takes 3 x 3 pixels; outside the picture all is 0::
+The encoder convolves and halves the image three times; at the lowest scale the channel means over the image are appended (global context).
+The decoder has skip connections. A convolution takes 3 x 3 pixels, zero padded, with rectified output::
 
-    y = max(0, b + sum_k W_k x_k)          k: the 9 places
+    y = max(0, b + sum_k W_k x_k)          k: the 9 positions
 
-The picture and its mirror image are both judged, so that left and right are alike. tools/fit_mask.py and tools/fit_normal_prior.py fit the
-weights. Source: Ronneberger, Fischer and Brox 2015, Medical Image Computing and Computer-Assisted Intervention 9351.
+The image and its mirror image are both evaluated, for left-right symmetry. tools/fit_mask.py, tools/fit_outline.py and
+tools/fit_normal_prior.py fit the weights. Source: Ronneberger, Fischer and Brox 2015, Medical Image Computing and Computer-Assisted
+Intervention 9351.
 """
 
 from __future__ import annotations
@@ -24,12 +25,12 @@ from lpcal.view import parallel
 from lpcal.view.constants import CERTAIN
 
 PLACE = 40.0
-"""Pixels that are a unit of a place in the picture."""
+"""Pixels per unit of the two position channels."""
 
 
 @dataclass(frozen=True)
 class Convolution:
-    """Weights and offsets of C channels that become D."""
+    """A 3 x 3 convolution from C to D channels."""
 
     weight: npt.NDArray[np.float32]
     """(9, D, C), row by row."""
@@ -40,7 +41,7 @@ class Convolution:
         """Channels (C, rows, columns) convolved and rectified, (D, rows, columns)."""
         channels, rows, columns = x.shape
         wide = columns + 2
-        padded = np.zeros((channels, (rows + 2) * wide + 2), np.float32)  # row by row, so that each of the 9 places is a stretch of it
+        padded = np.zeros((channels, (rows + 2) * wide + 2), np.float32)  # row by row: each of the 9 shifts is contiguous
         padded[:, : (rows + 2) * wide].reshape(channels, rows + 2, wide)[:, 1:-1, 1:-1] = x
         total = np.zeros((len(self.offset), rows * wide), np.float32)
         for place, weight in enumerate(self.weight):
@@ -56,26 +57,26 @@ class Network:
 
     channels: tuple[str, ...]
     mirrored: npt.NDArray[np.float32]
-    """(C,) -1 for a channel that changes its sign in a mirror, else 1."""
+    """(C,) -1 for a channel whose sign changes in the mirror image, else 1."""
     middle: npt.NDArray[np.float32]
     spread: npt.NDArray[np.float32]
-    """(C,) mean and standard deviation of each channel over the pixels that it was fitted to."""
+    """(C,) mean and standard deviation of each channel over the training pixels."""
     steps: Mapping[str, Convolution]
     weight: npt.NDArray[np.float32]
-    """(N, D) of the last channels in the N answers."""
+    """(N, D) of the output layer: N outputs from the last D channels."""
     offset: npt.NDArray[np.float32]
     """(N,)."""
 
     @staticmethod
     @cache
     def read(path: Path) -> Network:
-        """The fitted one that a file keeps."""
+        """The network in a .npz file; it is read once."""
         with np.load(path) as arrays:
             return Network.of(arrays)
 
     @staticmethod
     def of(arrays: Mapping[str, np.ndarray]) -> Network:
-        """From what a file keeps."""
+        """The network of the arrays of a file."""
         one = {name: np.asarray(value, np.float32) for name, value in arrays.items() if name != "channels"}
         names = [name.removesuffix(".weight") for name in one if name.endswith(".weight") and name != "out.weight"]
         steps = {name: Convolution(one[f"{name}.weight"], one[f"{name}.offset"]) for name in names}
@@ -83,9 +84,10 @@ class Network:
         return Network(tuple(map(str, arrays["channels"])), one["mirrored"], one["middle"], one["spread"], steps, *last)
 
     def answers(self, channels: Mapping[str, Array], inside: Mask | None = None) -> tuple[Image, Image]:
-        """Answers (N, rows, columns) of the picture, and of its mirror image put back in place.
+        """Outputs (N, rows, columns) for the image, and for its mirror image mirrored back.
 
-        By channels (rows, columns) of these names, of which there may be more; only pixels `inside` count, all others are 0 everywhere.
+        `channels` holds a map (rows, columns) by name for each of the network's channels, and may hold more; pixels that are not `inside`
+        (rows, columns) are zero in every channel.
         """
         x = np.stack([np.asarray(channels[name], np.float32) for name in self.channels])
         counted = np.ones(x.shape[1:], bool) if inside is None else inside
@@ -109,13 +111,13 @@ class Network:
 
 
 def places(rows: int, columns: int) -> Image:
-    """Where in the picture its pixels are (2, rows, columns): down from its middle, and how far left or right of it."""
+    """Position channels (2, rows, columns): vertical offset from the image centre, and absolute horizontal offset."""
     y, z = ((np.arange(side) + 0.5 - side / 2) / PLACE for side in (rows, columns))
     return np.stack(np.meshgrid(y, np.abs(z), indexing="ij")).astype(np.float32)
 
 
 def halved(x: Image) -> Image:
-    """Means (C, rows / 2, columns / 2) of blocks of 2 x 2 pixels; an odd side's last block is half as large."""
+    """Means (C, rows / 2, columns / 2) of blocks of 2 x 2 pixels; the last block of an odd side is half as large."""
     for axis in (1, 2):
         first, second = (x.take(range(k, x.shape[axis], 2), axis=axis) for k in (0, 1))
         if second.shape[axis] < first.shape[axis]:
@@ -125,5 +127,5 @@ def halved(x: Image) -> Image:
 
 
 def doubled(x: Image, shape: tuple[int, ...]) -> Image:
-    """Pixels (C, rows, columns) each as 2 x 2, cut to a shape."""
+    """Channels (C, rows, columns) enlarged by nearest neighbour to 2 x 2 pixels each, cropped to a shape."""
     return x.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]

@@ -1,7 +1,7 @@
-"""What the solvers see of an object: its pixels as a list, their rays, and the signals of the lights at them.
+"""An object's pixels as a list, with their rays and the signals of the lights at them.
 
-Symbols: P pixels, L lights, ray r (of length 1 in z), point ``x = z r``. A signal is divided by its light's intensity, so that every
-light counts as one of intensity 1; of an RGB capture the channels are joined into one signal, weighted by their noise.
+Symbols: P pixels, L lights, ray r (scaled to z = 1), point ``x = z r``. Signals are divided by their light's intensity, so that every
+light counts as one of intensity 1; the channels of an RGB capture are averaged into one signal, weighted by their inverse variance.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LIGHTS_NEEDED = 3
 
 @dataclass(frozen=True)
 class SignalMaps:
-    """Maps of one signal a light, a unit of intensity: (L, H, W)."""
+    """Maps (L, H, W) of the signal of each light per unit of its intensity, and its standard deviation."""
 
     signal: Image
     sigma: Image
@@ -36,18 +36,18 @@ class SignalMaps:
 
 @dataclass(frozen=True)
 class PixelList:
-    """The pixels of the object."""
+    """The pixels of a mask: P pixels under L lights."""
 
     mask: Mask
-    """(H, W); the pixels are its True places in reading order."""
+    """(H, W); the listed pixels are its True entries, row by row."""
     rays_C: Array
-    """(P, 3)."""
+    """(P, 3), scaled to z = 1."""
     signal: Array
     """(L, P)."""
     sigma: Array
     usable: Mask
     central: bool
-    """Whether there is a camera; else rays are parallel and depths are in pixels."""
+    """Whether the projection is central; without a camera rays are parallel and depths are in pixels."""
 
     @property
     def pixels(self) -> int:
@@ -69,7 +69,7 @@ class PixelList:
         return depth[:, None] * self.rays_C
 
     def shape_C(self, depth: Array) -> Array:
-        """Points (P, 3) whose shape is that of the surface: `points_C`, or columns, rows and depth in pixels without a camera."""
+        """Points (P, 3) of the surface: `points_C` in metres, or column, row and depth in pixels without a camera."""
         if self.central:
             return self.points_C(depth)
         rows, columns = np.nonzero(self.mask)
@@ -78,20 +78,20 @@ class PixelList:
 
 @dataclass(frozen=True)
 class Illumination:
-    """The light at each pixel: of the lights, and of what the object reflects onto itself."""
+    """The light at each pixel: direct and interreflected."""
 
     d: Array
     """(L, P, 3) unit vectors to the lights."""
     E: Array
     """(L, P) irradiance."""
     interreflected: Array | None = None
-    """(L, P, 3) light vectors of what other parts of the object, the wall and the support throw here (surface.interreflection)."""
+    """(L, P, 3) light vectors of what other parts of the object, the wall and the support reflect here (surface.interreflection)."""
     unseen: Array | None = None
-    """(P,) share of what stands around a pixel that is of the object and not seen: what it reflects is guessed."""
+    """(P,) share of a pixel's surroundings that are sides of the object hidden from the camera: their light is an estimate."""
 
     @property
     def B(self) -> Array:
-        """Light vectors (L, P, 3), all light counted."""
+        """Light vectors (L, P, 3), direct and interreflected."""
         return self.direct if self.interreflected is None else self.direct + self.interreflected
 
     @property
@@ -106,17 +106,17 @@ class Illumination:
 
 
 def vectors(light: Illumination | Array, some: Indices | slice) -> Array:
-    """Light vectors (L, Q, 3) at some of the pixels, of vectors (L, P, 3) or of light."""
+    """Light vectors (L, Q, 3) at some of the pixels, from an illumination or from vectors (L, P, 3)."""
     return light.at(some).B if isinstance(light, Illumination) else light[:, some]
 
 
 def strength(maps: SignalMaps) -> Image:
-    """Brightness (H, W) of the second brightest light: highlights and single lights do not rule it."""
+    """Signal (H, W) of the second brightest light at each pixel: robust to a highlight in one light."""
     return np.asarray(second(maps.signal), np.float32)
 
 
 def second[T: np.floating](values: npt.NDArray[T]) -> npt.NDArray[T]:
-    """The highest value (...) but one of values (L, ...), L of two or more."""
+    """Second largest (...) of values (L, ...) along the first axis, L >= 2."""
     high, found = np.maximum(values[0], values[1]), np.minimum(values[0], values[1])
     for one in values[2:]:
         np.maximum(found, np.minimum(high, one), out=found)
@@ -125,12 +125,12 @@ def second[T: np.floating](values: npt.NDArray[T]) -> npt.NDArray[T]:
 
 
 def lights_of(calibration: Calibration, radiance: Radiance) -> tuple[Light, ...]:
-    """The calibrated lights of a capture, in its order.
+    """The calibrated lights of a capture, in the capture's order.
 
     Raises
     ------
     DegenerateError
-        Fewer than three, or all in a plane: they do not determine a normal.
+        There are fewer than three lights, or all directions lie in one plane: they do not determine a normal.
     """
     by_name = {light.name: light for light in calibration.lights}
     lights = tuple(by_name[name] for name in radiance.lights)
@@ -168,7 +168,7 @@ def agree_on_size(name: str, size: tuple[int, ...], camera: Camera | None) -> No
 
 
 def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = None) -> SignalMaps:
-    """One signal a light, a unit of intensity; colours are joined by `weight` (3,), by default by their noise (`colour_weight`)."""
+    """Signal maps of a capture per unit of intensity; colours are averaged with `weight` (3,), by default `colour_weight`."""
     factor = _factor(radiance, lights)
     shape = radiance.signal.shape[:3]
     if radiance.signal.ndim == 3:
@@ -182,7 +182,7 @@ def grey(radiance: Radiance, lights: Sequence[Light], weight: Array | None = Non
 
 
 def colour_weight(radiance: Radiance, lights: Sequence[Light]) -> Array:
-    """Weights (3,) of the colours of an RGB capture, by their noise."""
+    """Weights (3,) of the colours of an RGB capture, of sum 1: their inverse mean variances."""
     both = zip(radiance.sigma, _factor(radiance, lights), strict=True)
     variance = np.mean([np.mean((std * by) ** 2, axis=(0, 1), dtype=float) for std, by in both], axis=0)
     weight = 1 / np.maximum(variance, 1e-20)
@@ -190,7 +190,7 @@ def colour_weight(radiance: Radiance, lights: Sequence[Light]) -> Array:
 
 
 def _factor(radiance: Radiance, lights: Sequence[Light]) -> Image:
-    """What brings signals to a unit of intensity: (L, 1, 1), of colours (L, 1, 1, 3)."""
+    """Factor 1 / intensity of each light: (L, 1, 1), or (L, 1, 1, 3) for colours."""
     if radiance.signal.ndim == 3:
         return np.asarray(1 / np.stack([light.intensity.mean(keepdims=True) for light in lights]).astype(np.float32)[:, None], np.float32)
     intensity = np.stack([light.intensity for light in lights]).astype(np.float32)
@@ -198,13 +198,13 @@ def _factor(radiance: Radiance, lights: Sequence[Light]) -> Image:
 
 
 def room(radiance: Radiance) -> Image | None:
-    """The image without lights (H, W), of colours the mean; None where there is none."""
+    """The ambient image (H, W), averaged over colours; None where there is none."""
     picture = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
     return np.asarray(picture) if picture.any() else None
 
 
 def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
-    """Rays (H, W, 3) of length 1 in z; without a camera all (0, 0, 1)."""
+    """Rays (H, W, 3) of all pixels, scaled to z = 1; without a camera all (0, 0, 1)."""
     height, width = shape[:2]
     rays_C = np.zeros((height, width, 3))
     rays_C[..., 2] = 1.0
@@ -221,7 +221,7 @@ def ray_map(shape: tuple[int, ...], camera: Camera | None) -> Array:
 
 
 def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
-    """Rays (N, 3) of length 1 in z of pixels (N, 2); without a camera all (0, 0, 1)."""
+    """Rays (N, 3) of pixels (N, 2), scaled to z = 1; without a camera all (0, 0, 1)."""
     if camera is None:
         return np.tile([0.0, 0.0, 1.0], (len(pixels), 1))
     rays_C = np.ones((len(pixels), 3))
@@ -230,16 +230,16 @@ def rays_at(pixels: npt.NDArray[np.number], camera: Camera | None) -> Array:
 
 
 def list_pixels(maps: SignalMaps, rays_C: Array, mask: Mask, *, central: bool) -> PixelList:
-    """The pixels of a mask as lists."""
+    """The pixels of a mask (H, W) as a list."""
     at = np.flatnonzero(mask)
     signal, sigma = (values.reshape(len(values), -1)[:, at].astype(float) for values in (maps.signal, maps.sigma))
     return PixelList(mask, rays_C.reshape(-1, 3)[at], signal, sigma, maps.usable.reshape(len(signal), -1)[:, at], central)
 
 
 def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = None) -> tuple[Array, Array]:
-    """Unit directions d (L, P, 3) to the lights and irradiance E (L, P) a unit of intensity at points x_C (P, 3).
+    """Unit directions d (L, P, 3) to the lights and irradiance E (L, P) per unit of intensity at points x_C (P, 3).
 
-    Where `focus_C` (3,) is given every light is taken as a distant one: everywhere as it is there.
+    If `focus_C` (3,) is given, lights are distant: direction and irradiance are everywhere those at `focus_C`.
     """
     shape = (len(lights), len(x_C))
     if focus_C is not None:
@@ -256,18 +256,18 @@ def light_vectors(lights: Sequence[Light], x_C: Array, focus_C: Array | None = N
 
 
 def fronts_m(lights: Sequence[Light], span: tuple[float, float], steps: int) -> Array:
-    """Distances (steps,) along the camera's axis at which flat fronts are tried: from the lights on, `span` in shares of their spread."""
+    """Depths (steps,), m, of fronto-parallel planes to be tried, `span` beyond the lights' mean depth in units of their rms spread."""
     sources_C = np.stack([light.source_C for light in lights if light.source_C is not None])
     spread = float(np.sqrt(np.mean(np.sum((sources_C - sources_C.mean(axis=0)) ** 2, axis=1))))
     return np.asarray(max(float(sources_C[:, 2].mean()), 0.0) + spread * np.geomspace(*span, steps))
 
 
 def light_slopes(lights: Sequence[Light], x_C: Array) -> Array:
-    """How the light vectors (L, P, 3) of points x_C (P, 3) change with the logarithm of their depth along their rays."""
+    """Derivative (L, P, 3) of the light vectors by log depth, at points x_C (P, 3) moved along their rays."""
     return np.stack([light.slope(x_C) for light in lights])
 
 
 def powers(xy: Array) -> Array:
-    """1, x, y, x^2, xy, y^2 (P, 6) of rays' x and y (P, 2): what is smooth over the image follows them."""
+    """Monomials 1, x, y, x^2, xy, y^2 (P, 6) of the rays' x and y (P, 2), a basis for functions that are smooth over the image."""
     x, y = xy.T
     return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
