@@ -1,10 +1,10 @@
-r"""What samples say for and against an explanation of a pixel, where they hold a room's light that no image shows by itself.
+r"""Robust costs of a pixel's samples as in segmentation.sample_costs, with unknown ambient light in the signals (no ambient image).
 
-Symbols: signal ``I_k = m_k + A / h_k`` of light k, whose intensity h_k signals were divided by; m_k is what the lamp sends back, 0 in
-its shadow; A is the room's. As segmentation.sample_costs, with A free at every pixel under a prior: light from all over a room acts on
-matter of ``b = rho n`` as ``A = level |b|``, more or less by SPREAD where the object hides the room or its light comes from one side.
-Of matter of any normal ``|b| = n . b`` makes this linear in b for the normal n of the step before. Costs are those of
-segmentation.sample_costs on what is left without A, and that of the prior.
+Symbols: signal ``I_k = m_k + A / h_k`` of light k, by whose intensity h_k signals were divided; m_k is the lamp's part, 0 in its shadow; A
+is the ambient part, free at every pixel under a prior: ambient light from all over a room gives a surface of ``b = rho n`` the signal
+``A = level |b|``, within SPREAD, as the object occludes the room and the light may come from one side. For a free normal, ``|b| = n . b``
+with the normal n of the previous step makes this linear in b. The costs are those of segmentation.sample_costs on the signals without A,
+plus that of the prior.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from lpcal.view.constants import OUTLIER2, SHADOW
 from lpcal.view.pixel_list import second
 
 SPREAD = 0.35
-"""Relative standard deviation of A about level |b|: on simulated scenes 0.15 over an object, 0.3 between it and a wall behind."""
+"""Relative standard deviation of A about level |b|: in simulated scenes 0.15 over an object, 0.3 between it and the wall behind."""
 DEEP = 0.02
-"""Light that surfaces throw into shadow, as a share of a pixel's brightest sample: by so much a dark sample may differ from A."""
+"""Interreflected light in shadow, as a share of a pixel's brightest sample: the deviation from A allowed to a shadowed sample."""
 BRIGHTER = 0.03
-"""Light from other surfaces, as in segmentation.sample_costs but less of it: with more, the room's level comes out too low by a third."""
+"""As in segmentation.sample_costs, but smaller: with 0.1 the ambient level comes out too low by a third."""
 STEPS = 4
-"""Solves of b and A, the first with half of the least sample for A."""
+"""Solves for b and A, starting from half of the least sample as A."""
 PLANE_STEPS = 3
-"""Solves of a plane's albedo and A, from the best that single samples say."""
+"""Solves for a plane's albedo and A, starting from the best estimate of a single sample."""
 LEVEL_TIE = 1e-9
-"""Least share of a diagonal that holds a system where the samples determine fewer than four numbers."""
+"""Relative regularisation of the diagonal, for pixels whose samples determine fewer than four unknowns."""
 
 
 @dataclass(frozen=True)
 class Free:
-    """Pixels as matter of any normal."""
+    """P pixels fitted as surfaces of free normal."""
 
     b: Array
     """(P, 3)."""
@@ -47,11 +47,11 @@ class Free:
     cost: Array
     """(P,)."""
     information: Array
-    """(P,) how much of the prior's variance of A the samples take away, 0..1."""
+    """(P,) share of the prior variance of A that the samples remove, 0..1."""
 
 
 def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room: RoomPrior) -> Free:
-    """Pixels as matter of any normal lit by B (L, P, 3), as `sample_costs.free`."""
+    """Fit pixels as surfaces of free normal under light vectors B (L, P, 3), as `sample_costs.free`, with A."""
     if len(signal) <= sample_costs.MOST_LIGHTS and (run := kernel("room_free")):
         b, (A, cost, information) = np.empty(B.shape[1:]), np.empty((3, B.shape[1]))
         run(*signal.shape, *_given(signal, sigma, usable, B, doubt, room), STEPS, b, A, cost, information)
@@ -78,7 +78,7 @@ def free(signal: Array, sigma: Array, usable: Mask, B: Array, doubt: Array, room
 
 
 def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, room: RoomPrior) -> tuple[Array, Array, Mask, Array]:
-    """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels as parts of a plane of signals m (L, P), as `sample_costs.planar`."""
+    """Cost (P,), albedo (P,), lit samples (L, P) and A (P,) of pixels on a plane of signals m (L, P), as `sample_costs.planar`."""
     if len(signal) <= sample_costs.MOST_LIGHTS and (run := kernel("room_planar")):
         (cost, albedo, A), lit = np.empty((3, m.shape[1])), np.empty(m.shape, bool)
         run(*signal.shape, *_given(signal, sigma, usable, m, doubt, room), PLANE_STEPS, cost, albedo, lit, A)
@@ -111,7 +111,7 @@ def planar(signal: Array, sigma: Array, usable: Mask, m: Array, doubt: Array, ro
 def _given(
     signal: Array, sigma: Array, usable: Mask, light: Array, doubt: Array, room: RoomPrior
 ) -> tuple[npt.NDArray[np.generic] | float, ...]:
-    """What the kernels are given: samples (L, P), their light, the room's, and the constants."""
+    """Arguments of the kernels: samples (L, P), their light, the ambient prior, and the constants."""
     constants = [
         sample_costs.MODEL**2,
         BRIGHTER,
@@ -128,7 +128,7 @@ def _given(
 
 
 def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: RoomPrior) -> tuple[Array, Array]:
-    """Cost (P,), as `sample_costs.nothing`, of places that the room alone lights, and A (P,) there."""
+    """Cost (P,), as `sample_costs.nothing`, of places lit by the ambient light alone, and their A (P,)."""
     share, spread2 = room.share[:, None], sigma**2 + (sample_costs.INTERREFLECTED * around) ** 2
     weight = usable / spread2
     A = np.sum(weight * share * signal, axis=0) / np.maximum(np.sum(weight * share**2, axis=0), 1e-30)
@@ -136,7 +136,7 @@ def nothing(signal: Array, sigma: Array, usable: Mask, around: Array, room: Room
 
 
 def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room: RoomPrior) -> tuple[Array, Array]:
-    """Albedo (P,) and A (P,) of least squares by weights (L, P), under the prior at a first albedo (P,)."""
+    """Least-squares albedo (P,) and A (P,) with weights (L, P), under the prior at an initial albedo (P,)."""
     share, tie = room.share[:, None], prior_weight(albedo, room)
     mm, ms = np.sum(weight * m * m, axis=0) + tie * room.level**2, np.sum(weight * m * share, axis=0) - tie * room.level
     ss, my, sy = np.sum(weight * share**2, axis=0) + tie, np.sum(weight * m * signal, axis=0), np.sum(weight * share * signal, axis=0)
@@ -145,31 +145,31 @@ def albedo_and_room(signal: Array, weight: Array, m: Array, albedo: Array, room:
 
 
 def residuals(signal: Array, weight: Array, m: Array, albedo: Array, room: RoomPrior) -> Array:
-    """Residuals (L P + P,) of a plane by weights (L, P), those of the prior last; albedo and A are eliminated, with a first albedo (P,)."""
+    """Weighted residuals (L P + P,) of a plane, those of the prior last; albedo and A are eliminated, from an initial albedo (P,)."""
     one, A = albedo_and_room(signal, weight**2, m, albedo, room)
     of_prior = np.sqrt(prior_weight(albedo, room)) * (A - room.level * one)
     return np.concatenate([(weight * (signal - one * m - room.share[:, None] * A)).ravel(), of_prior])
 
 
 def prior_weight(size: Array, room: RoomPrior) -> Array:
-    """One over the variance (P,) of A by the prior, of matter of |b| (P,)."""
+    """Inverse prior variance (P,) of A for surfaces of |b| (P,)."""
     return np.asarray(1 / np.maximum(SPREAD * room.level * size, 1e-12) ** 2)
 
 
 def lowest(signal: Array, usable: Mask, room: RoomPrior) -> Array:
-    """The least sample (P,) as A: there cannot be more; 0 where none counts."""
+    """Upper bound (P,) of A: the least usable sample; 0 where none is usable."""
     least = np.min(np.where(usable, signal / room.share[:, None], np.inf), axis=0)
     return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0.0), 0.0))
 
 
 def _without(signal: Array, sigma: Array, doubt: Array, ambient: Array) -> tuple[Array, Array]:
-    """Signals (L, P) without the room's, and their variance."""
+    """Signals (L, P) without the ambient part, and their variance."""
     lamps = signal - ambient
     return lamps, sample_costs.variance(lamps, sigma, doubt)
 
 
 def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: Array, ambient: Array) -> tuple[Array, Array]:
-    """Cost (L, P) and square residual (L, P) of samples; one that is darker than the room's light is no shadow."""
+    """Cost (L, P) and squared residual (L, P) of samples; a sample darker than the ambient light is not explained by a shadow."""
     lamps, spread2 = _without(signal, sigma, doubt, ambient)
     top = np.max(np.where(usable, lamps, 0.0), axis=0)
     indirect = np.where(lamps > predicted, BRIGHTER, sample_costs.DARKER) * top
@@ -180,17 +180,17 @@ def _costs(signal: Array, sigma: Array, usable: Mask, doubt: Array, predicted: A
 
 
 def _prior(A: Array, size: Array, room: RoomPrior) -> Array:
-    """Cost (P,) of A beside level |b|."""
+    """Cost (P,) of the deviation of A from level |b|."""
     return np.asarray(np.minimum((A - room.level * size) ** 2 * prior_weight(size, room), sample_costs.OUTLIER))
 
 
 def _second(values: Array, usable: Mask) -> Array:
-    """The second largest value (P,) that counts."""
+    """The second largest usable value (P,)."""
     return second(np.where(usable, values, 0.0))
 
 
 def _solved(signal: Array, weight: Array, B: Array, n: Array, size: Array, room: RoomPrior) -> tuple[Array, Array, Array]:
-    """b (P, 3), A (P,), `Free.information` (P,) of least squares; B (L, P, 3) is 0 in shadow, n (P, 3), |b| (P,) are the last step's."""
+    """Least-squares b (P, 3), A (P,), `Free.information` (P,); B (L, P, 3) is 0 in shadow, n (P, 3) and |b| (P,) are from the last step."""
     share = np.broadcast_to(room.share[:, None, None], (*signal.shape, 1))
     M = np.concatenate([B + room.level * share * n, share], axis=2)
     weighted = M * weight[..., None]

@@ -1,8 +1,8 @@
-r"""Which coarse pixels are the object and which the wall behind it or the support under it: odds, and how far they leave the mask open.
+r"""Classification of coarse pixels as object or background (wall, support, dark), with probabilities and the mask's uncertainty.
 
-The odds are those of a network (view.network) that sees what the layers and the sweep of depths say (segmentation.features). What they
-leave uncertain is the mask's stated doubt. The user may say where the object is: a box takes the place of the image, and what a given point
-shows is the object.
+A network (view.network) gives the probability of each pixel from the labelled layers and the depth sweep (segmentation.features); the
+remaining uncertainty is the mask's stated doubt. The user's hints are respected: a box replaces the image, and the component under a given
+point is the object. `odds` are probabilities, 0..1, throughout.
 """
 
 from __future__ import annotations
@@ -23,60 +23,60 @@ from lpcal.view.constants import UNLIKELY
 from lpcal.view.network import Network
 
 FITTED = Path(__file__).with_name("mask_network.npz")
-"""Where the network's weights are that tools/fit_mask.py has fitted."""
+"""File of the network's weights, fitted by tools/fit_mask.py."""
 RIM = 2
-"""Coarse pixels at the image's border, of which those without light say what share of the picture shows nothing."""
+"""Width of the image border, coarse pixels, from which the prior share of unlit background is estimated."""
 HOLE = 0.005
-"""Share of the object's area under which a hole in it is filled, in coarse pixels and in full size."""
+"""Share of the object's area below which a hole is filled, in coarse pixels and at full size."""
 SMALLEST_PIECE = 0.08
-"""Share of the object's largest piece under which a piece is dropped from it."""
+"""Share of the largest component's area below which a component is dropped from the object."""
 LIKELY = (5e-5, 1 - 5e-5)
-"""Odds beyond which it makes no difference how sure a coarse pixel is."""
+"""Bounds to which probabilities are clipped before their log odds are taken."""
 CARRIED = 5
-"""Percentile of a plane's depths that lies before the object where the plane carries it: a wall lies behind it altogether."""
+"""Percentile of a plane's depths that lies in front of the object if the plane is its support; a wall lies behind it altogether."""
 OPEN = 0.1
-"""Odds that a pixel is on the other side from which it is named as doubtful."""
+"""Probability of misclassification from which a pixel is reported as doubtful."""
 
 
 class Layer(IntEnum):
-    """Values of a map of layers."""
+    """Values of the layer map."""
 
     NOTHING = 0
-    """No light comes back."""
+    """Background without a signal."""
     OBJECT = 1
     SUPPORT = 2
-    """What carries the object."""
+    """The surface under the object."""
     WALL = 3
-    """What stands behind it."""
+    """Background behind the object."""
 
 
 Kind = Literal["support", "wall", "dark", "other"]
-"""What a pixel may be instead of the object: its support, a wall, a place that no light reaches, or matter like theirs in no plane."""
+"""Kinds of background: the support, a wall, a place that no light reaches, or similar matter that lies in none of the planes."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """Odds of coarse pixels, and what follows."""
+    """Classification of coarse pixels."""
 
     odds: Array
-    """(rows, columns) that a pixel is the object, 0..1."""
+    """(rows, columns) probability that a pixel is the object, 0..1."""
     behind: Mask
-    """(rows, columns) what is not."""
+    """(rows, columns) mask of the background."""
     mask: Mask
-    """(rows, columns) the object, without crumbs and small holes."""
+    """(rows, columns) mask of the object, without small components and small holes."""
     least: float
-    """Odds above which a pixel is not behind."""
+    """Probability threshold above which a pixel is not background."""
 
     @property
     def log_odds(self) -> Array:
-        """(rows, columns) natural logarithms of the odds over the least ones, within bounds."""
+        """(rows, columns) log odds relative to the threshold, clipped."""
         return logit(self.odds) - logit(self.least)
 
 
 def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network: Network | None = None) -> Judged:
-    """What is the object, from labels (rows, columns) and their costs (layers, rows, columns).
+    """Classify coarse pixels from labels (rows, columns) and costs (layers, rows, columns).
 
-    Where nothing is rather the object than not, it is what is likeliest.
+    If no pixel is more probably object than not, the threshold is lowered to half of the largest probability.
     """
     log_odds = log_odds_by(network or Network.read(FITTED), features.channels(view, labels, planes, cost))
     odds = np.zeros(labels.shape)
@@ -90,30 +90,30 @@ def judged(view: View, labels: Labels, planes: list[Array], cost: Array, network
 
 
 def log_odds_by(network: Network, channels: Mapping[str, Array]) -> Array:
-    """Log odds (rows, columns) that pixels are the object: the mean of the network's answers on a picture and on its mirror image."""
+    """Log odds (rows, columns) that pixels are the object: the mean of the network's outputs for the image and its mirror image."""
     return np.asarray(np.mean(network.answers(channels), axis=0)[0], float)
 
 
 def all_of(judgement: Judged, lit: Mask) -> Judged:
-    """All that is lit (rows, columns) as the object, where nothing in the picture is likely to be it."""
+    """The classification with all lit pixels (rows, columns) as the object, used where no pixel is likely to be the object."""
     return replace(judgement, odds=np.where(lit, LIKELY[1], LIKELY[0]), behind=~lit, mask=lit, least=0.5)
 
 
 def rim_of(shape: tuple[int, ...]) -> Mask:
-    """The coarse pixels (rows, columns) at the border."""
+    """Mask of the border's pixels for an image of `shape` (rows, columns)."""
     rim = np.ones(shape, bool)
     rim[RIM:-RIM, RIM:-RIM] = False
     return rim
 
 
 def logit(odds: Array | float) -> Array:
-    """Log odds (...) of odds, within bounds."""
+    """Log odds (...) of probabilities, clipped to LIKELY."""
     sure = np.clip(odds, *LIKELY)
     return np.asarray(np.log(sure / (1 - sure)))
 
 
 def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
-    """A mask (rows, columns) without crumbs and small holes; where points are given it is the pieces that they lie on."""
+    """A mask (rows, columns) without small components and small holes; if points are given, only the components under them."""
     piece, count = raster.connected_components(mask)
     if not count:
         return np.zeros(mask.shape, bool)
@@ -129,7 +129,7 @@ def object_in(mask: Mask, points: Sequence[tuple[int, int]]) -> Mask:
 
 
 def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, distance_m: float) -> list[Kind]:
-    """What each layer is where it is background: `behind` (rows, columns), the object at about `distance_m`."""
+    """The kind of background that each label would be, for the background mask `behind` (rows, columns) and the object's distance."""
     found: list[Kind] = ["other"]
     for k, q in enumerate(planes, 1):
         own = behind & (labels == k)
@@ -140,20 +140,20 @@ def kinds_of(labels: Labels, planes: list[Array], rays_C: Array, behind: Mask, d
 
 @dataclass(frozen=True)
 class Doubt:
-    """What of an object's outline is uncertain."""
+    """Uncertainty of a mask."""
 
     share: float
-    """Area that is expected to be on the wrong side, as a share of the object's."""
+    """Expected misclassified area, as a share of the object's area."""
     open: float
-    """Area of `place`, likewise."""
+    """Area of `place`, as a share of the object's area."""
     place: Mask
-    """(rows, columns) where the odds leave it uncertain."""
+    """(rows, columns) mask of doubtful pixels."""
     rival: int
-    """The label that most of it has, or whose place it takes."""
+    """The most frequent label of the doubtful pixels."""
 
 
 def doubt_of(judgement: Judged, labels: Labels) -> Doubt:
-    """The doubt of a judgement on labels (rows, columns)."""
+    """The uncertainty of a classification of labels (rows, columns)."""
     wrong = np.where(judgement.mask, 1 - judgement.odds, judgement.odds)
     place: Mask = wrong > OPEN
     rival = int(np.argmax(np.bincount(labels[place]))) if place.any() else 0

@@ -1,6 +1,6 @@
-"""Cutting an image in two by evidence: total variation over the whole, along the seam GrabCut, or half way up the step.
+"""Two-label segmentation of an image: a total-variation cut of the whole, GrabCut along the outline, or the half height of its step.
 
-``min over u in [0, 1] of  sum_p -e_p u_p + STIFF sum_ab w_ab abs(u_a - u_b)``, w low across edges of the picture. Sources: Chan, Esedoglu
+``min over u in [0, 1] of  sum_p -e_p u_p + STIFF sum_ab w_ab abs(u_a - u_b)``, w low across edges of the image. Sources: Chan, Esedoglu
 and Nikolova 2006, SIAM J. Applied Mathematics 66 (a convex form of the cut); Chambolle and Pock 2011, J. Math. Imaging and Vision 40 (the
 solver); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (GrabCut).
 """
@@ -17,7 +17,7 @@ from lpcal.view.crop import Crop
 
 STEPS = 200
 MARGIN = 2
-"""Pixels about what is open that are solved for with it."""
+"""Pixels about the undecided ones that are solved for with them."""
 SEAM_PX = 4
 GRABCUT_ROUNDS = 3
 BESIDE_PX, AROUND_PX = 1.5, 2
@@ -25,10 +25,10 @@ HALF = 0.4
 
 
 def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
-    """The part (H, W) that evidence (H, W, positive for it) supports, its outline drawn to the edges of the picture (H, W).
+    """Foreground mask (H, W) from evidence (H, W, positive for foreground), with its outline attracted to edges of `picture` (H, W).
 
-    Evidence that outweighs the outline on three sides of a pixel stands where its neighbours' is of the same sign: what lies beyond all
-    that is open need not be solved for.
+    A pixel whose evidence outweighs the boundary cost of three sides keeps its sign where its neighbours' evidence has the same sign, so
+    only the bounding box of the other pixels is solved.
     """
     difference = [np.abs(np.diff(picture, axis=axis)) for axis in (1, 0)]
     size = np.median(np.concatenate([one.ravel() for one in difference])) + 1e-6
@@ -48,9 +48,9 @@ def total_variation(evidence: Image, picture: Image, stiffness: float) -> Mask:
 
 
 def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Image, free: Mask) -> Image:
-    """The relaxed cut (H, W), 0..1, by costs of an outline between neighbours across (H, W - 1) and down (H - 1, W).
+    """The relaxed cut (H, W), 0..1, with boundary costs between horizontal (H, W - 1) and vertical (H - 1, W) neighbours.
 
-    Pixels that are not `free` (H, W) are so sure that they need not be asked: they stay as their evidence says.
+    Pixels that are not `free` (H, W) are certain and stay at the sign of their evidence (in the kernel; the numpy twin solves all).
     """
     if run := kernel("two_labels"):
         given = [np.ascontiguousarray(one, np.float32) for one in (evidence, across_most, down_most)]
@@ -77,7 +77,7 @@ def _relaxed(evidence: Image, across_most: Array | Image, down_most: Array | Ima
 
 
 def along_the_seam(mask: Mask, picture: Image, free: Mask | None = None) -> Mask:
-    """The mask with its outline moved by SEAM_PX at most, by the colours of picture (H, W, 3, 0..1) on both sides; `free`: where it may."""
+    """The mask with its outline moved by at most SEAM_PX, by GrabCut on picture (H, W, 3), 0..1; only `free` (H, W) pixels may change."""
     import cv2
 
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * SEAM_PX + 1, 2 * SEAM_PX + 1))
@@ -95,10 +95,10 @@ def along_the_seam(mask: Mask, picture: Image, free: Mask | None = None) -> Mask
 
 
 def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
-    """The mask with pixels beside its outline decided by which side of the outline they are nearer to, in signals (L, H, W).
+    """The mask with pixels beside its outline reassigned to the side whose mean signals (L, H, W) are nearer to theirs.
 
-    A pixel that the outline crosses shows a share of both sides; HALF of a step is where it is in. Less than a half, as the rim of most
-    things turns away from the light and is darker than what lies within it.
+    A pixel on the outline mixes both sides and counts as inside from a share HALF of the step on: less than a half, since most objects'
+    rims turn away from the light and are darker than their interior.
     """
     import cv2
 
@@ -117,7 +117,7 @@ def halfway(mask: Mask, signal: Image, sigma: Image) -> Mask:
 
 
 def _near(signal: Image, depth: Image) -> Image:
-    """Mean of signals (L, H, W) over the pixels nearby that lie BESIDE_PX deep in a side of the outline, or at least in it."""
+    """Local mean of signals (L, H, W) over pixels at least BESIDE_PX inside one side of the outline, or else over any of that side."""
     import cv2
 
     size = (2 * AROUND_PX + 1,) * 2

@@ -27,53 +27,54 @@ from lpcal.view.constants import CERTAIN, COARSE_PIXELS, FEWEST_PIXELS
 from lpcal.view.pixel_list import SignalMaps, second, strength
 
 FEW_PIXELS = COARSE_PIXELS // 4
-"""Coarse pixels at which levels are tried: half as many along a side as its map has."""
+"""Pixels of the binned image on which levels are tried: half as many along a side as for the map of A."""
 LEVELS = (0.005, 0.015, 0.045, 0.13, 0.4, 1.2)
-"""Levels tried, in units of a lamp's irradiance at the working distance: from one that no camera sees to a lit room."""
+"""Levels tried, in units of a lamp's irradiance at the working distance: from invisible to a lit room."""
 RARE_ROUNDS = 2
-"""Times that the cost of each explanation is set by how rare it is: a plane that holds a few pixels by chance then spares nothing."""
+"""Times that each explanation's prior is re-estimated from its share of the pixels, so that a plane fitting few pixels by chance gains
+nothing."""
 USUAL, USUAL_STD = 0.1, 1.3
-"""The level of common rooms in these units and the standard deviation of its logarithm: the prior, where pictures show next to nothing."""
+"""Prior of the level: median of common rooms in these units, and standard deviation of its natural log."""
 FAR_STD = 0.8
-"""Standard deviation of the logarithm of a distant wall's albedo over the object's, each from 0.2 to 0.8; some are as dark as cloth."""
+"""Standard deviation of the log ratio of a distant wall's albedo to the object's, each from 0.2 to 0.8; some walls are as dark as cloth."""
 DRAWS = 100
-"""Times that the picture's blocks are drawn again: their spread is then right to a tenth."""
+"""Bootstrap samples of the image's blocks: their standard deviation is then right to a tenth."""
 SHARED = 60.0
-"""Pixels or samples whose errors are alike: what the explanations of the room's light lack is smooth over a surface."""
+"""Pixels or samples that count as one independent: errors of the model are correlated over a surface."""
 UNSURE = 0.1
-"""Share of the room's light that is left in doubt besides: of a pixel, how far it was off on simulated scenes; of the level at least."""
+"""Additional relative standard deviation of the ambient light: of a pixel's A, as measured on simulated scenes, and of the level."""
 
 
 @dataclass(frozen=True)
 class RoomLight:
-    """The room's light in a picture."""
+    """The ambient light of a capture."""
 
     room: RoomPrior
     level_std: float
     """Standard deviation of the logarithm of the level."""
     A: Image
-    """(H, W) of every pixel, in units of the signals."""
+    """(H, W) ambient part of every pixel, in units of the signals."""
 
 
 @dataclass(frozen=True)
 class Explained:
-    """P coarse pixels by their best explanations at a level of the room's light."""
+    """The best explanations of P coarse pixels at one ambient level."""
 
     cost: Array
     """(P,)."""
     A: Array
     """(P,)."""
     far: Mask
-    """(P,) places that no lamp reaches."""
+    """(P,) mask of places that no lamp reaches."""
     matter: Mask
-    """(P,) matter of any normal."""
+    """(P,) mask of surfaces of free normal."""
     size: Array
-    """(P,) |b| as such matter."""
+    """(P,) |b| of the fit with a free normal."""
 
     def as_far(self) -> float | None:
-        """What matter of |b| = 1 sends back of the room's light if the object does so as the places do that no lamp reaches.
+        """The level (A of |b| = 1) at which the object would reflect as much ambient light as the places that no lamp reaches.
 
-        None where too little is seen of either.
+        None where there are too few pixels of either.
         """
         if min(self.far.sum(), self.matter.sum()) < FEWEST_PIXELS:
             return None
@@ -81,7 +82,7 @@ class Explained:
 
 
 def found(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], distance_m: float) -> RoomLight:
-    """The room's light of a picture with lights near the object, which is at about a distance."""
+    """The ambient light of a capture with near lights, the object at about `distance_m`."""
     share = np.array([1 / light.intensity.mean() for light in lights])
     few = coarse_of(maps, rays_C, factor_of(maps, FEW_PIXELS))
     table = LightTable.of(few, lights, distance_m)
@@ -98,15 +99,15 @@ def found(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], distance_m: 
 
 
 def taken_away(maps: SignalMaps, light: RoomLight) -> SignalMaps:
-    """The maps without a room's light, its doubt counted as noise."""
+    """The maps with the ambient light subtracted and its uncertainty added to the noise."""
     ambient = light.room.share[:, None, None].astype(np.float32) * light.A
     return SignalMaps(maps.signal - ambient, np.hypot(maps.sigma, np.float32(UNSURE) * ambient), maps.usable)
 
 
 def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: float, *, drawn: bool) -> Explained:
-    """The coarse pixels at the room's level.
+    """Explanations of the coarse pixels at the level of `room`.
 
-    `drawn`: by what a map of labels drawn with few boundaries gives each, of all depths; else by half the depths.
+    `drawn`: with a label map of short boundaries, from all depths of the sweep; else pixel by pixel, from every other depth.
     """
     image = replace(seen, room=room)
     everywhere = np.arange(len(image.rays_C))
@@ -138,9 +139,9 @@ def _explained(seen: Coarse, room: RoomPrior, table: LightTable, distance_m: flo
 
 
 def _level(explained: Callable[[float], Explained], shape: tuple[int, int], unit: float) -> tuple[float, float]:
-    """The level, and the standard deviation of its logarithm, of a picture of a shape that is explained at a level.
+    """The level and the standard deviation of its log, for an image of `shape` that `explained` explains at a given level.
 
-    LEVELS are tried first, then half way to the neighbours of the best. `unit` is a lamp's irradiance.
+    LEVELS are tried first, then the midpoints (in log) to the neighbours of the best. `unit` is a lamp's irradiance.
     """
     tried = {level: explained(level) for level in LEVELS}
     cost = {level: float(one.cost.sum()) / SHARED + (np.log(level / USUAL) / USUAL_STD) ** 2 for level, one in tried.items()}
@@ -161,10 +162,10 @@ def _level(explained: Callable[[float], Explained], shape: tuple[int, int], unit
 
 
 def _by_blocks(x: Array, cost: Array) -> tuple[float, float]:
-    """Mean and standard deviation of x (N,), of which pixels say costs (N, rows, columns) and common rooms the rest.
+    """Mean and standard deviation of x (N,) from costs (N, rows, columns) and the prior of usual rooms, by the block bootstrap.
 
-    Of each draw of the picture's blocks, the parabola through the least cost and its neighbours: the mean and the variance of what all
-    draws say together.
+    For each bootstrap sample a parabola through the least cost and its neighbours gives a mean and a variance; the law of total variance
+    combines them.
     """
     side = round(SHARED**0.5)
     row, column = (np.arange(length) // side for length in cost.shape[1:])
@@ -177,7 +178,7 @@ def _by_blocks(x: Array, cost: Array) -> tuple[float, float]:
 
 
 def _said(x: Array, cost: Array) -> tuple[float, float]:
-    """Mean and variance of x (N,) by costs (N,), twice a negative log likelihood, and by what common rooms are."""
+    """Mean and variance of x (N,) from costs (N,), minus twice a log likelihood, and the prior of usual rooms."""
     k = min(max(int(np.argmin(cost)), 1), len(x) - 2)
     usual = np.log(USUAL) - x[k]
     curve, slope, _ = np.polyfit(x[k - 1 : k + 2] - x[k], cost[k - 1 : k + 2], 2)
@@ -187,14 +188,14 @@ def _said(x: Array, cost: Array) -> tuple[float, float]:
 
 
 def _moments(at: Array, energy: Array) -> tuple[float, float]:
-    """Mean and standard deviation of places (N,) under an energy (N,), twice a negative log likelihood."""
+    """Mean and standard deviation of positions (N,) under an energy (N,), minus twice a log density."""
     weight = np.exp((energy.min() - energy) / 2)
     middle = float(np.average(at, weights=weight))
     return middle, float(np.sqrt(np.average((at - middle) ** 2, weights=weight)))
 
 
 def _spread(A: Array, image: Coarse, share: Array, maps: SignalMaps) -> Image:
-    """A (P,) of coarse pixels carried to full size by the brightness of their pixels, and no more than their least sample."""
+    """A (P,) of coarse pixels interpolated to full size (H, W) in proportion to brightness, and at most the least sample."""
     part = np.clip(A / np.maximum(_bright(image.signal, share), 1e-12), 0, 1)
     row, column = (
         np.minimum(np.arange(side) // image.factor, most - 1) for side, most in zip(maps.signal.shape[1:], image.shape, strict=True)
@@ -206,5 +207,5 @@ def _spread(A: Array, image: Coarse, share: Array, maps: SignalMaps) -> Image:
 
 
 def _bright(signal: Array, share: Array) -> Array:
-    """The second brightest sample (P,), as if all of it were the room's."""
+    """The A (P,) that would explain all of the second brightest sample."""
     return second(signal / share[:, None])
