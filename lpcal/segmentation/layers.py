@@ -1,13 +1,13 @@
-r"""Every coarse pixel's layer: matter of any normal, one of the planes, other matter like theirs, or nothing.
+r"""Multi-label segmentation of coarse pixels: surface of free normal, one of the planes, other matter like theirs, or nothing.
 
-Each layer states a cost (see segmentation.sample_costs) and an appearance, the histogram of log albedo over its own pixels; the labels
-minimise::
+Each layer l has a data cost (see segmentation.sample_costs) and an appearance model, the histogram of log albedo over its pixels. The
+labels minimise a Potts energy::
 
     sum_p  cost_l(p) - 2 log(appearance_l(p))   +   sum_ab  w_ab [l_a != l_b]
 
-with w low across edges of the picture, by a convex relaxation whose indicators lie on the simplex. Appearances and planes are estimated
-again from the labels, in rounds. Sources: Zach, Gallup, Frahm and Niethammer 2008, Vision, Modeling and Visualization (the relaxation);
-Isack and Boykov 2012 (planes and labels in turn); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (appearances in turn).
+with w low across edges of the image, by a convex relaxation with indicators on the simplex. Appearances and planes are re-estimated from
+the labels in alternation. Sources: Zach, Gallup, Frahm and Niethammer 2008, Vision, Modeling and Visualization (the relaxation); Isack and
+Boykov 2012 (alternation of planes and labels); Rother, Kolmogorov and Blake 2004, ACM Transactions on Graphics 23 (appearance models).
 """
 
 from __future__ import annotations
@@ -27,39 +27,39 @@ from lpcal.view.constants import UNLIKELY
 from lpcal.view.pixel_list import Indices, strength
 
 FREE_PRICE = 10.0
-"""Cost of a normal of one's own: twice the logarithm of how many normals the samples can distinguish."""
+"""Cost of a free normal for its degrees of freedom: twice the log of the number of normals that the samples can distinguish."""
 OTHER_PRICE = 2.0
-"""Cost of matter like a plane's that lies in none of the planes, above that of the object's matter."""
+"""Cost of the label for matter like a plane's that lies in none of the planes, in excess of the object's."""
 NOTHING_PRICE = 6.0
-"""Cost of the label matter where no light comes back."""
+"""Cost of labelling a pixel without a signal as matter."""
 LEAST_NOTHING = 0.003
-"""Share of the image's rim that is taken to show nothing at least."""
+"""Lower bound of the share of the image border that is assumed to show nothing."""
 BOUNDARY = 10.0
-"""Cost of a boundary between two layers along one pixel, where the picture shows no edge."""
+"""Boundary cost between two layers per pixel of length where the image has no edge."""
 EDGE = 6.0
-"""Medians of the picture's log steps at which a step halves the cost of a boundary."""
+"""Step of the log image, in medians of all such steps, that halves the boundary cost."""
 PLANE_SAYS, OBJECT_SAYS = 4.0, 8.0
-"""Most that an appearance adds to a cost: by the albedo in a plane, and by the brightest shading for and against the object."""
+"""Bounds of an appearance's contribution to the cost: by the albedo in a plane, and by the brightest shading for and against the object."""
 ROUNDS = 4
-"""Times that labels are found, planes and appearances estimated again in between: further rounds change next to nothing."""
+"""Alternations of labelling and re-estimation of planes and appearances: further ones change almost nothing."""
 STEPS = 250
-"""Steps of the primal-dual method: labels then no longer change."""
+"""Steps of the primal-dual method, after which the labels no longer change."""
 BINS = 40
-"""Cells of an appearance."""
+"""Bins of an appearance histogram."""
 BRIGHTEST = 75
-"""Percentile of the object's brightest shading that stands for its matter in full light; at first the median of all that is lit does."""
+"""Percentile of the object's brightest shading that represents its matter in full light; initially the median over all lit pixels does."""
 FEWEST = 30
-"""Pixels from which an appearance is learnt."""
+"""Least number of pixels from which an appearance is estimated."""
 
 
 @dataclass(frozen=True)
 class Appearance:
-    """A histogram of logarithms."""
+    """A smoothed histogram of log values."""
 
     low: float
     high: float
     density: Array
-    """By bins, of mean 1."""
+    """(BINS,) density relative to a uniform one."""
 
     @staticmethod
     def of(values: Array, low: float, high: float) -> Appearance:
@@ -76,24 +76,24 @@ class Appearance:
 
 @dataclass(frozen=True)
 class Layers:
-    """What the layers of a picture are."""
+    """Models of the layers of an image."""
 
     planes: list[Array]
     """q (3,) each."""
     of_plane: list[Appearance | None]
-    """The appearance of each plane, by log albedo; None where too few pixels show it."""
+    """Appearance of each plane over log albedo; None where too few pixels show it."""
     brightest: float
-    """Log of the shading of the brightest matter."""
+    """Log shading of the brightest matter."""
     of_object: Appearance | None = None
     of_rest: list[Appearance] | None = None
-    """The appearances of all else, by the log of the brightest shading, as that of the object."""
+    """Appearances of the planes over the log of the brightest shading, as the object's."""
     nothing: float = 0.0
-    """Cost of a place that no light comes back from: twice the negative logarithm of how much of the image's rim is such."""
+    """Prior cost of the label nothing: minus twice the log of its share of the image border."""
 
 
 @dataclass(frozen=True)
 class Pixels:
-    """Pixels whose costs are asked for: Q of them, each in a coarse pixel."""
+    """Q pixels whose costs are evaluated, each in a coarse pixel."""
 
     signal: Array
     sigma: Array
@@ -104,12 +104,12 @@ class Pixels:
 
 
 def shine(at: Pixels, E: Array) -> Array:
-    """Log (Q,) of the brightest shading by irradiances E (L, Q)."""
+    """Log (Q,) of the brightest shading, signal over irradiance E (L, Q)."""
     return np.asarray(np.log(np.maximum(np.max(np.where(at.usable, at.signal, 0.0) / np.maximum(E, 1e-12), axis=0), 1e-12)))
 
 
 def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: Array) -> Array:
-    """Costs from those of free matter (Q,), by irradiances E (L, Q) at the working distance."""
+    """Costs (layers, Q) of all labels, from those of a free normal (Q,) and irradiances E (L, Q) at the working distance."""
     bright = shine(at, E)
     nothing = sample_costs.nothing(at.signal, at.sigma, at.usable, np.exp(layers.brightest) * E)
     matter = NOTHING_PRICE * (nothing < sample_costs.DARK)
@@ -131,14 +131,14 @@ def with_planes(layers: Layers, at: Pixels, table: LightTable, free: Array, E: A
     other = free + FREE_PRICE + matter + OTHER_PRICE + np.maximum(ratio, 0) if layers.of_rest else np.full(len(free), np.inf)
     total = np.stack([*found, nothing + layers.nothing, other])
     blind = at.usable.sum(axis=0) < 3
-    total[:, blind], total[-2, blind] = NOTHING_PRICE, 0.0  # brighter than the camera holds: none of the object
+    total[:, blind], total[-2, blind] = NOTHING_PRICE, 0.0  # fewer than three unsaturated lights: not the object
     return np.asarray(np.minimum(total, total.min(axis=0) + SPARED))
 
 
 def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[Labels, Layers, Array]:
-    """Labels (rows, columns), what they are, and the last costs (layers, rows, columns).
+    """Labels (rows, columns), the models of the layers, and the final costs (layers, rows, columns).
 
-    Label 0 is the object's matter, 1.. the planes that are left, then nothing, then other matter.
+    Label 0 is a surface of free normal, 1.. the remaining planes, then nothing, then other matter.
     """
     image, table = view.image, view.table
     everywhere = np.arange(len(image.rays_C))
@@ -157,7 +157,7 @@ def label(view: View, planes: list[Array], lit: Mask, u_free: float) -> tuple[La
 
 
 def _learnt(view: View, layers: Layers, labels: Labels, cost: Array, lit: Mask, bright: Array) -> tuple[Labels, Layers]:
-    """Planes and appearances from the labels (rows, columns), and the labels without planes that hardly anything lies in."""
+    """Re-estimate planes and appearances from the labels (rows, columns), and drop planes with too few pixels from the labels."""
     image, table = view.image, view.table
     flat, count = labels.ravel(), len(layers.planes)
     kept = [k for k in range(count) if np.sum(flat == k + 1) >= plane_hough.SMALLEST * flat.size]
@@ -197,7 +197,7 @@ def _appearance(values: Array, over: Array) -> Appearance | None:
 
 
 def boundary(bright: Image) -> tuple[Image, Image]:
-    """Cost of a boundary between a pixel and its neighbour to the right, and below, by the picture `bright` (rows, columns)."""
+    """Boundary costs between each pixel and its right and lower neighbours, from the edges of image `bright` (rows, columns)."""
     picture = np.log(np.maximum(bright, 1e-3 * np.percentile(bright, 99)))
     steps = [np.abs(np.diff(picture, axis=axis)) for axis in (1, 0)]
     middle = np.median(np.concatenate([one.ravel() for one in steps])) + 1e-6
@@ -206,7 +206,7 @@ def boundary(bright: Image) -> tuple[Image, Image]:
 
 
 def cheapest(cost: Array, across: Image, down: Image) -> Labels:
-    """Labels (rows, columns) of least cost (layers, rows, columns), boundaries counted: a primal-dual method (Chambolle and Pock 2011)."""
+    """Labels (rows, columns) that minimise cost (layers, rows, columns) and boundary costs: primal-dual method (Chambolle and Pock 2011)."""
     return np.asarray(np.argmax(_relaxed(cost, across, down), axis=0))
 
 

@@ -1,8 +1,8 @@
-"""Which pixels are the object: not the wall behind it, not the support under it, not the dark.
+"""The automatic object mask: separates the object from the wall behind it, the support under it and the dark.
 
-Where lights are near, all that is lit is segmented at a coarse scale into planes and matter of any shape (segmentation.layers), of which a
-network says what is the object (segmentation.background). The outline is then carried to full resolution, from scale to scale, in a band
-about it. Without near light the strength of the signal decides.
+With near lights the binned image is segmented into planes and surfaces of free shape (segmentation.layers), of which a network classifies
+the object (segmentation.background). The outline is then refined to full resolution, scale by scale, in a band about it. Without near
+lights the signal strength is thresholded.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ from lpcal.view.constants import CERTAIN, COARSE_PIXELS, SMALLEST_SHARE
 from lpcal.view.pixel_list import PixelList, SignalMaps, strength
 
 MEDIUM_PIXELS = 110_000
-"""Pixels at most of the scale at which room light, shadows on the wall and light from around are looked at."""
+"""Largest number of pixels of the scale at which ambient light, shadows on the wall and the surroundings are evaluated."""
 MOST_LIGHTS = 16
-"""Lights that the mask is found by, spread over all: more do not improve it."""
+"""Largest number of lights, spread over all, used for the mask: more do not improve it."""
 LEAST_OF_IMAGE = 0.003
-"""Share of the image under which what is found is no object."""
+"""Share of the image below which a region is not an object."""
 BESIDE_POINT = 0.02
-"""Share of the image's shorter side within which a given point belongs to what lies nearest: outlines cut off what is thin."""
+"""Radius about a given point, as a share of the image's shorter side, in which it selects the nearest component: thin parts may be cut."""
 DOUBTED, DOUBT_POWER = 0.094, 4.0
-"""Share of its area expected wrong at which a mask is as likely wrong as right, and how fast the odds rise; by tools/fit_outline.py."""
+"""Logistic curve of the doubt over the log of the expected misclassified share: its midpoint and slope, fitted by tools/fit_outline.py."""
 
 
 @dataclass(frozen=True)
 class Hints:
-    """Where the user says that the object is, in pixels."""
+    """The user's hints of where the object is, in pixels."""
 
     box: tuple[int, int, int, int] | None = None
-    """x, y, width and height of a box that holds it."""
+    """x, y, width and height of a box about it."""
     points: tuple[tuple[int, int], ...] = ()
-    """x and y of places that show it."""
+    """x and y of points on it."""
 
     def allowed(self, shape: tuple[int, ...]) -> Mask | None:
         """The box as a mask (H, W); None where there is none."""
@@ -53,7 +53,7 @@ class Hints:
         return inside
 
     def shrunk(self, factor: int) -> Hints:
-        """The same in coarse pixels of `factor` pixels a side."""
+        """The hints in coarse pixels of `factor` pixels a side."""
         box = None
         if self.box is not None:
             (x, y), (right, below) = (np.array(self.box[:2]) // factor, -(-(np.array(self.box[:2]) + self.box[2:]) // factor))
@@ -61,7 +61,7 @@ class Hints:
         return Hints(box, tuple((x // factor, y // factor) for x, y in self.points))
 
     def of(self, mask: Mask) -> Mask:
-        """The part of a mask (H, W) in the box, and of that the connected components that the points lie on or close to."""
+        """The part of a mask (H, W) in the box; if there are points, only the connected components on or near which they lie."""
         allowed = self.allowed(mask.shape)
         mask = mask if allowed is None else mask & allowed
         if not self.points:
@@ -74,27 +74,28 @@ class Hints:
 
 NO_HINTS = Hints()
 Keep = Literal["object", "support", "all"]
-"""What of the layers is reconstructed: the object; the object and what carries it; all that is lit."""
+"""Layers to be reconstructed: the object; the object and its support; all that is lit."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """A mask and how it was found, in words."""
+    """A mask with its planes, layers and uncertainty."""
 
     mask: Mask
     how: str
+    """How it was found, for messages."""
     planes: tuple[planes.Plane, ...] = ()
-    """Wall and supports; the first is the largest."""
+    """Wall and supports, the largest first."""
     expected_wrong: float | None = None
-    """Area that is expected to be on the wrong side, as a share of the object's; None where no layers were labelled."""
+    """Expected misclassified area, as a share of the object's; None where no layers were labelled."""
     why: str = ""
-    """What the area in doubt may be instead, and where it is."""
+    """What and where the doubtful area may be, for messages."""
     layer: Labels | None = None
-    """(H, W) of segmentation.background's values: nothing, object, support, wall; None where no layers were labelled."""
+    """(H, W) values of background.Layer: nothing, object, support, wall; None where no layers were labelled."""
     of_plane: Labels | None = None
-    """(rows, columns) of coarse pixels: the number of the plane that each shows, -1 where it shows none; None where there are no planes."""
+    """(rows, columns) index of each coarse pixel's plane, -1 for none; None where there are no planes."""
     factor: int = 1
-    """Pixels a coarse pixel."""
+    """Side of a coarse pixel, in pixels."""
 
     def kept(self, keep: Keep) -> Mask:
         """The layers (H, W) to be reconstructed."""
@@ -106,7 +107,7 @@ class Found:
 
     @property
     def doubt(self) -> float | None:
-        """Odds (0..1) that the mask is wrong by more than a tenth of its area; None where they are not known."""
+        """Probability (0..1) that more than a tenth of the mask's area is wrong; None where it is not known."""
         if self.expected_wrong is None:
             return None
         return float(1 / (1 + (DOUBTED / max(self.expected_wrong, 1e-3)) ** DOUBT_POWER))
@@ -122,10 +123,9 @@ def automatic(
     *,
     drawn: bool = True,
 ) -> Found:
-    """The object; `distance_m` is the working distance where lights are near, None where the mask must do without planes.
+    """Find the object; `distance_m` is the working distance of near lights, None for distant ones (no planes are found then).
 
-    `room` (H, W) is the image without lights, where there is one. Where the outline need not be `drawn`, the mask is that of coarse pixels:
-    its planes are what is asked for.
+    `room` (H, W) is the ambient image, if there is one. Without `drawn` the outline is not refined, for callers that only need the planes.
     """
     if distance_m is not None:
         fewer, some = maps, list(range(len(lights)))
@@ -139,7 +139,7 @@ def automatic(
 
 
 def _by_strength(maps: SignalMaps) -> Mask:
-    """Otsu 1979 on the logarithm of the strength, then the seam."""
+    """Otsu's threshold (1979) on the log of the signal strength, then GrabCut along the outline."""
     lit = strength(maps)
     noise = np.median(maps.sigma, axis=0)
     level = np.log(np.maximum(lit, noise))
@@ -188,7 +188,7 @@ def _by_layers(
 
 
 def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, shape: tuple[int, ...], room: Image | None) -> View:
-    """What labels are judged by, the hints in coarse pixels."""
+    """Inputs of the mask network, with the hints in coarse pixels."""
     rows, columns = image.shape
     allowed = hints.allowed(shape)
     if allowed is not None:
@@ -200,14 +200,14 @@ def view_of(image: Coarse, table: LightTable, distance_m: float, hints: Hints, s
 
 
 def apart_of(view: View, judged: background.Judged) -> outline.Apart:
-    """What the outline is drawn by: the odds, with all at the distance at which matter of any normal suits the object best."""
+    """Inputs of the outline network: log odds, and the log distance at which free normals fit the object best."""
     of_object = judged.mask.ravel() if judged.mask.any() else np.ones(judged.mask.size, bool)
     u = view.swept.u[np.argmin(np.median(view.swept.cost[:, of_object], axis=1))]
     return outline.Apart(view.image, view.table, float(u), judged.log_odds)
 
 
 def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.Kind], factor: int) -> Labels:
-    """The map of layers (H, W) by the mask (H, W) and the coarse labels; outside the mask that of the nearest background."""
+    """The layer map (H, W) of a mask (H, W); pixels outside it take the kind of the nearest coarse background pixel."""
     value = {
         "support": background.Layer.SUPPORT,
         "wall": background.Layer.WALL,
@@ -222,7 +222,7 @@ def _layer(mask: Mask, labels: Labels, behind: Mask, kinds: Sequence[background.
 
 
 def _in_words(doubt: background.Doubt, rival: background.Kind, factor: int) -> str:
-    """What the area in doubt may be and the box that holds the most of it, for messages; nothing where there is none."""
+    """What the doubtful area may be and the box of its largest component, for messages; empty where there is none."""
     if not doubt.place.any():
         return ""
     piece, _ = raster.connected_components(doubt.place)
@@ -245,7 +245,7 @@ def _plane(q: Array, seen: PixelList, lights: Sequence[Light], own: Mask) -> pla
 
 
 def tidy(mask: Mask) -> Mask:
-    """Without crumbs and small holes."""
+    """The mask without small components and small holes."""
     label, count = raster.connected_components(raster.opened(mask))
     if not count:
         return np.asarray(mask & False)
@@ -259,7 +259,7 @@ def tidy(mask: Mask) -> Mask:
 
 
 def _picture(maps: SignalMaps) -> Image:
-    """Three pictures (H, W, 3) of the lights, 0..1: the brightest, the mean and the least."""
+    """An image (H, W, 3), 0..1, of three channels: second brightest, mean and a low quantile over the lights."""
     ordered = np.sort(maps.signal, axis=0)
     three = np.stack([ordered[-2], ordered.mean(axis=0), ordered[len(ordered) // 3]], axis=-1)
     top = np.percentile(three, 99.5, axis=(0, 1))
@@ -267,13 +267,13 @@ def _picture(maps: SignalMaps) -> Image:
 
 
 def binned(maps: SignalMaps, rays_C: Array) -> tuple[SignalMaps, Array, int]:
-    """The maps and rays with blocks of f x f pixels joined, so that MEDIUM_PIXELS are left at most, and f."""
+    """The maps and rays binned by f x f pixels, so that at most MEDIUM_PIXELS are left, and f."""
     f = factor_of(maps, MEDIUM_PIXELS)
     return *joined(maps, rays_C, f), f
 
 
 def _otsu(values: Image) -> float:
-    """The threshold that parts values into the two classes furthest apart."""
+    """Otsu's threshold: the split of values into two classes of largest between-class variance."""
     count, edges = np.histogram(values, 256)
     middle = (edges[1:] + edges[:-1]) / 2
     below = np.cumsum(count)

@@ -1,10 +1,10 @@
-r"""The outline of a mask that was found in coarse pixels: judged again in pixels of half their size by a network, then found in full size.
+r"""Refinement of a coarse mask's outline: by a network in pixels of half their size, then scale by scale to full size.
 
-Coarse pixels leave open what is thin, small gaps, and the outline itself. The network (view.network) sees the odds of the coarse pixels
-(segmentation.background), and pictures without a scale of brightness: with the lights and without them, which way the shading leans and how
-dark the lights leave a pixel. A cut draws the outline by its odds, along edges of the picture (segmentation.cut). From there to full size,
-at every finer scale, pixels beside the outline go to the side that they are nearer to. Only places near what the coarse pixels take for the
-object are asked.
+Coarse pixels do not resolve thin parts, small gaps and the outline itself. The network (view.network) takes the log odds of the coarse
+pixels (segmentation.background) and brightness-invariant images: lit and ambient brightness, the mean lighting direction of the shading,
+and the darkest samples. A total-variation cut turns its log odds into an outline along edges of the image (segmentation.cut). At every
+finer scale, pixels beside the outline are reassigned to the side with the nearer signals. Only a margin about the coarse object is
+evaluated.
 """
 
 from __future__ import annotations
@@ -23,45 +23,45 @@ from lpcal.view.network import Network
 from lpcal.view.pixel_list import SignalMaps, second, strength
 
 FITTED = Path(__file__).with_name("outline_network.npz")
-"""Where the network's weights are that tools/fit_outline.py has fitted."""
+"""File of the network's weights, fitted by tools/fit_outline.py."""
 SURE = 10.0
-"""Log odds at most of a coarse pixel."""
+"""Bound of the absolute log odds of a coarse pixel."""
 MARGIN = 12
-"""Pixels of the network's scale about what coarse pixels take for the object that it sees: nothing further away is the object."""
+"""Margin, in pixels of the network's scale, about the coarse object: nothing farther away is the object."""
 DARKEST = 0.01
-"""Brightness that is taken for dark, as a share of its 99th percentile in the picture."""
+"""Lower bound of the brightness before its log is taken, as a share of the image's 99th percentile."""
 FAINTEST = 1e-3
-"""Shading at least, as a share of the object's, or of that of its pixel."""
+"""Lower bound of the shading before its log is taken, as a share of the object's, or of the pixel's own."""
 LEAN = 0.8
-"""Log odds added for the object: its rims are darker than what they bound, and without it more is missing than too much."""
+"""Bias of the log odds towards the object: its rim is darker than its interior, and without the bias the mask is too small on average."""
 EVIDENT, STIFFNESS = 5.0, 2.0
-"""Log odds that are full evidence in the cut, and the evidence that a unit of outline must be worth where the picture shows no edge: the
-network rounds corners, which edges of the picture show; from .6 to 3.5 the IoU of simulated scenes hardly changes."""
+"""Log odds that count as full evidence in the cut, and the boundary cost per pixel where the image has no edge: the network rounds corners,
+which edges restore; from .6 to 3.5 the IoU of simulated scenes hardly changes."""
 NOISY, CLEAN = -3.0, 8.0
-"""Bounds of the logarithm of a signal over its noise."""
+"""Bounds of the log signal-to-noise ratio."""
 DIM, UNSURE = 1.5, 3.0
-"""Logarithm of a signal over its noise under which next to no light reaches a pixel, and the log odds at most of a coarse pixel there: an
-unlit part of an object and an unlit room look alike but for the image without lights."""
+"""Log signal-to-noise ratio below which almost no light reaches a pixel, and the bound of a coarse pixel's log odds there: an unlit part of
+the object and an unlit room differ in the ambient image only."""
 MIRRORED = ("leaning x",)
-"""Channels that change their sign in a mirror."""
+"""Channels whose sign changes in the mirror image."""
 
 
 @dataclass(frozen=True)
 class Apart:
-    """A coarse picture of which the odds are known that its pixels are the object."""
+    """A coarse image with the log odds that its pixels are the object."""
 
     image: Coarse
     table: LightTable
     u: float
     """Natural logarithm of the object's distance in metres."""
     log_odds: Array
-    """(rows, columns) that a coarse pixel is the object."""
+    """(rows, columns) log odds that a coarse pixel is the object."""
 
 
 def drawn(apart: Apart, maps: SignalMaps, rays_C: Array, room: Image | None) -> Mask:
-    """The mask (H, W) in full size; `room` (H, W) is the image without lights, None where there is none.
+    """The mask (H, W) at full size; `room` (H, W) is the ambient image, None where there is none.
 
-    Where the network sees nothing of the object, it is what the coarse pixels say.
+    If the network finds no object pixel, the coarse mask is refined instead.
     """
     factor = scale_of(apart.image.factor)
     here = joined(maps, rays_C, factor)[0]
@@ -71,7 +71,7 @@ def drawn(apart: Apart, maps: SignalMaps, rays_C: Array, room: Image | None) -> 
 
 
 def carried(mask: Mask, factor: int, maps: SignalMaps, rays_C: Array) -> Mask:
-    """A mask of pixels of `factor` in full size (H, W), its outline found again at every scale between."""
+    """A mask of pixels of `factor` at full size (H, W), its outline refined at every scale in between."""
     while True:
         finer = max(1, factor // 2)
         here = joined(maps, rays_C, finer)[0]
@@ -82,12 +82,12 @@ def carried(mask: Mask, factor: int, maps: SignalMaps, rays_C: Array) -> Mask:
 
 
 def scale_of(coarse: int) -> int:
-    """Pixels of a pixel that the network judges, by those of a coarse one."""
+    """Binning factor of the network's scale, from that of the coarse pixels."""
     return max(1, coarse // 2)
 
 
 def log_odds(apart: Apart, here: SignalMaps, room: Image | None, factor: int) -> Array:
-    """Log odds (h, w) that pixels of `factor` are the object, by maps of them (L, h, w): the mean of a picture's and its mirror image's."""
+    """Log odds (h, w) that pixels of `factor` are the object, from maps (L, h, w): the mean over the image and its mirror image."""
     found, window = channels(apart, here, room, factor)
     said = np.full(here.signal.shape[1:], -SURE)
     said[window] = np.mean(Network.read(FITTED).answers(found), axis=0)[0]
@@ -96,7 +96,7 @@ def log_odds(apart: Apart, here: SignalMaps, room: Image | None, factor: int) ->
 
 
 def channels(apart: Apart, here: SignalMaps, room: Image | None, factor: int) -> tuple[dict[str, Array], tuple[slice, slice]]:
-    """The channels (rows, columns) of a window, and which rows and columns of maps (L, h, w) it is."""
+    """The channels (rows, columns) of a window by name, and the window's rows and columns in maps (L, h, w)."""
     shape, by = here.signal.shape[1:], apart.image.factor / factor
     odds = resampled(np.clip(apart.log_odds, -SURE, SURE), by, shape)
     window = _window(odds > 0)
@@ -107,7 +107,7 @@ def channels(apart: Apart, here: SignalMaps, room: Image | None, factor: int) ->
     leaning = B[..., :2] / np.maximum(E, 1e-12)[..., None]
 
     def finer(values: Array) -> Array:
-        """Values (L, P) of coarse pixels in the window."""
+        """Values (L, P) of coarse pixels resampled in the window."""
         return np.stack([resampled(one.reshape(rows, columns), by, shape)[window] for one in values])
 
     signal, usable = here.signal[:, *window], here.usable[:, *window]
@@ -123,7 +123,7 @@ def channels(apart: Apart, here: SignalMaps, room: Image | None, factor: int) ->
     weight /= max(weight.sum(), 1e-12)
 
     def over_object(values: Array | Image) -> Array:
-        """Values (rows, columns) over their mean on the object."""
+        """Values (rows, columns) minus their mean over the object."""
         return np.asarray(values - np.sum(weight * values), float)
 
     nothing, faintest = np.zeros(odds.shape), float(np.log(FAINTEST))
@@ -145,7 +145,7 @@ def channels(apart: Apart, here: SignalMaps, room: Image | None, factor: int) ->
 
 
 def _window(mask: Mask) -> tuple[slice, slice]:
-    """Rows and columns that hold a mask, and MARGIN more; all where it is empty."""
+    """Bounding box of a mask with MARGIN about it; everything where it is empty."""
     if not mask.any():
         return slice(None), slice(None)
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
@@ -154,7 +154,7 @@ def _window(mask: Mask) -> tuple[slice, slice]:
 
 
 def levels_of(maps: SignalMaps, room: Image | None, factor: int) -> tuple[Image, Image | None]:
-    """Logarithms (h, w) of the brightness of maps of `factor` pixels, and of the image without lights (H, W), where there is one."""
+    """Log images (h, w) of the brightness of maps of `factor` pixels, and of the ambient image (H, W), if there is one."""
     bright = strength(maps)
     return level(bright, float(np.percentile(bright, 99))), (
         None if room is None else level(raster.block_means(room, factor), float(np.percentile(room, 99)))
@@ -162,12 +162,12 @@ def levels_of(maps: SignalMaps, room: Image | None, factor: int) -> tuple[Image,
 
 
 def level(picture: npt.NDArray[np.floating], brightest: float) -> Image:
-    """The logarithm of a picture (H, W), no darker than DARKEST of its brightest."""
+    """The logarithm of an image (H, W), clipped below at DARKEST times `brightest`."""
     return np.asarray(np.log(np.maximum(picture, max(DARKEST * brightest, 1e-12))), np.float32)
 
 
 def resampled(values: npt.NDArray[np.floating], by: float, shape: tuple[int, ...]) -> Image:
-    """Values of pixels `by` times as large, linear between their middles, at a shape."""
+    """Values of pixels `by` times as large, interpolated linearly between their centres, at a shape."""
     import cv2
 
     grid = np.array([[1 / by, 0, 0.5 / by - 0.5], [0, 1 / by, 0.5 / by - 0.5]])
