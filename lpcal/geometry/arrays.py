@@ -1,4 +1,4 @@
-"""The array types that signatures name; shapes stand in the docstrings."""
+"""Array types for signatures; shapes are given in the docstrings."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ type Array = npt.NDArray[np.float64]
 """Real numbers, double precision."""
 
 type Image = npt.NDArray[np.float32]
-"""Real numbers a pixel, single precision: (H, W) or (H, W, 3)."""
+"""Real values per pixel, single precision: (H, W) or (H, W, 3)."""
 
 type Mask = npt.NDArray[np.bool_]
 """True where something holds."""
 
 type Labels = npt.NDArray[np.uint8]
-"""Small whole numbers a pixel."""
+"""Small integers per pixel."""
 
 type Index = npt.NDArray[np.intp]
-"""Places in another array."""
+"""Indices into another array."""

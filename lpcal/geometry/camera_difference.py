@@ -2,10 +2,10 @@
 
 Symbols: p a pixel, v_A(p) its ray in camera A, R a rotation::
 
-    difference(p) = project_B(R v_A(p)) - p,    R the rotation that makes the sum of squares least
+    difference(p) = project_B(R v_A(p)) - p,    R the rotation that minimises the sum of squares
 
-Two calibrations from different views differ by a small rotation of their frames, which means nothing: it is taken out first. Rays are
-compared at infinity. Source: mrcal's documentation, "projection difference".
+Two calibrations from different views differ by a small, meaningless rotation of their frames, which is removed first. Rays are compared at
+infinity. Source: mrcal's documentation, "projection difference".
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def pixel_grid(image_size: tuple[int, int], columns: int = 40, rows: int = 30) -
 
 
 def projection_difference(pixels: Array, rays_C: Array, project: Callable[[Array], Array]) -> tuple[Array, Array]:
-    """Differences (N, 2) in pixels, and the rotation vector (3,) taken out, of rays (N, 3) of one camera in another."""
+    """Projection differences (N, 2), pixels, of one camera's rays (N, 3) in another, and the rotation vector (3,) that was removed."""
     phi = np.zeros(3)
 
     def difference(turn: Array) -> Array:

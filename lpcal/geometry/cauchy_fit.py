@@ -1,7 +1,7 @@
-r"""Robust least squares of a few unknowns whose normal equations are summed elsewhere: Cauchy's loss, by trust regions.
+r"""Robust least squares for a few unknowns with the Cauchy loss, by a trust-region method; the caller sums the normal equations.
 
 Symbols: residuals r_i(x), loss ``sum log(1 + r_i^2) / 2``, whose derivatives by r are r w with ``w = 1 / (1 + r^2)``, and
-``w - 2 r^2 w^2``, of which no less than nothing counts. With J the derivative of r by x::
+``w - 2 r^2 w^2``, clamped at zero. With J the derivative of r by x::
 
     gradient = J' (w r)        curvature = J' diag(max(w - 2 r^2 w^2, 0)) J
 
@@ -20,15 +20,15 @@ import numpy as np
 from lpcal.geometry.arrays import Array
 
 LEAST = float(np.finfo(float).eps)
-"""Least share of a residual's weight in the curvature, so that this stays positive."""
+"""Lower bound of a residual's relative weight in the curvature, which keeps it positive definite."""
 SETTLED = 1e-8
-"""Relative change of the loss, or of the unknowns, under which a fit has ended."""
+"""Relative change of the loss, or of the unknowns, below which the fit has converged."""
 POOR, GOOD = 0.25, 0.75
-"""Shares of the promised reduction under which the radius shrinks, and over which it grows."""
+"""Ratios of actual to predicted reduction below which the radius shrinks, and above which it grows."""
 DIFFERENCE = float(np.sqrt(LEAST))
-"""Step of an unknown in differences, or as a share of it where it is larger than 1."""
+"""Step of finite differences: absolute for unknowns up to 1, else relative."""
 ROOT_STEPS = 20
-"""Steps of Newton's method towards the radius: it converges from below in a few."""
+"""Largest number of Newton steps for the trust-region multiplier: it converges in a few."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Equations:
 
     @staticmethod
     def differenced(residuals: Callable[[Array], Array], x: Array) -> Equations:
-        """From a function of the unknowns (N,) to residuals (M,), differentiated by differences."""
+        """From a function of the unknowns (N,) to residuals (M,), with derivatives by finite differences."""
         here = residuals(x)
         steps = DIFFERENCE * np.maximum(1.0, np.abs(x))
         return Equations.of(here, np.stack([(residuals(x + one) - here) / one.max() for one in np.diag(steps)]))
@@ -59,7 +59,7 @@ class Equations:
 
 
 def fitted(equations: Callable[[Array], Equations], begin: Array, scale: float | Array, most: int) -> Array:
-    """Unknowns (N,) of least loss near `begin`, of size about `scale` (a number, or (N,)); equations are asked for `most` times at most."""
+    """Unknowns (N,) of least loss, from `begin`; `scale` is their typical size, a number or (N,), and `most` limits the evaluations."""
     x, now = begin, equations(begin)
     units = np.broadcast_to(scale, x.shape)
     radius = float(np.linalg.norm(x / units)) or 1.0
@@ -77,7 +77,7 @@ def fitted(equations: Callable[[Array], Equations], begin: Array, scale: float |
             share = gain / promised if promised > 0 else 0.0
             small = float(np.linalg.norm(step)) < SETTLED * (SETTLED + float(np.linalg.norm(x)))
             ended = small or (gain < SETTLED * now.loss and share > POOR)
-            if not share >= POOR:  # nor where the loss is no number
+            if not share >= POOR:  # also if the loss is NaN
                 radius = POOR * length
             elif share > GOOD and length > 0.95 * radius:
                 radius *= 2
@@ -91,7 +91,7 @@ def fitted(equations: Callable[[Array], Equations], begin: Array, scale: float |
 
 
 def _step(square: Array, pull: Array, radius: float) -> Array:
-    """The step (N,) of least ``pull . s + s . square s / 2`` of length `radius` at most, along the axes of the curvature."""
+    """The step (N,) that minimises ``pull . s + s . square s / 2`` within `radius`, in the eigenbasis of the curvature."""
     raised = 0.0 if square.min() > LEAST * square.max() else LEAST * float(square.max()) + 1e-300
     for _ in range(ROOT_STEPS):
         step = -pull / (square + raised)

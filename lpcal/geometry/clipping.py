@@ -1,7 +1,7 @@
-"""Where a sensor saturates below the stated white level: the brightest numbers pile up on one.
+"""Detection of sensor saturation below the stated white level, as a spike at the top of the histogram.
 
-Light that falls off smoothly, with noise on it, leaves fewer pixels the brighter the number, and a single one or a few at the top. A sensor
-(or a raw converter) that saturates at a number puts all that is brighter there: a spike at the very top, above numbers that are all in use.
+Without clipping, noise and smooth shading leave fewer and fewer pixels towards the largest value. A sensor (or raw converter) that
+saturates at a value maps everything brighter to it: a spike at the very top, above values that are all in use.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ import numpy.typing as npt
 from lpcal.geometry.arrays import Array, Image
 
 NEAR_TOP = 0.8
-"""Numbers above this share of the largest are looked at; a dozen are in use there in any 8 bit image that is worth clipping."""
+"""Share of the largest value above which values are examined; a dozen are in use there in any 8 bit image where clipping matters."""
 BELOW = 8
-"""How many of the numbers in use just below the largest it is held against."""
+"""Number of occurring values just below the largest with which its count is compared."""
 FEWEST_PX = 50
-"""Pixels at the largest number, of all images together, from which they can be a pile: a highlight of noise has a few."""
+"""Least number of pixels at the largest value, over all images, for a spike: a highlight with noise has a few."""
 TIMES = 8.0
-"""Times as many pixels as at any of the numbers below: an image that is not clipped has about as many, or fewer."""
+"""Least ratio of the count at the largest value to the counts of the values below: without clipping it is about 1 or less."""
 WIDEST = 0.15
-"""Share of the largest number over which the numbers below may lie: on a flat surface without noise there is none for long."""
+"""Largest gap, as a share of the largest value, that the compared values below may span: a flat noiseless surface has gaps."""
 
 
 def clipping_level(images: Image, white_level: float, step: float) -> float | None:
-    """The number, a fraction of full scale, at which images (L, H, W[, 3]) are clipped below the white level; None where they are not."""
+    """The value, a fraction of full scale, at which images (L, H, W[, 3]) are clipped below the white level; None if they are not."""
     top = float(images.max())
     if top <= 0 or top >= white_level - 1.5 * step:
         return None
@@ -33,7 +33,7 @@ def clipping_level(images: Image, white_level: float, step: float) -> float | No
 
 
 def clipped_at(values: Array | Image, counts: npt.NDArray[np.integer], white_level: float, step: float) -> float | None:
-    """The same by the numbers that occur, from the least, and how often each does."""
+    """`clipping_level` from the occurring values in increasing order and their counts."""
     top = float(values[-1]) if len(values) else 0.0
     if top <= 0 or top >= white_level - 1.5 * step:
         return None
@@ -44,6 +44,6 @@ def clipped_at(values: Array | Image, counts: npt.NDArray[np.integer], white_lev
 
 
 def clipping_words(level: float) -> str:
-    """What is said of it."""
+    """The warning about it."""
     percent = f"{100 * level:.1f} %"
     return f"the brightest numbers pile up at {percent} of full scale: taken as saturated there; state white_level: {percent}"

@@ -1,4 +1,4 @@
-"""pycolmap, imported so that the process stays as it was: its logger takes SIGTERM for itself, to print a stack and die."""
+"""Import of pycolmap without side effects on the process: its logger would install a SIGTERM handler that prints a stack trace."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import ModuleType
 
 
 def load_pycolmap() -> ModuleType:
-    """The module; the handlers of signals are those from before.
+    """Import pycolmap and restore the previous signal handlers.
 
     Raises
     ------
@@ -28,10 +28,10 @@ def load_pycolmap() -> ModuleType:
 
 @contextmanager
 def _room_to_load() -> Iterator[None]:
-    """Lift the bound on memory that stands while a file is read: the library is not what the file asks for."""
+    """Lift the address-space limit that is set while a file is read: it bounds what the file asks for, not the library."""
     try:
         import resource
-    except ImportError:  # the bound too is set only where there is this
+    except ImportError:  # on systems without it no limit is set either
         yield
         return
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)

@@ -1,4 +1,4 @@
-"""Which places of a plane lie inside the hull of others."""
+"""Test of whether points of a plane lie inside the convex hull of others."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from lpcal.geometry.arrays import Array, Mask
 
 
 def inside_hull(places: Array, about: Array) -> Mask:
-    """Mask (N,) of places (N, 2) inside the convex hull of others (M, 2); nowhere where they span no area."""
+    """Mask (N,) of points (N, 2) inside the convex hull of others (M, 2); all False if those span no area."""
     import cv2
 
     hull = cv2.convexHull(about.astype(np.float32).reshape(-1, 1, 2))[:, 0].astype(float) if len(about) > 2 else np.zeros((0, 2))

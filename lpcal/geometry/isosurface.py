@@ -1,4 +1,4 @@
-"""Triangles of a grid's zero level: scikit-image's home."""
+"""Marching cubes: the triangles of a grid's zero level; the only module that imports scikit-image."""
 
 from __future__ import annotations
 
@@ -23,6 +23,6 @@ def isosurface(distance: Image) -> tuple[Array, Index]:
     except ImportError as error:
         raise InputError("scikit-image is not installed", where="lpcal", needed="lpcal[fuse]", todo="uv add 'lpcal[fuse]'") from error
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # its tables have a shape that numpy deprecates
+        warnings.simplefilter("ignore", DeprecationWarning)  # scikit-image's tables assign to shape, which numpy deprecates
         vertices, faces, _, _ = marching_cubes(distance, 0.0, allow_degenerate=False)
     return vertices.astype(float), np.asarray(faces, dtype=np.intp)

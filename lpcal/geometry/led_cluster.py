@@ -1,7 +1,7 @@
 r"""The LightBlob as the sum of its LEDs, averaged over its roll.
 
-Symbols: LEDs of angular lobe cos(t)^m stand on a dome, one on the axis, 6 at `spacing` from it and 12 at twice that; seen from the dome's
-centre of curvature the whole emits::
+Symbols: LEDs of angular lobe cos(t)^m sit on a dome, one on the axis, 6 at an angle `spacing` from it and 12 at twice that; seen from the
+dome's centre of curvature the cluster emits::
 
     lobe(theta) = sum_i cos(angle(direction(theta), axis_i))^m, averaged over the roll, 1 at theta = 0
     m = -ln 2 / ln cos(half of the full half-power angle)
@@ -22,7 +22,7 @@ HALF_POWER_RAD = float(np.radians(15.0))
 """Full angle between the half-power directions of one LED."""
 ROLLS = 60
 FEW = 300
-"""Up to so many coordinates are taken with all LEDs at once."""
+"""Largest number of coordinates for which all LEDs are evaluated at once."""
 
 
 def exponent(full_half_power_rad: float) -> float:
@@ -54,8 +54,8 @@ def mean_lobe(angle_rad: Array, leds: int) -> Array:
 def cluster_field(x: Array, position: Array, axis: Array, power: Array, m: float, *, single: bool = False) -> tuple[Array, Array]:
     """Unit vectors to the light (..., 3) and irradiance (...) of LEDs at points x (..., 3), all in one frame.
 
-    The direction is that of the sum of the LEDs' irradiance vectors, the irradiance its length. With `single` it is summed in single
-    precision: right to 1e-5 of the light, in a fifth of the time.
+    The direction is that of the sum of the LEDs' irradiance vectors; the irradiance is its length. With `single` the sum is in single
+    precision: a relative error of 1e-5, in a fifth of the time.
     """
     if run := kernel("cluster_single" if single else "cluster"):
         leds = (np.ascontiguousarray(one, float) for one in (position, axis, power))
@@ -67,7 +67,7 @@ def cluster_field(x: Array, position: Array, axis: Array, power: Array, m: float
         r = np.linalg.norm(to_led, axis=-1)
         lit = np.maximum(-np.sum(to_led * axis, axis=-1) / r, 1e-6)
         total = np.sum(to_led * (power * np.exp(m * np.log(lit)) / r**3)[..., None], axis=-2)
-    else:  # a LED at a time: many points times many LEDs do not fit the cache
+    else:  # one LED at a time: many points times many LEDs do not fit the cache
         total = np.zeros(np.shape(x))
         for place, ahead, strength in zip(position, axis, power, strict=True):
             to_led = place - x
@@ -81,9 +81,9 @@ def cluster_field(x: Array, position: Array, axis: Array, power: Array, m: float
 
 
 def cluster_slope(x: Array, position: Array, axis: Array, power: Array, m: float) -> Array:
-    """How the LEDs' irradiance vector (..., 3) at points x (..., 3) changes with the logarithm of their distance from the frame's origin.
+    """Derivative of the LEDs' irradiance vector (..., 3) at points x (..., 3) by the log of their distance from the frame's origin.
 
-    The vector of a LED at a, seen from the point, is ``a c^m / r^3`` with ``c = -(a . axis) / r``; moving the point by h changes a by -h,
+    An LED at a, relative to the point, has the vector ``a c^m / r^3`` with ``c = -(a . axis) / r``; moving the point by h changes a by -h,
     so ``log r`` by ``-(a . h) / r^2`` and ``log c`` by ``(h . axis) / -(a . axis) + (a . h) / r^2``; h is x. In single precision.
     """
     if run := kernel("cluster_slope"):

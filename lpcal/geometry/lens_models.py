@@ -1,11 +1,10 @@
-"""Lenses other than OpenCV's: mrcal's splined one, and the nearest of OpenCV's to any.
+"""Lens models other than OpenCV's: mrcal's splined model, and the OpenCV model nearest to any lens.
 
-mrcal's is a stereographic core and a grid of corrections, projected by mrcal itself. Symbols: ``lensmodel`` mrcal's name of the model with
-its configuration, ``spline`` the vector fx fy cx cy and all knots. Source: mrcal's documentation, "splined stereographic".
+The splined model is a stereographic core with a grid of corrections, projected by mrcal itself. Symbols: ``lensmodel`` is mrcal's model
+name with its configuration, ``spline`` the vector fx fy cx cy and all knots. Source: mrcal's documentation, "splined stereographic".
 
-The nearest of OpenCV's: rays x_C (N, 3) through pixels u (N, 2) of the lens as it is; K and k1 k2 p1 p2 [k3 [k4 k5 k6]] with
-``u = project(x_C, K, k)`` in least squares of pixels. Source: mrcal's documentation, "lens model conversion"; the fit is without
-uncertainty, as there.
+The nearest OpenCV model: rays x_C (N, 3) through pixels u (N, 2) of the given lens; K and k1 k2 p1 p2 [k3 [k4 k5 k6]] minimise the squared
+pixel errors of ``u = project(x_C, K, k)``. Source: mrcal's documentation, "lens model conversion"; as there, without uncertainty.
 """
 
 from __future__ import annotations
@@ -41,14 +40,14 @@ def projection_jacobian(x_C: Array, lensmodel: str, spline: Array) -> Array:
 
 
 COLUMNS = 41
-"""Rays across the image: more change no parameter, the lens being smooth."""
+"""Rays sampled across the image: more change no parameter, as lenses are smooth."""
 WIDEST = 1.4
-"""Radians from the axis beyond which a ray is left out: a pinhole cannot hold it."""
+"""Angle from the axis, radians, beyond which rays are left out: central projection cannot represent them."""
 
 
 @dataclass(frozen=True)
 class FittedLens:
-    """A lens in another model, and how far the two lie apart over the image."""
+    """A lens fitted in another model, and the difference of the two over the image."""
 
     K: Array
     distortion: Array
@@ -57,9 +56,9 @@ class FittedLens:
 
 
 def fit_lens(unproject: Callable[[Array], Array], K: Array, image_size: tuple[int, int], count: int, start: Array) -> FittedLens:
-    """The lens of `count` distortion coefficients nearest to one that takes pixels (..., 2) to rays (..., 3).
+    """Fit a lens of `count` distortion coefficients to one that takes pixels (..., 2) to rays (..., 3).
 
-    `K` (3, 3) and `start` (the first coefficients, up to count) are where the search begins.
+    `K` (3, 3) and `start` (the first coefficients, at most `count`) are the initial values.
     """
     from scipy.optimize import least_squares
 

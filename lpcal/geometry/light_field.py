@@ -1,12 +1,12 @@
-"""The light of one light at points in space.
+"""The field of one light at points in space.
 
 Symbols: source s, axis a (unit), point x, distance r = |x - s|, angle t between a and x - s::
 
     d = (s - x) / r                          unit vector from the point to the light
     E = intensity lobe(t) / r^2              irradiance of a surface that faces it
 
-A distant light has d and E everywhere the same. Source: physics of a point source with an angular lobe; the source is the point that
-the rays seem to come from, which for LEDs on a dome lies behind them.
+A distant light has the same d and E everywhere. Source: physics of a point source with an angular lobe; the source is the point from which
+the rays appear to diverge, which for LEDs on a dome lies behind them.
 """
 
 from __future__ import annotations
@@ -29,29 +29,29 @@ def isotropic_lobe(angle_rad: Array, _exponent: float) -> Array:
 
 
 type Formula = Callable[[Array, float], Array]
-"""Relative intensity (...) at angles (...) rad from the axis, 1 on the axis, by one parameter, the ``exponent`` of the file."""
+"""Relative intensity (...) at angles (...) rad from the axis, 1 on the axis, with one parameter, the ``exponent`` of the file."""
 FORMULAS: dict[str, Formula] = {"isotropic": isotropic_lobe, "cosine": cosine_lobe}
-"""Lobes of one parameter, by the ``kind`` of the file. Another kind is one more function here: files, report and fields follow it."""
+"""Lobes of one parameter by the ``kind`` of the file. To add a kind, add its function here: files, report and fields follow."""
 TABLED = ("table", "leds")
-"""Kinds of lobe that a table holds."""
+"""Kinds of lobe that are stored as a table."""
 
 
 def table_lobe(angle_rad: Array, knots_rad: Array, value: Array) -> Array:
-    """Cubic through the table (monotone between knots, even about the axis), 0 beyond its last angle."""
+    """Monotone cubic interpolation of the table, even about the axis, 0 beyond its last angle."""
     at = np.clip(np.abs(angle_rad), knots_rad[0], None)
     k = np.clip(np.searchsorted(knots_rad, at, side="right") - 1, 0, len(knots_rad) - 2)
     step = np.diff(knots_rad)
     slope, chord, x = monotone_slopes(step, value), np.diff(value) / step, at - knots_rad[k]
     bend = (slope[:-1] + slope[1:] - 2 * chord) / step
     found = value[k] + x * (slope[k] + x * ((chord - slope[:-1]) / step - bend)[k] + x * x * (bend / step)[k])
-    return np.where(at <= knots_rad[-1], np.maximum(found, 0.0), 0.0)  # rounding falls below a last knot of 0
+    return np.where(at <= knots_rad[-1], np.maximum(found, 0.0), 0.0)  # rounding may go below a last knot of 0
 
 
 def monotone_slopes(step: Array, value: Array) -> Array:
-    """Slopes (N,) at knots `step` (N - 1,) apart of a cubic that is monotone wherever its values (N,) are.
+    """Slopes (N,) of a monotone cubic (PCHIP) through values (N,) at knots that are `step` (N - 1,) apart.
 
-    Between knots the weighted harmonic mean of the chords on both sides, 0 where they differ in sign; at an end the parabola through
-    three knots, kept from turning. Source: Fritsch and Butland 1984, SIAM J. Scientific and Statistical Computing 5.
+    At inner knots the weighted harmonic mean of the chords on both sides, 0 where they differ in sign; at the ends that of the parabola
+    through three knots, limited to stay monotone. Source: Fritsch and Butland 1984, SIAM J. Scientific and Statistical Computing 5.
     """
     chord = np.diff(value) / step
     if len(chord) == 1:
@@ -64,7 +64,7 @@ def monotone_slopes(step: Array, value: Array) -> Array:
 
 
 def _end_slope(step: Array, chord: Array) -> float:
-    """The slope at a first knot, by the first two chords."""
+    """The slope at the first knot, from the first two chords."""
     slope = float(((2 * step[0] + step[1]) * chord[0] - step[0] * chord[1]) / (step[0] + step[1]))
     if np.sign(slope) != np.sign(chord[0]):
         return 0.0

@@ -1,7 +1,7 @@
-"""A smooth factor over the directions that a light emits into, on a square grid, for lobes that are not round.
+"""A smooth factor over emission directions on a square grid, for lobes that are not rotationally symmetric.
 
-Symbols: direction at angle t from the axis and f about it has plane coordinates ``(t cos f, t sin f)`` (azimuthal equidistant); the factor
-is bilinear between the grid's nodes and stays what it is at the edge beyond them.
+Symbols: a direction at angle t from the axis and azimuth f has plane coordinates ``(t cos f, t sin f)`` (azimuthal equidistant); the factor
+is bilinear between the grid's nodes and constant beyond its edge.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from lpcal.geometry.arrays import Array, Index
 
 
 def nodes(reach_rad: float, spacing_rad: float) -> Array:
-    """Coordinates (n,) of the grid's nodes along either axis, from -reach to reach at least, symmetric."""
+    """Coordinates (n,) of the grid's nodes along either axis, symmetric, covering at least -reach to reach."""
     count = int(np.ceil(reach_rad / spacing_rad))
     return np.asarray(spacing_rad * np.arange(-count, count + 1), dtype=float)
 
 
 def corners(angle_rad: Array, around_rad: Array, node_rad: Array) -> tuple[Index, Array]:
-    """The four nodes (..., 4), numbered by rows, about each direction, and their bilinear weights (..., 4)."""
+    """Indices (..., 4), row by row, of the four nodes about each direction, and their bilinear weights (..., 4)."""
     step, last = node_rad[1] - node_rad[0], len(node_rad) - 1
     places, shares = [], []
     for coordinate in (angle_rad * np.sin(around_rad), angle_rad * np.cos(around_rad)):
@@ -34,16 +34,16 @@ def corners(angle_rad: Array, around_rad: Array, node_rad: Array) -> tuple[Index
 
 
 def evaluate(angle_rad: Array, around_rad: Array, node_rad: Array, value: Array) -> Array:
-    """Factor (...) of directions, from values (n, n) at the nodes, rows along sin."""
+    """Factor (...) of directions from values (n, n) at the nodes; rows run along t sin f."""
     index, weight = corners(angle_rad, around_rad, node_rad)
     return np.asarray(np.sum(np.ravel(value)[index] * weight, axis=-1))
 
 
 def modes(node_rad: Array, sd: float, length_rad: float, least: float) -> Array:
-    """Modes (n*n, m) of a Gaussian process over the nodes, each times its standard deviation: it is their sum with standard normal weights.
+    """Karhunen-Loeve modes (n*n, m) of a Gaussian process over the nodes, each scaled by its standard deviation.
 
-    The process has standard deviation sd and correlation exp(-distance^2 / 2 length^2); modes of less than `least` of the largest variance
-    are left out.
+    The process has standard deviation sd and correlation exp(-distance^2 / 2 length^2); it is the modes' sum with standard normal weights.
+    Modes of less than `least` of the largest variance are left out.
     """
     variance, along = np.linalg.eigh(np.exp(-0.5 * ((node_rad[:, None] - node_rad) / length_rad) ** 2))
     both = np.outer(variance, variance).ravel()

@@ -1,4 +1,4 @@
-"""The normal equations of least squares over blocks: assembled, one block eliminated, solved, inverted.
+"""Normal equations of block least squares: assembly, elimination of one block (Schur complement), solution and inversion.
 
 Symbols as in `lpcal.geometry.least_squares`::
 
@@ -18,7 +18,7 @@ from lpcal.geometry.arrays import Array, Index
 from lpcal.geometry.residual_terms import Block, Term
 
 SINGULAR = 1e-13
-"""Least eigenvalue of the information, its diagonal scaled to 1, below which it counts as singular."""
+"""Eigenvalue of the information matrix, scaled to a unit diagonal, below which it counts as singular."""
 
 WELL = 1e-9
 """Least pivot of a scaled information above which it is solved by Cholesky's factors."""
@@ -29,7 +29,7 @@ FEW = 4
 
 @dataclass
 class System:
-    """The linearised problem: S's pieces, dense; each term's whitened residuals and Jacobians."""
+    """The linearised problem: the dense blocks of the normal equations, and each term's whitened residuals and Jacobians."""
 
     cost: float
     A: Array
@@ -42,11 +42,11 @@ class System:
     residuals: list[Array]
     jacobians: list[Array]
     plain: list[Array]
-    """Residuals as the model gives them, not weighted."""
+    """Unweighted residuals of the model."""
 
 
 class Layout:
-    """Which column of the reduced system belongs to which parameter."""
+    """Assignment of columns of the reduced system to parameters."""
 
     def __init__(self, blocks: dict[str, Block], eliminate: str | None) -> None:
         self.blocks, self.eliminate = blocks, eliminate
@@ -68,28 +68,28 @@ class Layout:
         return [f"{name}[{i}].{c}" for name in self.start for i in range(self.blocks[name].count) for c in range(self.blocks[name].size)]
 
     def of_term(self, term: Term) -> tuple[Index, Index | None]:
-        """Columns (N, k) of a term's blocks that are kept, and the eliminated item (N,) of each observation."""
+        """Columns (N, k) of a term's blocks that are not eliminated, and the eliminated item (N,) of each observation."""
         kept = [self.columns(name)[term.items(place)] for place, name in enumerate(term.blocks) if name != self.eliminate]
         item = next((term.items(place) for place, name in enumerate(term.blocks) if name == self.eliminate), None)
         return np.concatenate([*kept, np.zeros((term.count, 0), dtype=np.intp)], axis=1), item
 
     def kept_items(self, term: Term) -> list[Index]:
-        """Items (N,) of each block of a term that is kept."""
+        """Items (N,) of each block of a term that is not eliminated."""
         return [term.items(place) for place, name in enumerate(term.blocks) if name != self.eliminate]
 
     def eliminated_columns(self, term: Term) -> tuple[int, int]:
-        """Where the eliminated block's columns stand in a term's Jacobian."""
+        """Range (start, end) of the eliminated block's columns in a term's Jacobian."""
         place = term.blocks.index(str(self.eliminate))
         start = sum(size or 6 for size in term.model.sizes[:place])
         return start, start + (term.model.sizes[place] or 6)
 
     def part(self, name: str, step: Array, step_e: Array) -> Array:
-        """A block's share (count, size) of a step."""
+        """A block's part (count, size) of a step."""
         return step_e if name == self.eliminate else step[self.columns(name)]
 
 
 def values_of(term: Term, blocks: Mapping[str, Block]) -> list[Array]:
-    """The items that each observation takes, a block each."""
+    """The items that each observation uses, one array for each block."""
     return [blocks[name].value[term.items(place)] for place, name in enumerate(term.blocks)]
 
 
@@ -120,7 +120,7 @@ def linearise(layout: Layout, blocks: Mapping[str, Block], terms: Sequence[Term]
 
 
 def _loss(r: Array, term: Term) -> tuple[float, Array]:
-    """Cost of a term, and the square root of the weight (N, rows) of its rows."""
+    """Cost of a term, and the square roots (N, rows) of its rows' weights."""
     weight = np.ones_like(r) if term.weight is None else term.weight
     squared = weight * r**2
     if term.robust is None:
@@ -160,7 +160,7 @@ def add_products(A: Array, gradient: Array, items: Sequence[Index], columns: Ind
 
 
 def _gather(whole: Array, at: Index | tuple[Index, ...], part: Array) -> None:
-    """Add a part where its rows and columns stand in the whole; an item that an observation meets twice stands there twice."""
+    """Add a part to its rows and columns of the whole; indices may repeat, as an observation may use an item twice."""
     rows = at[0].ravel() if isinstance(at, tuple) else at
     if len(np.unique(rows)) == len(rows):
         whole[at] += part
@@ -169,7 +169,7 @@ def _gather(whole: Array, at: Index | tuple[Index, ...], part: Array) -> None:
 
 
 def _groups(items: Sequence[Index], count: int) -> list[Index]:
-    """Observations that take the same items, group by group."""
+    """Observations grouped by the items they use."""
     key = np.zeros(count, dtype=np.intp)
     for each in items:
         key = key * (int(each.max(initial=0)) + 1) + each
@@ -198,7 +198,7 @@ def reduced(system: System, damping: float) -> tuple[Array, Array, Array, Array]
 
 
 def step_of(system: System, layout: Layout, damping: float) -> tuple[Array, Array, float]:
-    """Step of the kept and of the eliminated parameters, and the fall of the cost that the model expects."""
+    """Step of the remaining and of the eliminated parameters, and the predicted reduction of the cost."""
     try:
         S, g, C_inverse, CB = reduced(system, damping)
     except np.linalg.LinAlgError as error:
@@ -214,7 +214,7 @@ def step_of(system: System, layout: Layout, damping: float) -> tuple[Array, Arra
 
 
 def _solved(S: Array, g: Array) -> Array:
-    """S^-1 g of a scaled information matrix; directions that it leaves undetermined stay where they are."""
+    """S^-1 g of a scaled information matrix; undetermined directions get no step."""
     try:
         root = np.linalg.cholesky(S)
     except np.linalg.LinAlgError:
@@ -227,7 +227,13 @@ def _solved(S: Array, g: Array) -> Array:
 
 
 def inverse(S: Array, labels: list[str]) -> Array:
-    """Inverse of an information matrix; refuses a singular one and names its weakest direction."""
+    """Inverse of an information matrix; a singular one is refused, and its weakest direction named.
+
+    Raises
+    ------
+    DegenerateError
+        The matrix is singular.
+    """
     diagonal = np.diag(S)
     if np.any(diagonal <= 0):
         raise DegenerateError(f"nothing determines {labels[int(np.argmin(diagonal))]}", needed="data that depend on it")

@@ -1,6 +1,6 @@
-"""Pictures of rows and columns: what hangs together, what is nearest, means about each pixel, masks grown and shrunk.
+"""Image operations: connected components, distance transforms, filters and binary morphology.
 
-Kernels do what `scipy.ndimage` does; it stands here as their twin, and is not imported where they work.
+The kernels do what `scipy.ndimage` does, which is their twin here and is not imported where they are compiled.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from lpcal.kernels.library import kernel
 
 BORDERS = ("constant", "nearest", "reflect")
 type Border = Literal["constant", "nearest", "reflect"]
-"""What stands beyond the picture: nothing; its last pixel; its mirror image, the last pixel twice."""
+"""Border modes as in scipy.ndimage: zeros; the border pixel repeated; the mirror image, border pixel included."""
 REACH = 4.0
-"""Standard deviations of a Gaussian window beyond which nothing counts."""
+"""Standard deviations at which a Gaussian window is truncated."""
 BLOCK = 256
-"""What the kernel wants of work space beyond a line's own."""
+"""Work space that the kernel needs beyond a line's own length."""
 
 
 def connected_components(mask: Mask) -> tuple[npt.NDArray[np.int32], int]:
-    """A label (H, W) from 1 for each set of pixels of a mask (H, W) that touch by their sides, in reading order, and how many there are."""
+    """Labels (H, W) from 1 of the 4-connected components of a mask (H, W), row by row, and their number."""
     if run := kernel("labelled"):
         of, label, count = np.empty(mask.shape, np.int32), np.empty(mask.shape, np.int32), np.zeros(1, np.int32)
         run(*mask.shape, np.ascontiguousarray(mask), of, label, count)
@@ -35,17 +35,17 @@ def connected_components(mask: Mask) -> tuple[npt.NDArray[np.int32], int]:
 
 
 def nearest(mask: Mask) -> Index:
-    """The number (H, W), row by row, of the pixel of a mask (H, W) that is nearest to each; -1 where the mask is empty."""
+    """Flat index (H, W) of the nearest pixel of a mask (H, W); -1 everywhere if the mask is empty."""
     return _nearest(mask)[0]
 
 
 def distance_to(mask: Mask) -> Array:
-    """How far (H, W), in pixels, each pixel is from the nearest one of a mask (H, W); infinitely where it is empty."""
+    """Euclidean distance (H, W), pixels, to the nearest pixel of a mask (H, W); infinite if it is empty."""
     return np.sqrt(_nearest(mask)[1])
 
 
 def _nearest(mask: Mask) -> tuple[Index, Array]:
-    """The number of the nearest pixel, and the square of its distance."""
+    """Flat index of the nearest pixel, and its squared distance."""
     if run := kernel("nearest"):
         work, number, square = np.empty(3 * mask.shape[1], np.int64), np.empty(mask.shape, np.int64), np.empty(mask.shape)
         run(*mask.shape, np.ascontiguousarray(mask), work, number, square)
@@ -59,7 +59,7 @@ def _nearest(mask: Mask) -> tuple[Index, Array]:
 
 
 def gaussian_filtered[T: np.floating](values: npt.NDArray[T], sigma: float | Sequence[float], border: Border = "reflect") -> npt.NDArray[T]:
-    """Gaussian means (...) of values (...) along all axes, of a standard deviation in pixels, or one an axis."""
+    """Values (...) filtered by a Gaussian along all axes; `sigma` in pixels, one for all axes or one each."""
     if kernel("joined"):
         return _joined(values, [_gaussian(float(one)) for one in np.broadcast_to(sigma, values.ndim)], border)
     from scipy import ndimage
@@ -68,14 +68,14 @@ def gaussian_filtered[T: np.floating](values: npt.NDArray[T], sigma: float | Seq
 
 
 def _gaussian(sigma: float) -> Array:
-    """Weights (radius + 1) of neighbours by their distance, those of both sides of sum 1."""
+    """Weights (radius + 1) of a symmetric Gaussian window by distance, of sum 1 over both sides."""
     radius = int(REACH * sigma + 0.5)
     both = np.exp(-0.5 / max(sigma, 1e-9) ** 2 * np.arange(-radius, radius + 1) ** 2)
     return np.asarray((both / both.sum())[radius:])
 
 
 def box_filtered[T: np.floating](values: npt.NDArray[T], side: int) -> npt.NDArray[T]:
-    """Means (...) of values (...) in boxes of an odd side about each pixel; the picture is mirrored at its borders."""
+    """Values (...) filtered by a box of an odd side; the image is mirrored at its borders."""
     if kernel("joined"):
         return _joined(values, [np.full(side // 2 + 1, 1 / side)] * values.ndim, "reflect")
     from scipy import ndimage
@@ -84,12 +84,12 @@ def box_filtered[T: np.floating](values: npt.NDArray[T], side: int) -> npt.NDArr
 
 
 def _joined[T: np.floating](values: npt.NDArray[T], weights: Sequence[Array], border: Border) -> npt.NDArray[T]:
-    """Values (...) joined along each axis in turn by its weights (radius + 1) of their distance."""
+    """Values (...) convolved along each axis in turn with a symmetric window (radius + 1)."""
     run = kernel("joined" if values.dtype == np.float64 else "joined_singles")
     assert run is not None
     found = np.ascontiguousarray(values)
     for axis, (n, weight) in enumerate(zip(values.shape, weights, strict=True)):
-        if len(weight) == 1:  # each value by itself
+        if len(weight) == 1:  # a window of one pixel
             continue
         before, found = found, np.empty(values.shape, values.dtype)
         radius, outer, inner = len(weight) - 1, int(np.prod(values.shape[:axis])), int(np.prod(values.shape[axis + 1 :]))
@@ -98,10 +98,10 @@ def _joined[T: np.floating](values: npt.NDArray[T], weights: Sequence[Array], bo
 
 
 def block_means(picture: npt.NDArray[np.floating], side: int) -> Array:
-    """Means (h, w) of blocks of side x side pixels of a picture (H, W); what is left over at its lower and right ends is in none."""
+    """Means (h, w) of blocks of side x side pixels of an image (H, W); incomplete blocks at the lower and right ends are dropped."""
     rows, columns = (length // side * side for length in picture.shape)
     by_row = picture[:rows:side].astype(float)
-    for k in range(1, side):  # every so manyth row and column is taken as a whole: sums over short ends take four times as long
+    for k in range(1, side):  # strided slices of the whole image: sums over short axes take four times as long
         by_row += picture[k:rows:side]
     total = by_row[:, :columns:side].copy()
     for k in range(1, side):
@@ -110,7 +110,7 @@ def block_means(picture: npt.NDArray[np.floating], side: int) -> Array:
 
 
 def dilated(mask: Mask, by: int = 1) -> Mask:
-    """A mask (H, W) with the pixels that touch it by a side, `by` times."""
+    """A mask (H, W) dilated `by` times by its 4-neighbours."""
     for _ in range(by):
         before, mask = mask, mask.copy()
         mask[1:] |= before[:-1]
@@ -121,7 +121,7 @@ def dilated(mask: Mask, by: int = 1) -> Mask:
 
 
 def eroded(mask: Mask, by: int = 1, *, beyond: bool = False) -> Mask:
-    """A mask (H, W) without the pixels that touch others by a side, `by` times; `beyond`: whether what lies beyond the picture is in it."""
+    """A mask (H, W) eroded `by` times by its 4-neighbours; `beyond`: whether pixels outside the image count as part of the mask."""
     for _ in range(by):
         before, mask = mask, mask.copy()
         mask[1:] &= before[:-1]
@@ -135,17 +135,17 @@ def eroded(mask: Mask, by: int = 1, *, beyond: bool = False) -> Mask:
 
 
 def opened(mask: Mask, by: int = 1) -> Mask:
-    """A mask (H, W) without what is thinner than twice `by`."""
+    """Morphological opening of a mask (H, W): parts thinner than twice `by` pixels are removed."""
     return dilated(eroded(mask, by), by)
 
 
 def closed(mask: Mask) -> Mask:
-    """A mask (H, W) with its gaps of a pixel or two filled, and without the picture's border."""
+    """Morphological closing of a mask (H, W): gaps of one or two pixels are filled; the image's border pixels are dropped."""
     return eroded(dilated(mask))
 
 
 def max_filtered[T: np.generic](values: npt.NDArray[T], reach: int, beyond: T | bool | float) -> npt.NDArray[T]:
-    """The highest value in squares (H, W) that reach so far about each pixel; `beyond` is what lies beyond the picture."""
+    """Maximum filter of values (H, W) over squares of half-width `reach`; `beyond` is the value outside the image."""
     rows, columns = values.shape
     about = np.pad(values, reach, constant_values=beyond)
     across = about[:, :columns].copy()

@@ -206,7 +206,7 @@ def boundary(bright: Image) -> tuple[Image, Image]:
 
 
 def cheapest(cost: Array, across: Image, down: Image) -> Labels:
-    """Labels (rows, columns) that minimise cost (layers, rows, columns) and boundary costs: primal-dual method (Chambolle and Pock 2011)."""
+    """Labels (rows, columns) that minimise cost (layers, rows, columns) and boundary cost: primal-dual method (Chambolle and Pock 2011)."""
     return np.asarray(np.argmax(_relaxed(cost, across, down), axis=0))
 
 
