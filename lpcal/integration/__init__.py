@@ -1,1 +1,1 @@
-"""From normals to depth within a mask: the solve, what is one piece, normal maps from elsewhere, and a mesh."""
+"""Integration of normals to depth within a mask: solver, connected components, external normal maps, and meshes."""

@@ -1,12 +1,12 @@
-r"""Which way the green channel of a normal map points, by the curl of its slopes.
+r"""Detection of a normal map's green-channel convention (y up or y down) from the integrability (curl) of its slopes.
 
 Symbols: u(column, row) the depth, in pixels or (with a camera) its logarithm; slopes ``p = du/dcolumn, q = du/drow`` follow from the
-normals. Of a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same number, the twist. With the vertical component turned over, b has
-the other sign. So the likeness ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 the right way up and -1 the wrong way, noise or not: a' is
-a of the next column and b' is b of the next row, whose noise is independent of theirs. Large values are cut, so that edges of depth, where
-neither holds, do not decide. Where noise hides the twist of neighbours, means of blocks of pixels are asked. The curl does not distinguish
-a hollow from a bump: with both components turned over the map is that of another surface, as good. An outline does: things turn away there,
-so that normals near it look outwards.
+normals. On a surface ``a = dp/drow`` and ``b = dq/dcolumn`` are the same mixed derivative, the twist. With the vertical component flipped,
+b changes its sign. So the correlation ``s = sum(a b) / sqrt(sum(a a') sum(b b'))`` is 1 for the right convention and -1 for the wrong one,
+independent of noise: a' is a of the next column and b' is b of the next row, whose noise is independent. Large values are clipped, so that
+depth discontinuities do not decide. Where noise hides the twist of neighbours, means over blocks of pixels are used. The curl does not
+distinguish hollow from bump: with both components flipped the map is integrable, too. The outline does: near an occluding contour normals
+point outwards.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from lpcal.view.constants import CERTAIN, FEWEST_PIXELS, LEAST_COSINE, OUTLIER_R
 from lpcal.view.pixel_list import ray_map
 
 CLEAR = 0.3
-"""Likeness, of 1, from which the direction is taken as decided."""
+"""Absolute correlation from which the convention counts as decided."""
 WILD = 0.5
-"""Median curl, as a change of slope from pixel to pixel, of which no surface is: noise of 10 degrees gives half of it."""
+"""Median curl, as a change of slope per pixel, above which a map is not that of a surface: noise of 10 degrees gives half of it."""
 BLOCKS = (1, 4, 12)
-"""Pixels along a side of the blocks that are tried, in turn, until one decides: noise falls with the block, twist does not."""
+"""Block sides, pixels, tried in turn until one decides: noise decreases with the block, twist does not."""
 
 
 @dataclass(frozen=True)

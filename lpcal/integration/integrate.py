@@ -1,4 +1,4 @@
-r"""Depth from normals, in the mask, with its steps kept, tied to what each pixel knows of its own distance.
+r"""Discontinuity-preserving integration of normals within a mask, anchored to each pixel's own distance from near light.
 
 Symbols: u = log z (central) or z (parallel rays); neighbours a, b with the mean m of their normals::
 
@@ -7,10 +7,11 @@ Symbols: u = log z (central) or z (parallel rays); neighbours a, b with the mean
 
 minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s_ab)^2  +  sum_p H_p (u_p - h_p)^2
 
-s_ab is what an error of the normal makes of a step, H_p and h_p the curvature and place of the pixel's own optimum (surface.distance).
-The weights ``w = (C^2 / (C^2 + e^2))^2`` with e the step's residual in sigmas belong to Geman and McClure's cost; the own distances begin
-GRADUATION times too strong, so that jumps show before the steps smear them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and
-Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J. Computer Vision 19 (weights, graduation).
+s_ab is the standard deviation of a step due to the normals' errors; H_p and h_p are the curvature and optimum of the pixel's own distance
+(surface.distance). The weights ``w = (C^2 / (C^2 + e^2))^2``, with e the step's residual in standard deviations, are those of the Geman and
+McClure loss. The own distances start with GRADUATION times their weight (graduated non-convexity), so that jumps appear before the steps
+smooth them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J.
+Computer Vision 19 (weights, graduation).
 """
 
 from __future__ import annotations
@@ -30,17 +31,17 @@ from lpcal.view.pixel_list import Indices
 
 GRADUATION = (1000.0, 300.0, 100.0, 30.0, 10.0, 3.0, 1.0, 1.0)
 AGAIN = GRADUATION[2::2]
-"""Where the depth is known already."""
+"""The graduation used when a depth is already known."""
 NORMAL_ERROR_RAD = 0.035
 UNEVEN = 0.2
 """Standard deviation of a step, as a share of the difference between the steps that the two normals of an edge predict."""
 SPREAD = 2 * OUTLIER
-"""C is no less than this many medians of the residuals."""
+"""Lower bound of C, in medians of the absolute residuals."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Which pixels of a mask are neighbours; edges run to the right, then down."""
+    """The 4-neighbour graph of a mask's pixels; the edges to the right come first, then those downwards."""
 
     a: Indices
     b: Indices
@@ -63,17 +64,17 @@ class Grid:
 
 @dataclass(frozen=True)
 class Own:
-    """What each pixel says of its own u by itself: curvature H (P,) and optimum h (P,)."""
+    """Each pixel's own estimate of u from near light: curvature (inverse variance) H (P,) and optimum h (P,)."""
 
     curvature: Array
     optimum: Array
 
 
 def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad: Array | None = None) -> tuple[Array, Array]:
-    """g (edges,) and its sigma (edges,) for normals (P, 3) that err by NORMAL_ERROR_RAD, and by `tilt_rad` (P,) of their own besides.
+    """Steps g (edges,) and their sigma (edges,) from normals (P, 3) of standard deviation NORMAL_ERROR_RAD, plus `tilt_rad` (P,) if given.
 
-    With a camera the sigma also holds a share of what the steps by the one and by the other normal differ by: the step is uncertain where
-    the surface bends, and where one of the two is the rim of something in front.
+    With a camera the sigma also contains UNEVEN times the difference of the two normals' steps: a step is uncertain where the surface
+    bends, and at the rim of an occluding part.
     """
     if central and (run := kernel("steps")):
         found = np.empty(len(grid.a)), np.empty(len(grid.a))
@@ -97,12 +98,12 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
-    """The step (edges,) from ray a to ray b on planes of normals n (edges, 3)."""
+    """Step (edges,) of log depth from ray a to ray b on planes of normals n (edges, 3)."""
     return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -LEAST_COSINE) / np.minimum(lambert.dot(n, r_b), -LEAST_COSINE)))
 
 
 def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
-    """u (P,) and the final weights w (edges,); a jump is an edge of little weight."""
+    """Integrate: u (P,) and the final weights w (edges,); edges of low weight are depth discontinuities."""
     strengths = GRADUATION if graduated else AGAIN
     if run := kernel("integrated"):
         return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
@@ -132,10 +133,10 @@ def _integrated(
 
 
 def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
-    """u (P,) with the weights (edges,) as they are.
+    """u (P,) for fixed weights (edges,).
 
-    The minimum has ``sum_p H_p (u_p - h_p) = 0``, as steps do not see what all pixels share: where H is next to nothing, a million pixels
-    wander from it by as much as the solve's precision lets them, and are put there.
+    At the minimum ``sum_p H_p (u_p - h_p) = 0``, since steps do not constrain a common offset; where H is tiny the iterative solver meets
+    this only within its precision, so it is enforced at the end.
     """
     A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
     u = multigrid.solve(A, right, start)
@@ -145,28 +146,28 @@ def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight
 
 
 def weights_of(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
-    """Weight of each edge, by how well u keeps its step."""
+    """Weight (edges,) of each edge from the residual of its step."""
     residual = (u[grid.b] - u[grid.a] - step) / sigma
     square = scale_of(residual) ** 2
     return np.asarray((square / (square + residual**2)) ** 2 + REGULARISATION)
 
 
 def scale_of(residual: Array) -> float:
-    """C, by the residuals (edges,) of the steps in sigmas."""
+    """C from the steps' residuals (edges,) in standard deviations."""
     return max(OUTLIER, SPREAD * float(np.median(np.abs(residual))))
 
 
 def system(grid: Grid, weight: Array, step: Array, curvature: Array, optimum: Array) -> tuple[Matrix, Array]:
-    """Matrix and right side of the normal equations."""
+    """Matrix and right-hand side of the normal equations."""
     pull, count = weight * step, len(curvature)
     right = curvature * optimum + np.bincount(grid.b, pull, count) - np.bincount(grid.a, pull, count)
     return Matrix(grid.pyramid, curvature, weight), right
 
 
 def normals_of(grid: Grid, points_C: Array, whole: Mask) -> Array:
-    """Normals (P, 3) of points (P, 3) of a grid's pixels, turned towards the camera; NaN where no slope is known both ways.
+    """Normals (P, 3) of points (P, 3), facing the camera; NaN where a slope along rows or columns is missing.
 
-    The cross product of the slopes along rows and columns, over those edges (edges,) that are `whole`.
+    They are cross products of the slopes along rows and columns, over the unbroken edges `whole` (edges,).
     """
     count = len(points_C)
     slopes = []

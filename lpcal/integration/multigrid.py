@@ -1,8 +1,8 @@
-"""Sparse symmetric positive systems on the pixels of a mask, by conjugate gradients with a multigrid preconditioner.
+"""Sparse symmetric positive definite systems on a mask's pixels: conjugate gradients with an aggregation multigrid preconditioner.
 
-Unknowns sit on pixels, weights between neighbours; a coarse unknown is the sum of those in 2x2 pixels that hold together (aggregation,
-Galerkin products), which again are linked to their neighbours alone: the mask's outline and breaks between pixels are known on every level.
-An aggregate over a break would tie two depths together: it took 200 to 350 cycles where these take 35. Sources: Notay 2010, Electronic
+Unknowns are at pixels, weights on edges between neighbours. A coarse unknown aggregates strongly coupled unknowns within 2x2 pixels
+(Galerkin products) and is again coupled to its neighbours only, so every level respects the mask's outline and the breaks. Aggregates
+across breaks would couple two depths: with them 200 to 350 cycles were needed where these take 35. Sources: Notay 2010, Electronic
 Transactions on Numerical Analysis 37 (aggregation multigrid); Stüben 2001, J. Computational and Applied Mathematics 128 (strength of
 coupling); Braess 1995, Computing 55 (over-correction).
 """
@@ -22,50 +22,50 @@ from lpcal.kernels.library import LINKS, kernel
 from lpcal.view.pixel_list import Indices
 
 COARSEST = 200
-"""Unknowns from which on a level is not made coarser, but solved directly."""
+"""Number of unknowns up to which a level is solved directly and not coarsened."""
 LARGEST = 4 * COARSEST
-"""Unknowns of a level that cannot be made coarser, as nothing in it touches, beyond which it is not solved directly."""
+"""Number of unknowns up to which a level that cannot be coarsened (no edges) is solved directly."""
 FEWEST = COARSEST // 12
-"""Coarse pixels from which on none coarser are made: in each may be several unknowns, which breaks hold apart."""
+"""Number of coarse pixels below which no coarser level is made: each may contain several unknowns separated by breaks."""
 STRONG = 0.2
-"""Least weight of an edge that holds an aggregate together, as a share of the largest weight of either of its ends; .06 takes a tenth more
+"""Strength threshold: least weight of an edge within an aggregate, as a share of the largest weight at either end; .06 takes a tenth more
 cycles."""
 SMOOTHING = (1.39, 0.562)
-"""Shares of the two Jacobi steps that smooth: reciprocal roots of the polynomial that is least over the matrix's upper eigenvalues, .5 to 2
-relative to its diagonal (Chebyshev). Two equal steps of .7 take a sixth more cycles."""
+"""Damping factors of the two Jacobi smoothing steps: Chebyshev's for the upper eigenvalues, .5 to 2 relative to the diagonal. Two equal
+steps of .7 take a sixth more cycles."""
 PRECISION = 1e-8
-"""Relative residual that a solve ends at. The slope and the bend of a whole object weigh next to nothing in a residual: one of 1e-4 leaves
-them to where the solve began, and to rounding."""
+"""Relative residual at which a solve ends. Slope and curvature of a whole object contribute almost nothing to a residual: at 1e-4 they
+would depend on the initial value and on rounding."""
 MOST = 5 * COARSEST
-"""Steps of the conjugate gradients at most, so that every solve ends; captures take 12 to 60, and the field of normals (shading.field),
-which has no coarser levels, hundreds."""
+"""Largest number of conjugate gradient steps; captures take 12 to 60, and the field of normals (shading.field), which has no coarser
+levels, hundreds."""
 OVER_CORRECTION = 1.6
-"""Factor of what a coarser level says: sums over pixels see steps between them too steep."""
+"""Factor of the coarse-grid correction: with piecewise constant prolongation the coarse level overestimates slopes (Braess)."""
 
 
 @dataclass(frozen=True)
 class PixelLevel:
-    """Pixels of one level, numbered row by row, and their neighbours."""
+    """Pixels of one level, numbered row by row, and their edges."""
 
     a: Indices
     """Left and upper pixels of the edges: those to the right first, then those downwards."""
     b: Indices
     """Their right and lower pixels."""
     to_the_right: int
-    """How many edges lead to the right."""
+    """Number of edges to the right."""
     cell: npt.NDArray[np.int32]
-    """Coarse pixel that each pixel lies in, by its number on the next level; at the coarsest 0."""
+    """(P,) index on the next level of the coarse pixel that contains each pixel; 0 on the coarsest."""
 
     @property
     def pixels(self) -> int:
-        """How many there are."""
+        """Number of pixels."""
         return len(self.cell)
 
     @cached_property
     def stretches(self) -> npt.NDArray[np.int32]:
-        """(N, 4) stretches of pixels side by side, and so those above and below: the first, how many, the first above and the first below.
+        """(N, 4) runs of consecutive pixels whose upper and lower neighbours are consecutive too: first, count, first above, first below.
 
-        Where there are none above or below, the stretch's own first stands for them.
+        Where there are none above or below, the run's own first pixel is given instead.
         """
         every = np.arange(self.pixels)
         linked = np.zeros(self.pixels, bool)
@@ -79,7 +79,7 @@ class PixelLevel:
         return np.stack([first, np.diff(np.r_[first, self.pixels]), above[first], below[first]], axis=1).astype(np.int32)
 
     def by_pixel(self, weight: Array) -> tuple[Array, Array]:
-        """Weights of the edges (edges,) at the left and at the upper pixel (P,) of each; 0 where there is none."""
+        """Edge weights (edges,) stored at each edge's left or upper pixel, (P,) each; 0 where there is no edge."""
         across, down = np.zeros(self.pixels), np.zeros(self.pixels)
         right_of, below = slice(None, self.to_the_right), slice(self.to_the_right, None)
         across[self.a[right_of]], down[self.a[below]] = weight[right_of], weight[below]
@@ -88,13 +88,13 @@ class PixelLevel:
 
 @dataclass(frozen=True)
 class Pyramid:
-    """Pixels, and those that 2x2 of them make, down to COARSEST, or where there is more than one level to FEWEST."""
+    """The hierarchy of pixels, each level joining 2x2 of the finer one, down to COARSEST, or FEWEST where there are several levels."""
 
     levels: tuple[PixelLevel, ...]
 
     @staticmethod
     def of(rows: Indices, columns: Indices) -> Pyramid:
-        """From pixels at rows and columns (P,), in reading order."""
+        """The pyramid of pixels at rows and columns (P,), sorted row by row."""
         found: list[PixelLevel] = []
         rows, columns = rows - rows.min(), columns - columns.min()
         while True:
@@ -116,24 +116,24 @@ class Pyramid:
 
     @cached_property
     def laid_out(self) -> tuple[Indices, npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-        """The levels one behind the other: sizes, cells, stretches."""
+        """All levels concatenated, for the kernels: sizes, cells, runs."""
         sizes = np.array([(one.pixels, len(one.stretches)) for one in self.levels], np.int64)
         cells, stretches = (np.concatenate([getattr(one, name) for one in self.levels]) for name in ("cell", "stretches"))
         return sizes, cells, stretches
 
     @cached_property
     def room(self) -> int:
-        """Unknowns behind the coarse pixels that the kernels have room for on each level."""
+        """Capacity for unknowns beyond the coarse pixels that the kernels reserve on each level."""
         return self.levels[1].pixels if len(self.levels) > 1 else 0
 
     @cached_property
     def way(self) -> Array:
-        """How the kernels solve (7,)."""
+        """The solver's parameters for the kernels (7,)."""
         largest = min(LARGEST, self.levels[0].pixels + self.room)
         return np.array([*SMOOTHING, OVER_CORRECTION, STRONG, SINGULAR, COARSEST, largest])
 
     def work_space(self, more: int = 0) -> tuple[Array, npt.NDArray[np.float32], npt.NDArray[np.int32]]:
-        """Room in which the kernels solve a matrix, and `more` times the pixels plus two; what they do not use costs no memory."""
+        """Work arrays of the kernels, with `more` times (pixels + 2) extra; untouched pages cost no memory."""
         pixels, coarser, largest = self.levels[0].pixels, len(self.levels) - 1, int(self.way[-1])
         parts = sum(one.pixels for one in self.levels) + coarser * self.room
         doubles = (8 + more) * (pixels + 2) + largest + largest * (largest + 1) // 2
@@ -159,7 +159,7 @@ class Matrix:
         return np.asarray(self.hold * x + np.bincount(finest.a, flow, len(x)) - np.bincount(finest.b, flow, len(x)))
 
     def sparse(self) -> Any:
-        """As a matrix of scipy in compressed rows."""
+        """The matrix in scipy's CSR format."""
         from scipy import sparse
 
         a, b = self.pyramid.levels[0].a, self.pyramid.levels[0].b
@@ -170,7 +170,7 @@ class Matrix:
 
 
 def solve(A: Matrix, right: Array, start: Array, *, precision: float = PRECISION, most: int = MOST) -> Array:
-    """x (P,) with ``A x = right``, from `start`, to a residual of `precision` times that of the start's mean everywhere."""
+    """Solve ``A x = right`` for x (P,) from `start`, to `precision` times the residual of a constant, the mean of `start`."""
     enough = precision * float(np.linalg.norm(right - start.mean() * A.hold) + 1e-300)
     if run := kernel("multigrid"):
         sizes, cells, stretches = A.pyramid.laid_out
@@ -198,7 +198,7 @@ def solve(A: Matrix, right: Array, start: Array, *, precision: float = PRECISION
 
 
 def _levels(A: Matrix) -> list[tuple[Any, Array, Any]]:
-    """Matrix, inverse of its diagonal and prolongation from the next coarser level, of each; None is the coarsest's prolongation."""
+    """Matrix, inverse diagonal, and prolongation from the next coarser level (None on the coarsest), for each level."""
     from scipy import sparse
 
     levels, now, home = [], A.sparse(), np.arange(len(A.hold))
@@ -216,7 +216,7 @@ def _levels(A: Matrix) -> list[tuple[Any, Array, Any]]:
 
 
 def _held_together(A: Any, cell: npt.NDArray[np.int32]) -> tuple[npt.NDArray[np.int32], int]:
-    """A number for each unknown's aggregate, and how many: what strong edges join within a cell."""
+    """Index of each unknown's aggregate, and their number: the components of strong edges within a cell."""
     from scipy import sparse
     from scipy.sparse.csgraph import connected_components
 
@@ -235,11 +235,11 @@ def _held_together(A: Any, cell: npt.NDArray[np.int32]) -> tuple[npt.NDArray[np.
 
 
 def _factor(A: Any) -> Any:
-    """The Cholesky factor of a small matrix; None where it is singular to rounding."""
+    """The Cholesky factor of a small matrix; None if it is singular to rounding."""
     from scipy import linalg
 
     dense = A.toarray()
-    dense[np.diag_indices_from(dense)] *= 1 + SINGULAR  # rounding leaves it positive
+    dense[np.diag_indices_from(dense)] *= 1 + SINGULAR  # keeps it positive definite under rounding
     try:
         return linalg.cho_factor(dense, check_finite=False, overwrite_a=True)
     except linalg.LinAlgError:

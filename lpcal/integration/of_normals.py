@@ -1,6 +1,6 @@
-r"""A surface from a normal map that was found elsewhere: depth and mesh; normals do not determine the distance.
+r"""The surface of an external normal map by bilateral normal integration; normals alone do not determine the distance.
 
-Depth from normals alone, its jumps found from which side of a pixel is the flatter one.
+A pixel next to a discontinuity is smooth on one side only, which its weights find.
 
 Symbols: u = log z (central) or z in pixels (parallel rays); neighbours a, b a distance h apart, along an axis of the image; t = -n . r::
 
@@ -8,12 +8,12 @@ Symbols: u = log z (central) or z in pixels (parallel rays); neighbours a, b a d
     gap of pixel a towards b:   (t_a (u_b - u_a) / h)^2
     w_a = 1 / (1 + exp(-k (gap on the other side - gap towards b)))
 
-so a pixel beside a jump leans on its other side. The functional has two phases. First each pixel pulls by its own normal, with a steep k::
+so a pixel beside a jump relies on its other side. There are two phases. In the first each pixel uses its own normal::
 
     sum_ab  w_a t_a^2 (u_b - u_a - g_a)^2 + w_b t_b^2 (u_b - u_a - g_b)^2
 
-which finds the jumps; then an edge counts by ``sqrt(w_a w_b)`` (a jump is one for both its pixels), with the step of the mean normal, which
-is right to the second order on curved surfaces where a pixel's own step is not. Source of the weights: Cao, Santo, Shi, Okura and
+which finds the jumps; in the second an edge has the weight ``sqrt(w_a w_b)`` (a jump is one for both its pixels) and the step of the mean
+normal, which is second-order accurate on curved surfaces where a pixel's own step is not. Source of the weights: Cao, Santo, Shi, Okura and
 Matsushita 2022, Bilateral normal integration, ECCV; the second phase is ours.
 """
 
@@ -33,7 +33,7 @@ from lpcal.view.constants import FEWEST_PIXELS, LEAST_COSINE, REGULARISATION
 from lpcal.view.pixel_list import ray_map
 
 UNKNOWN_DISTANCE = 0.5
-"""Relative standard deviation of a distance that is not known."""
+"""Relative standard deviation stated for an unknown distance."""
 
 
 def surface_of_normals(name: str, normals_C: Image, mask: Mask, camera: Camera | None, distance_m: float) -> Surface:
@@ -110,11 +110,11 @@ def check(name: str, mask: Mask, camera: Camera | None) -> None:
 
 
 ONE_SIDED_ROUNDS, ROUNDS = 12, 40
-"""Rounds of the two phases, the second at most."""
+"""Number of rounds of the first phase, and largest number of the second."""
 ONE_SIDED_K, K = 8.0, 16.0
-"""Steepness of the weights in the two phases: gaps of an eighth and a sixteenth of a square pixel begin to count."""
+"""Steepness k of the weights in the two phases: gaps of about an eighth and a sixteenth of a squared pixel take effect."""
 PRECISION = 1e-3
-"""Relative residual at which a solve ends, and relative change of the cost at which the rounds do."""
+"""Relative residual at which a solve ends, and relative change of the cost at which the rounds end."""
 
 
 def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
@@ -142,7 +142,7 @@ def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: boo
 
 
 def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array, Array, Array]:
-    """Steps (edges,) by the normal of a and of b, and ``(t / h)^2`` of both."""
+    """Steps (edges,) predicted by the normals of a and of b, and ``(t / h)^2`` of both."""
     n_a, n_b = normals[grid.a], normals[grid.b]
     if not central:
         t_a, t_b = np.maximum(-n_a[:, 2], LEAST_COSINE), np.maximum(-n_b[:, 2], LEAST_COSINE)
@@ -157,7 +157,7 @@ def _one_sided(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> t
 
 
 def _weights(grid: Grid, gap_a: Array, gap_b: Array, k: float, count: int) -> tuple[Array, Array]:
-    """w_a and w_b (edges,) from the gaps (edges,) that both pixels of an edge see."""
+    """w_a and w_b (edges,) from the gaps (edges,) of both pixels of an edge."""
     w_a, w_b = np.empty(len(gap_a)), np.empty(len(gap_a))
     for edges in (grid.horizontal, ~grid.horizontal):
         a, b = grid.a[edges], grid.b[edges]

@@ -1,4 +1,4 @@
-"""The pieces of a surface: where it breaks, what is connected, the filling of gaps in between, and how flat the largest one is."""
+"""Connected components (pieces) of a surface between its depth discontinuities, gap filling, and the flatness of the largest."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from lpcal.view.constants import FEWEST_PIXELS, REGULARISATION, RIM_PX, SMALLEST
 from lpcal.view.pixel_list import Indices
 
 BREAK_WEIGHT = 0.02
-"""Weight of an edge under which it is a break: its step is off by two and a half times the C of its weights (integration.integrate)."""
+"""Weight below which an edge is a depth discontinuity (break): its residual exceeds two and a half times C (integration.integrate)."""
 SLIVER_PX = 2 * RIM_PX
-"""Width of a strip between two breaks that is no piece: each of its pixels lies at a rim."""
+"""Width, pixels, up to which a strip between two breaks is not a piece: all of its pixels lie at a rim."""
 NEARLY = 0.2
-"""Share of its extent: a piece whose points deviate more from a plane is not meant to be flat."""
+"""Deviation from a plane, as a share of the extent, above which a piece is not meant to be flat."""
 
 
 def fill(grid: Grid, values: Array, known: Mask) -> Array:
-    """Values (P, C), those not known (P,) taken from their neighbours in the mask as a soap film would; 0 where none is near."""
+    """Values (P, C) with those not `known` (P,) filled by harmonic interpolation (Laplace); 0 in components without a known value."""
     if known.all() or not known.any():
         return np.nan_to_num(values)
     unknown = np.flatnonzero(~known)
@@ -46,7 +46,7 @@ def fill(grid: Grid, values: Array, known: Mask) -> Array:
 
 
 def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
-    """Breaks (2, H, W) of a mask, from the weights of its edges."""
+    """Break map (2, H, W), towards the right and downwards, from the weights of a mask's edges."""
     holds = np.zeros((2, *mask.shape), bool)
     number_of_first = np.flatnonzero(mask.ravel())[grid.a]
     whole = weight > BREAK_WEIGHT
@@ -56,9 +56,9 @@ def break_map(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 
 def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
-    """Labels (P,) from 1, the largest first, of what is connected over edges that are no breaks; crumbs join the nearest piece.
+    """Labels (P,) from 1, the largest first, of the components connected by unbroken edges; small ones join the nearest piece.
 
-    A bridge of a pixel or two between the ends of a break does not hold two pieces together.
+    A bridge of one or two pixels between the ends of a break does not connect two pieces.
     """
     label = connected(grid, (weight > BREAK_WEIGHT) & ~_beside_breaks(grid, weight, mask))
     size = np.bincount(label)
@@ -67,9 +67,9 @@ def pieces(grid: Grid, weight: Array, mask: Mask) -> Labels:
 
 
 def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
-    """The weights (edges,) with slivers joined to the piece that is nearest to each of their pixels.
+    """The weights (edges,) with each sliver's pixels joined to the nearest piece.
 
-    A jump between two pieces may have been taken in two: a strip of a few pixels is left in between, that belongs half to either.
+    A jump may have been split into two, which leaves a strip of a few pixels in between that belongs to neither piece.
     """
     label = connected(grid, weight > BREAK_WEIGHT)
     kept = []
@@ -90,7 +90,7 @@ def without_slivers(grid: Grid, weight: Array, mask: Mask) -> Array:
 
 
 def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
-    """Whether an edge (edges,) touches a pixel at a break or next to one."""
+    """Mask (edges,) of edges that touch a pixel at a break or next to one."""
     broken = weight <= BREAK_WEIGHT
     at = np.zeros(int(mask.sum()), bool)
     at[grid.a[broken]] = at[grid.b[broken]] = True
@@ -101,7 +101,7 @@ def _beside_breaks(grid: Grid, weight: Array, mask: Mask) -> Mask:
 
 
 def connected(grid: Grid, whole: Mask) -> Indices:
-    """A label (P,) for each set of pixels that are connected over edges that are whole (edges,)."""
+    """Labels (P,) of the components connected by the unbroken edges `whole` (edges,)."""
     pixels = len(grid.rows)
     if run := kernel("connected"):
         label = np.empty(pixels, np.int64)
@@ -126,10 +126,10 @@ def _joined(label: Indices, kept: Indices, mask: Mask) -> Labels:
 
 
 def flatness(surface: Surface) -> Flatness | None:
-    """Deviation of the largest piece from a plane, mm, its bowl and extent; None where it is not nearly flat, or depth is in pixels.
+    """Deviation of the largest piece from a plane, mm, its bowl and extent; None if it is not nearly flat, or depth is in pixels.
 
-    Plane by total least squares on the points of the piece, its outermost pixels left out; deviations w along its normal. Bowl: what the
-    best paraboloid ``w = a + k (x^2 + y^2)`` sags over the extent, ``k (extent / 2)^2``.
+    The plane is fitted by total least squares to the piece without its outermost pixels; deviations w are along its normal. The bowl is the
+    sag of the best paraboloid ``w = a + k (x^2 + y^2)`` over the extent, ``k (extent / 2)^2``.
     """
     inside = raster.eroded(surface.component == 1, RIM_PX)
     if not surface.rays_C[..., :2].any() or inside.sum() < FEWEST_PIXELS:
