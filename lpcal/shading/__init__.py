@@ -1,1 +1,1 @@
-"""Normals, albedo and gloss from samples in a light that is given: pixel by pixel, and of all pixels together."""
+"""Normals, albedo and gloss under known light: pixel by pixel, and as a regularised field over all pixels."""

@@ -1,16 +1,16 @@
-r"""Normals and albedo of all pixels together: each by its own samples, and by its neighbours where these leave it open.
+r"""Normals and albedo as a regularised field: each pixel's samples, with a robust smoothness prior where they are insufficient.
 
-Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or in shadow (v = 0), with B_k the light, J_k what is reflected
-onto it by surfaces (see surface.interreflection), g_k its gloss, s_k its standard deviation::
+Symbols: b_p = albedo times normal of pixel p; its sample k is lit (v = 1) or shadowed (v = 0), with B_k the direct and J_k the
+interreflected light vector (see surface.interreflection), g_k its gloss, s_k its standard deviation::
 
     sum_pk  rho((I_k - g_k - (v B_k + J_k) . b_p) / s_k)  +  PRICE [v = 0]   +   sum_pq  rho(|b_p - b_q| / (TURN sqrt(a_p a_q)))
 
-rho is Geman and McClure's. The samples of a pixel that three or more lights reach outweigh its neighbours. Where two lights reach it, the
-third direction comes from its neighbours' albedo and normal; in shadow, from the light that its surroundings throw on it. Solved in turn
-for the states of the samples (softly at first), for the weights, and for b by conjugate gradients, from the estimates of single pixels,
-without those so dark that they are taken for shadows, and those that most of their neighbours are not like. The gloss of the object is
-fitted on the way; the steps of b count how it changes with the normal (Gauss-Newton), as a highlight moves far where the normal turns a
-little.
+rho is the Geman-McClure loss. Where three or more lights reach a pixel, its samples dominate over its neighbours. With two lights, the
+third component comes from the neighbours' albedo and normal; in shadow, from interreflected light. The energy is minimised by alternating
+over the states of the samples (soft at first: deterministic annealing), the weights, and b (conjugate gradients). It starts from the
+per-pixel estimates, without those dark enough to be shadows and those that differ from most of their neighbours. The object's gloss lobe is
+fitted in the same rounds; the steps of b include its derivative by the normal (Gauss-Newton), as a highlight moves far when the normal
+turns a little.
 
 Sources: Geman and McClure 1987 (robust weights); Blake and Zisserman 1987, Visual Reconstruction (weak membranes); Hernandez, Vogiatzis and
 Cipolla 2008 (shadows, and the neighbours' part in what they hide).
@@ -36,49 +36,48 @@ from lpcal.view.constants import DOUBT, LEAST_COSINE, OUTLIER2
 from lpcal.view.pixel_list import Illumination, PixelList
 
 TURN = 0.15
-"""Difference of neighbouring b, as a share of the albedo, that is nothing unusual (9 degrees): with .1 or .25 the mean error of
-six simulated scenes changes by some 5 %."""
+"""Scale of the differences of neighbouring b, as a share of the albedo (9 degrees): with .1 or .25 the mean error of six simulated scenes
+changes by some 5 %."""
 LINK2 = 4.0
-"""Square of the difference, in TURN, at which the weight of a link between neighbours has fallen to a quarter: they are hardly one."""
+"""Scale of the smoothness loss: squared difference, in units of TURN, at which the weight of a link has fallen to a quarter."""
 FRIENDS = 0.5
-"""Share of a pixel's known neighbours that are like a start at least: where a shadow ends, samples half in it make up normals that differ
-from pixel to pixel, and a field that begins there stays there. Three of four would leave out all that is thin (rig_a's teapot)."""
+"""Least share of similar known neighbours of a pixel's initial value: at shadow edges half-shadowed samples give normals that differ from
+pixel to pixel, from which the field does not recover. Three of four would exclude all thin parts (rig_a's teapot)."""
 SHARED = 0.02
-"""What the model lacks, a standard deviation as a share of a sample and of its pixel's brightest one."""
+"""Relative standard deviation of the model's errors, of a sample and of its pixel's brightest one."""
 DARK = SHARED / 2
-"""The same in shadow."""
+"""As SHARED, for shadowed samples."""
 PRICE = 5.0
-"""Cost of a sample in shadow that no shape explains, and of a lit one where the depth says that something stands in the way."""
+"""Cost of a shadowed sample that the shape does not explain, and of a lit one where the depth predicts occlusion."""
 WARM = PRICE
-"""Temperature at which the states of the samples are soft in the first rounds: at it that cost says next to nothing."""
+"""Initial temperature of the samples' states: at it, PRICE has almost no influence."""
 JUNK, ACROSS = 0.5, 6.0
-"""A start darker than this share of what lies around, over the object's extent by the second number, is taken for shadow."""
+"""Share of the local mean brightness below which an initial value counts as shadow, and the object's extent over that window's radius."""
 FIRST_ROUNDS, ROUNDS, GLOSS_ROUNDS = 6, 2, 8
-"""Rounds from single pixels, and from a field found before; and how many more the first takes where a gloss is looked for, which settles
-slowly."""
+"""Rounds from per-pixel estimates, rounds from an earlier field, and extra rounds if gloss is fitted, which converges slowly."""
 STILL = 5e-4
-"""Change of the field in a round, as a share of it, under which the round is the last: a few pixels at the rim go to and fro for ever."""
+"""Relative change of the field in a round below which the rounds end; a few pixels at the rim may oscillate forever."""
 ANY_RAD = 0.12
-"""Standard deviation, radians, of a normal that no sample determines: seven degrees. Half a radian would be truer for one pixel, and
-lets a dark fold be what it must; but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
+"""Prior standard deviation, radians, of a normal that no sample determines (seven degrees). Half a radian would be more honest for a single
+pixel and would let a dark fold be steep, but then the dark gap between two bodies no longer breaks (rig_a's spot and pair)."""
 
 
 @dataclass(frozen=True)
 class Field:
-    """b of all pixels, and what was found on the way."""
+    """The field b of all pixels, with the per-pixel estimate and the gloss."""
 
     b: Array
     """(P, 3)."""
     estimate: Estimate
-    """By each pixel's own samples among those that the field says are lit; NaN where they are fewer than three or in a plane."""
+    """Per-pixel estimate from the samples that are lit according to the field; NaN where fewer than three, or coplanar lights."""
     gloss: gloss.Gloss | None
     tilt_rad: Array | None = None
-    """(P,) standard deviation of the normal about an axis by each pixel's own samples, radians; at most ANY_RAD."""
+    """(P,) standard deviation of the normal per axis from each pixel's own samples, radians; at most ANY_RAD."""
 
 
 @dataclass(frozen=True)
 class States:
-    """The samples (L, P): residuals and variances as lit and as in shadow, and the chance of each to be lit."""
+    """States of the samples (L, P): residuals and variances if lit and if shadowed, and the probability of being lit."""
 
     lit: Array
     spread2: Array
@@ -96,11 +95,10 @@ def solve(
     glossy: float | None = None,
     rounds: int | None = None,
 ) -> Field:
-    """The field from estimates of single pixels, or from a field found before at a depth nearby.
+    """Solve for the field from per-pixel estimates, or from an earlier field at a similar depth.
 
-    `hidden` (L, P) are samples whose light the depth hides; `glossy` is the reflectance of
-    the object's median pixel where a gloss is looked for, by which its strength is judged; None: it is not. `rounds` is how many there
-    are, by default as many as such a start needs.
+    `hidden` (L, P) are samples that the depth predicts to be occluded. `glossy` is the reflectance of the object's median pixel, the scale
+    of the gloss; None fits no gloss. `rounds` defaults to what the kind of start needs.
     """
     v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     before = start if isinstance(start, Field) else None
@@ -129,12 +127,12 @@ def solve(
 
 
 def _tilt_rad(b: Array, own: Array) -> Array:
-    """Standard deviation (P,) of normals about an axis, radians, by the samples' matrices (P, 3, 3) and a prior of ANY_RAD."""
+    """Standard deviation (P,) of the normals per axis, radians, from the samples' normal matrices (P, 3, 3) and a prior of ANY_RAD."""
     n, albedo = lambert.unit(b)
     loose = 1 / np.maximum(albedo * ANY_RAD, 1e-12) ** 2
     held = own + loose[:, None, None] * np.eye(3)
     covariance = lambert.inverse_3x3(held)
-    steep = np.isnan(covariance[:, 0, 0])  # samples of one direction so strong that the prior looks like nothing beside them
+    steep = np.isnan(covariance[:, 0, 0])  # one direction dominates so much that the prior is lost to rounding
     strength, axis = np.linalg.eigh(own[steep] / loose[steep, None, None])
     covariance[steep] = (axis / (np.maximum(strength, 0.0) + 1)[:, None]) @ axis.transpose(0, 2, 1) / loose[steep, None, None]
     across = lambert.trace(covariance) - np.einsum("pi,pij,pj->p", n, covariance, n)
@@ -142,7 +140,7 @@ def _tilt_rad(b: Array, own: Array) -> Array:
 
 
 def _begin(seen: PixelList, grid: Grid, b: Array) -> Array:
-    """A start (P, 3): estimates of single pixels without shadows, the rest filled from around."""
+    """Initial values (P, 3): per-pixel estimates without shadows, the rest filled by interpolation."""
     known = np.isfinite(b[:, 0])
     albedo = np.where(known, lambert.length(np.nan_to_num(b)), 0.0)
     reach = np.sqrt(seen.pixels) / ACROSS
@@ -154,13 +152,13 @@ def _begin(seen: PixelList, grid: Grid, b: Array) -> Array:
 
 
 def apart(x: Array, y: Array) -> Array:
-    """Squares of the differences of b x and y (..., 3), in shares TURN of their albedo."""
+    """Squared differences of b between x and y (..., 3), in units of TURN times their albedo."""
     both = lambert.length(x) * lambert.length(y) * TURN**2
     return np.asarray(lambert.dot(x - y, x - y) / np.maximum(both, 1e-300))
 
 
 def alike(grid: Grid, b: Array, known: Mask) -> Array:
-    """The share (P,) of a pixel's known neighbours whose b (P, 3) a link counts as one surface with its own; 1 where none is known."""
+    """Share (P,) of a pixel's known neighbours with a similar b (P, 3), within LINK2; 1 where none is known."""
     both = known[grid.a] & known[grid.b]
     near = both & (apart(b[grid.a], b[grid.b]) < LINK2)
     like, of = (np.bincount(grid.a, one, len(b)) + np.bincount(grid.b, one, len(b)) for one in (near, both))
@@ -168,12 +166,12 @@ def alike(grid: Grid, b: Array, known: Mask) -> Array:
 
 
 def shown_gloss(lit: Illumination, b: Array, v: Array, shine: gloss.Gloss | None) -> Array | None:
-    """Gloss (L, P) that the lobe shows."""
+    """Gloss (L, P) predicted by the lobe."""
     return None if shine is None else shine.ks * lit.E * gloss.lobe(lit.d, lambert.unit(b)[0], v, shine.roughness)
 
 
 def states(seen: PixelList, lit: Illumination, b: Array, hidden: Mask | None, shown: Array | None, warmth: float) -> States:
-    """Residuals of the samples by b (P, 3), and which of them are lit, at a temperature."""
+    """Residuals of the samples at b (P, 3), and their probabilities of being lit at a temperature `warmth`."""
     bright = np.maximum(lambert.dot(lit.direct, b), 0.0)
     interreflected = 0.0 if lit.interreflected is None else np.maximum(lambert.dot(lit.interreflected, b), 0.0)
     top = seen.signal.max(axis=0)
@@ -191,14 +189,14 @@ def states(seen: PixelList, lit: Illumination, b: Array, hidden: Mask | None, sh
 
 
 def _weights(seen: PixelList, chance: Array, residual: Array, spread2: Array) -> Array:
-    """Weights (L, P) of samples in the normal equations, by their chance of being what the residual takes them for."""
+    """Weights (L, P) of samples in the normal equations: the probability of the state times the robust weight of its residual."""
     return np.where(seen.usable, chance / (1 + residual**2 / spread2 / OUTLIER2) ** 2 / spread2, 0.0)
 
 
 def _given(
     seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float = 1.0
 ) -> tuple[object, ...]:
-    """What kernels are given of samples, light, b (P, 3), directions to the viewer, and constants."""
+    """Arguments of the kernels: samples, light, b (P, 3), directions to the viewer, and constants."""
     ks, roughness = (0.0, 1.0) if shine is None else (shine.ks, shine.roughness)
     constants = np.array([SHARED, SHARED, DARK, DOUBT, PRICE, PRICE, DOUBT, OUTLIER2, ks, roughness, warmth])
     alike = lit.d.strides[1] == lit.E.strides[1] == 0
@@ -213,7 +211,7 @@ def _given(
 def _gathered(
     seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None, warmth: float
 ) -> tuple[Array, Array]:
-    """What the samples of each pixel say of its b, by their states and weights at b (P, 3): matrices (P, 3, 3) and right sides (P, 3)."""
+    """Normal equations of each pixel's own samples, with states and weights at b (P, 3): matrices (P, 3, 3), right sides (P, 3)."""
     if run := kernel("gathered"):
         given, own, right = _given(seen, lit, b, v, hidden, shine, warmth), np.empty((seen.pixels, 3, 3)), np.empty((seen.pixels, 3))
         parallel.run_bands(seen.pixels, len(seen.signal), lambda at: run(*given, at.start, at.stop, own, right))
@@ -248,7 +246,7 @@ def _gathered_of(
 
 @dataclass(frozen=True)
 class _System:
-    """The normal equations of the energy at b (P, 3): of the pixels' own samples, and of the links between them."""
+    """Normal equations of the energy at b (P, 3): the pixels' own samples, and the links between neighbours."""
 
     grid: Grid
     block: Array
@@ -258,7 +256,7 @@ class _System:
 
     @classmethod
     def at(cls, grid: Grid, b: Array, own: Array) -> _System:
-        """By own samples' matrices (P, 3, 3), and with the links' weights at b."""
+        """The system of the own samples' matrices (P, 3, 3), with the links' weights at b."""
         if run := kernel("links"):
             link, block, work = np.empty(len(grid.a)), np.empty((len(b), 3, 3)), np.empty(len(b))
             given = (grid.a, grid.b, np.ascontiguousarray(b, float), np.ascontiguousarray(own, float))
@@ -273,13 +271,13 @@ class _System:
         return cls(grid, block, link)
 
     def times(self, x: Array) -> Array:
-        """The system's left side (P, 3) of x."""
+        """Matrix times x (P, 3)."""
         a, b = self.grid.a, self.grid.b
         around = [np.bincount(a, self.link * one[b], len(x)) + np.bincount(b, self.link * one[a], len(x)) for one in x.T]
         return np.asarray(np.einsum("pij,pj->pi", self.block, x) - np.stack(around, axis=1))
 
     def solved(self, right: Array, begin: Array) -> Array:
-        """x (P, 3) of a right side, by conjugate gradients from a beginning."""
+        """Solution x (P, 3) by conjugate gradients from an initial value `begin`."""
         block = self.block
         small = 1e-12 * float(lambert.trace(block).max())
         if run := kernel("coupled"):
@@ -301,11 +299,11 @@ class _System:
 def strengths_seen(
     seen: PixelList, grid: Grid, lit: Illumination, hidden: Mask | None, before: Field, parts: Sequence[Array]
 ) -> tuple[Array, Array]:
-    """Evidence of lit samples and of the field's smoothness for how strong parts of the light are, each of light vectors (L, P, 3).
+    """Evidence of lit samples and the field's smoothness for the strengths of N parts of the light, each of light vectors (L, P, 3).
 
-    With b taken out (Schur complement of the normal equations) the energy at strengths x more than those in `lit` is the quadratic
-    ``x . curvature x - 2 slope . x``: curvature (N, N) and slope (N,) are returned. Where a shadow ends on a smooth surface, or few lights
-    reach, light that is missing would turn the normals.
+    With b eliminated (Schur complement of the normal equations) the energy of strengths x in addition to those in `lit` is the quadratic
+    ``x . curvature x - 2 slope . x``; returns curvature (N, N) and slope (N,). The evidence comes from shadow edges on smooth surfaces and
+    from pixels with few lights, where missing light would turn the normals.
     """
     own, pull, C, square, slope = _evidence(seen, lit, hidden, before, parts)
     system = _System.at(grid, before.b, own)
@@ -319,7 +317,7 @@ def strengths_seen(
 def _evidence(
     seen: PixelList, lit: Illumination, hidden: Mask | None, before: Field, parts: Sequence[Array]
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """Normal equations of b and the strengths: own (P, 3, 3), pull (P, 3), across (N, P, 3), and summed square (N, N) and slope (N,)."""
+    """Joint normal equations of b and the strengths: own (P, 3, 3), pull (P, 3), across (N, P, 3), summed square (N, N), slope (N,)."""
     v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     if run := kernel("evidence"):
         (L, P), N = seen.signal.shape, len(parts)
@@ -350,7 +348,7 @@ def _evidence(
 
 
 def _by_pixels(seen: PixelList, lit: Illumination, b: Array, v: Array, hidden: Mask | None, shine: gloss.Gloss | None) -> Estimate:
-    """What each pixel's own samples say, of those that are lit by the field and agree with it."""
+    """Per-pixel estimates from the samples that the field predicts as lit and that agree with it."""
     if run := kernel("agreeing"):
         given, (L, P) = _given(seen, lit, b, v, hidden, shine), seen.signal.shape
         shown = np.empty((0, 0) if shine is None else (L, P))

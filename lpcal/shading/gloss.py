@@ -4,11 +4,11 @@ Symbols: normal n, light d, viewer v, half vector h between d and v, roughness a
 
     ks E (D G) / (4 n.v)        D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),   G = Smith's shadowing of both sides
 
-The Lambertian part takes up most of a wide lobe, so what b leaves says too little of it: residuals and lobe are both projected on what no b
-explains (variable projection, Golub and Pereyra 1973), pixel by pixel and with robust weights. Matter of reflectance R whose albedo is b
-in the signals' unit mirrors the share ``F0 = ks R / (pi b)`` of the light that meets it squarely. Common matter has F0 near .045, which is
-the prior; strength and roughness are means over a grid of both, together with the odds that there is no gloss, which are even before. The
-normals are those of the field (shading.field), which fits it again in every round.
+The Lambertian part absorbs most of a wide lobe, so residuals after fitting b underestimate it: residuals and lobe are both projected onto
+the complement of what b can explain (variable projection, Golub and Pereyra 1973), pixel by pixel and with robust weights. Matter of
+reflectance R and albedo b in the signals' unit has the normal-incidence reflectance ``F0 = ks R / (pi b)``. Common matter has F0 near .045,
+which is the prior; strength and roughness are posterior means over a grid of both and of the hypothesis of no gloss, whose prior is one
+half. The normals are those of the field (shading.field), which fits the gloss again in every round.
 
 Sources: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX); Akenine-Moeller et al.
 2018, Real-Time Rendering, 9.5 (F0 of common matter).
@@ -29,19 +29,19 @@ from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, O
 from lpcal.view.pixel_list import Illumination
 
 ROUGHNESSES = tuple(np.geomspace(0.06, 0.5, 10))
-"""Roughnesses that are tried: a quarter apart, as finely as a lobe's width can be distinguished."""
+"""Grid of roughnesses, a quarter apart: as finely as lobe widths can be distinguished."""
 MIRRORED = tuple(np.geomspace(0.01, 1.0, 21))
-"""F0 that are tried: a quarter apart, from less than any matter's to a mirror's."""
+"""Grid of F0, a quarter apart, from below any matter's to a mirror's."""
 COMMON_F0, COMMON_SPREAD = 0.045, 0.5
-"""F0 of common matter, and the standard deviation of its logarithm: plastic, glaze, skin and wood have .02 to .08. Metals are the
-outliers (OUTLIER_RATE): they have any F0 with equal odds."""
+"""Prior of F0: median of common matter and standard deviation of its log; plastic, glaze, skin and wood have .02 to .08. Metals are the
+outliers (OUTLIER_RATE), with a uniform prior."""
 CLEAR = 0.95
-"""Share of the misfit that is left with a lobe under which the object is called glossy; a faint lobe is taken off all the same."""
+"""Misfit with the lobe over that without, below which the object is reported as glossy; a fainter lobe is subtracted all the same."""
 
 
 @dataclass(frozen=True)
 class Gloss:
-    """The lobe's strength and roughness; `gain` is the share of the robust cost that is left with it."""
+    """The lobe's strength and roughness; `gain` is the robust cost with the lobe over that without."""
 
     ks: float
     roughness: float
@@ -73,7 +73,7 @@ def lobe(d: Array, n: Array, v: Array, roughness: float) -> Array:
 
 
 def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
-    """How the lobe of `lobe` changes with the normal (L, P, 3), along the surface's tangents."""
+    """Derivative of `lobe` by the normal (L, P, 3), within the tangent plane."""
     h = d + v
     h /= np.maximum(lambert.length(h)[..., None], 1e-9)
     a2 = roughness**2
@@ -89,15 +89,15 @@ def turned(d: Array, n: Array, v: Array, roughness: float) -> Array:
 
 
 def sample(pixels: int) -> slice:
-    """The pixels that a gloss is fitted to, of so many."""
+    """Slice of about MANY_PIXELS pixels to which the gloss is fitted."""
     return slice(None, None, max(1, pixels // MANY_PIXELS))
 
 
 def fit(residual: Array, weight: Array, spread2: Array, lit: Illumination, n: Array, v: Array, per_unit: float) -> Gloss | None:
-    """The lobe that residuals (L, P) of variances `spread2` show, by normals n and directions v to the viewer (P, 3).
+    """Fit the lobe to residuals (L, P) of variances `spread2`, for normals n and directions v to the viewer (P, 3).
 
-    `weight` (L, P) is 1 for samples that count; `per_unit` is the reflectance by albedo in the signals' unit. None where the
-    odds of a gloss are UNLIKELY.
+    `weight` (L, P) is 1 for samples in use; `per_unit` is reflectance over albedo in the signals' unit. None if the probability of gloss
+    is below UNLIKELY.
     """
     F0 = np.array(MIRRORED)
     ks, none = F0 * np.pi / per_unit, np.zeros(1)
@@ -130,7 +130,7 @@ def fit(residual: Array, weight: Array, spread2: Array, lit: Illumination, n: Ar
 
 
 def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B: Array) -> tuple[Array, Array]:
-    """Residual and lobe (L, P) without what b explains of them, by the weights of a robust regression of the one on the other."""
+    """Residual and lobe (L, P) projected onto the complement of b, with the weights of a robust regression of the one on the other."""
     if run := kernel("unexplained"):
         given = (np.ascontiguousarray(one, float) for one in (residual, shape, weight, spread2, B))
         pull, left, own = np.empty((3, *residual.shape))
@@ -146,7 +146,7 @@ def _unexplained(residual: Array, shape: Array, weight: Array, spread2: Array, B
 
 
 def _free_of_b(values: Array, weight: Array, B: Array) -> Array:
-    """Values (..., L, P) without what a b of each pixel explains of them, by weights (L, P) and light vectors B (L, P, 3)."""
+    """Values (..., L, P) minus their weighted least-squares fit by a b of each pixel, for weights (L, P) and light vectors B (L, P, 3)."""
     A = np.einsum("kp,kpi,kpj->pij", weight, B, B)
     A += 1e-9 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 1e-300 * np.eye(3)
     right = np.einsum("kp,kpi,...kp->...pi", weight, B, values)
@@ -155,9 +155,9 @@ def _free_of_b(values: Array, weight: Array, B: Array) -> Array:
 
 
 def _costs(left: Array, own: Array, ks: Array, weight: Array, spread2: Array, doubt: float) -> Array:
-    """Twice the negative logarithm (N, 2) of Geman and McClure's likelihood with a lobe of strengths ks (N,) that is in doubt by a share.
+    """Robust minus twice log likelihood (N, 2) of a lobe of strengths ks (N,) with relative standard deviation `doubt`.
 
-    Misfit and logarithm of the variance apart.
+    The two columns are the misfit and the log-variance term.
     """
     if run := kernel("lobe_costs"):
         found = np.empty((len(ks), 2))

@@ -3,10 +3,10 @@ r"""Normals and albedo of each pixel from few or many lights, robust to shadows 
 Symbols: signal I_k, light vector B_k (see geometry.lambert), variance of a sample ``s_k^2 = noise^2 + (MODEL I_k)^2``, residual
 ``r_k = (I_k - B_k . b) / s_k``.
 
-A sample is a candidate when it is not saturated, stands over its noise, is no shadow by its shading ``I_k / E_k`` (under SHADOW of the
-second largest of the pixel), and its light is not known to be hidden. With few lights every three candidates propose b and the
-proposal of the least ``sum min(r^2, OUTLIER^2)`` wins, then weighted least squares on the inliers (abs(r) < OUTLIER), in rounds. With many,
-the middle of the ranked shadings starts and weights by the pixel's own spread follow. Sources: Barsky and Petrou 2003 (four lights),
+A sample is a candidate if it is not saturated, significant over its noise, not shadowed by its shading ``I_k / E_k`` (above SHADOW times
+the second largest of the pixel), and its light is not known to be occluded. With few lights every triple of candidates proposes b, the
+proposal of least ``sum min(r^2, OUTLIER^2)`` wins, and weighted least squares on its inliers (abs(r) < OUTLIER) follows, in rounds. With
+many lights a fit to the middle of the ranked shadings is refined by robust reweighting. Sources: Barsky and Petrou 2003 (four lights),
 Fischler and Bolles 1981 (consensus), Wu et al. 2010 and Hernandez et al. 2008 (shadows as outliers), Verbiest and Van Gool 2008 (ranks).
 """
 
@@ -26,24 +26,24 @@ from lpcal.view.constants import LEAST_COSINE, OUTLIER, OUTLIER2, SHADOW
 from lpcal.view.pixel_list import LIGHTS_NEEDED, Illumination, Indices, PixelList, vectors
 
 MODEL = 0.015
-"""What the model lacks, a standard deviation as a share of a sample."""
+"""Relative standard deviation of a sample due to errors of the model."""
 ROUNDS = 3
 FEW_LIGHTS = 8
 TRIMMED = 0.3
-"""Shares of a pixel's samples, its darkest and its brightest, that may lie in shadow and hold a highlight."""
+"""Share of a pixel's samples trimmed at the dark end (shadows) and at the bright end (highlights)."""
 WEIGHT_ROUNDS = 6
 SCALE = 1.5
 MAD = 1.4826
 MANY_LANES = 8
-"""Pixels that the kernel of many lights works on at once."""
+"""Pixels that the kernel for many lights processes at once."""
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What the shading of each pixel says: P pixels, L lights."""
+    """Per-pixel photometric stereo estimates: P pixels, L lights."""
 
     b: Array
-    """(P, 3) albedo times normal; NaN where there is no answer."""
+    """(P, 3) albedo times normal; NaN where it is undetermined."""
     inliers: Mask
     """(L, P) samples that agree with it."""
     covariance: Array
@@ -53,11 +53,11 @@ class Estimate:
     cost: Array
     """(P,) sum of min(r^2, OUTLIER^2) over the candidates."""
     gloss: Array | None = None
-    """(L, P) what was taken off the signals as gloss."""
+    """(L, P) gloss that was subtracted from the signals."""
 
     @staticmethod
     def nothing() -> Estimate:
-        """What says nothing of any pixel."""
+        """An estimate of no pixels."""
         return Estimate(np.empty((0, 3)), np.empty((0, 0), bool), np.empty((0, 3, 3)), np.empty(0), np.empty(0))
 
     @property
@@ -66,7 +66,7 @@ class Estimate:
         return np.asarray(self.inliers.sum(axis=0))
 
     def at(self, some: Indices | slice) -> Estimate:
-        """At some of the pixels."""
+        """The estimate at some of the pixels."""
         gloss = None if self.gloss is None else self.gloss[:, some]
         return Estimate(self.b[some], self.inliers[:, some], self.covariance[some], self.chi2[some], self.cost[some], gloss)
 
@@ -76,7 +76,7 @@ class Estimate:
 
 
 def candidates(seen: PixelList, E: Array, hidden: Mask | None = None) -> Mask:
-    """Samples (L, P) that a light seems to reach unoccluded."""
+    """Mask (L, P) of samples that appear lit, unoccluded and usable; `hidden` (L, P) samples are excluded."""
 
     def of(at: slice) -> Mask:
         signal, light = seen.signal[:, at], E[:, at]
@@ -90,7 +90,7 @@ def candidates(seen: PixelList, E: Array, hidden: Mask | None = None) -> Mask:
 
 
 def variances(seen: PixelList) -> Array:
-    """Variance (L, P) of the samples: noise, and a share of the signal for what the model lacks."""
+    """Variance (L, P) of the samples: noise plus the model error (MODEL of the signal)."""
     variance = MODEL * seen.signal
     variance *= variance
     variance += seen.sigma**2
@@ -98,7 +98,7 @@ def variances(seen: PixelList) -> Array:
 
 
 def estimate(seen: PixelList, light: Illumination | Array, usable: Mask, variance: Array) -> Estimate:
-    """b of each pixel from the samples `usable` (L, P), by light or its vectors (L, P, 3)."""
+    """Estimate b of each pixel from the samples `usable` (L, P), under an illumination or light vectors (L, P, 3)."""
     way = _few if len(seen.signal) <= FEW_LIGHTS else _many
 
     def of(at: slice) -> Estimate:
@@ -108,7 +108,7 @@ def estimate(seen: PixelList, light: Illumination | Array, usable: Mask, varianc
 
 
 def joined(parts: list[Estimate]) -> Estimate:
-    """The estimates of bands of pixels as one."""
+    """Concatenate the estimates of bands of pixels."""
     gloss = [part.gloss for part in parts if part.gloss is not None]
     return Estimate(
         np.concatenate([part.b for part in parts]),
@@ -127,7 +127,7 @@ def misfit(seen: PixelList, B: Array, usable: Mask, found: Estimate) -> float:
 
 
 def gloss_share(lit: Illumination, found: Estimate) -> Array:
-    """Gloss (P,) as a share of the direct light that a pixel sends back as matte matter, of the lights that agree."""
+    """Ratio (P,) of gloss to directly lit diffuse signal, summed over the inliers."""
     if found.gloss is None:
         return np.zeros(len(found.b))
     shown = found.gloss
@@ -141,7 +141,7 @@ def gloss_share(lit: Illumination, found: Estimate) -> Array:
 
 
 def interreflected_share(lit: Illumination, found: Estimate) -> Array:
-    """Light (P,) that is reflected onto a pixel by its surroundings, as a share of the direct light of the lights that agree."""
+    """Ratio (P,) of interreflected to direct light, summed over the inliers."""
     if lit.interreflected is None:
         return np.zeros(len(found.b))
 
@@ -157,7 +157,7 @@ def interreflected_share(lit: Illumination, found: Estimate) -> Array:
 
 
 def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
-    """The best three, then least squares on the inliers, in rounds."""
+    """Estimate by the best triple of lights, then least squares on its inliers, in rounds."""
     if run := kernel("few"):
         return _run(run, (signal, B, usable, variance, rays_C), (OUTLIER2, ROUNDS, LIGHTS_NEEDED, -LEAST_COSINE, lambert.SINGULAR))
     b = _best_three(signal, B, usable, variance)
@@ -169,7 +169,7 @@ def _few(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) 
 
 
 def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array) -> Estimate:
-    """The middle of the ranks, then weights ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own spread s of its residuals, in rounds."""
+    """Estimate from the middle ranks, reweighted by ``1 / (1 + (r / (SCALE s))^2)^2`` with the pixel's own residual scale s, in rounds."""
     if run := kernel("many"):
         ranks, ends = (TRIMMED, TRIMMED, MAD, SCALE, WEIGHT_ROUNDS), (OUTLIER2, LIGHTS_NEEDED, -LEAST_COSINE, lambert.SINGULAR)
         return _run(run, (signal, B, usable, variance, rays_C), (*ranks, *ends, np.empty(8 * MANY_LANES * len(signal))))
@@ -184,7 +184,7 @@ def _many(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array)
 
 
 def _run(run: Callable[..., None], samples: tuple[Array, Array, Mask, Array, Array], fixed: tuple[object, ...]) -> Estimate:
-    """The estimate by a kernel, of samples and by its constants."""
+    """The estimate by a kernel, with its constants `fixed`."""
     signal, B, usable, variance, rays_C = samples
     (L, P), given = signal.shape, (np.ascontiguousarray(one, float) for one in (B, signal))
     rest = (np.ascontiguousarray(one, float) for one in (variance, rays_C))
@@ -194,7 +194,7 @@ def _run(run: Callable[..., None], samples: tuple[Array, Array, Mask, Array, Arr
 
 
 def _judged(signal: Array, B: Array, usable: Mask, variance: Array, rays_C: Array, b: Array, covariance: Array) -> Estimate:
-    """The estimate with its inliers and misfit; b is NaN where too few agree or the normal looks away."""
+    """The estimate with inliers and misfit; b is NaN where there are too few inliers or the normal faces away."""
     square = np.where(usable, _square_residual(signal, B, b, variance), 0.0)
     inliers = usable & (square < OUTLIER2)
     towards = lambert.dot(b, rays_C) < -LEAST_COSINE * lambert.length(b) * lambert.length(rays_C)
@@ -214,7 +214,7 @@ def _square_residual(signal: Array, B: Array, b: Array, variance: Array) -> Arra
 
 
 def _best_three(signal: Array, B: Array, usable: Mask, variance: Array) -> Array:
-    """b (P, 3) of the three lights whose proposal the other candidates contradict least."""
+    """b (P, 3) of the triple of lights with the least truncated misfit over all candidates."""
     best, least = np.full(B.shape[1:], np.nan), np.full(B.shape[1], np.inf)
     crossed, weight = lambert.crosses(B), usable / variance
     for three in combinations(range(len(B)), 3):
@@ -236,7 +236,7 @@ def _middle_of_the_ranks(signal: Array, B: Array, usable: Mask) -> Array:
 
 
 def _median_of_known(values: Array) -> Array:
-    """Median (P,) over the lights of values (L, P), NaN left out; 0 where all are."""
+    """Median (P,) over the lights of values (L, P), ignoring NaN; 0 where all are NaN."""
     count = np.isfinite(values).sum(axis=0)
     ranked = np.sort(values, axis=0)  # NaN goes last
     low, high = np.maximum(count - 1, 0) // 2, count // 2
@@ -247,9 +247,9 @@ def _median_of_known(values: Array) -> Array:
 
 
 def albedo_of(signal: Array | Image, intensity: Array, lit: Illumination, n: Array, found: Estimate, seen: PixelList) -> Array:
-    """Albedo (P, C): the least-squares factor of the shading, a channel at a time, over the samples that agree.
+    """Albedo (P, C): the least-squares factor of signal on shading over the inliers, channel by channel.
 
-    `signal` (L, P, C) and `intensity` (L, C) are the channels' own, `n` (P, 3) the normals.
+    `signal` (L, P, C) and `intensity` (L, C) are per channel, `n` (P, 3) are the normals.
     """
     shading = lambert.predicted(lit.B, n)
     used = np.where(found.used >= LIGHTS_NEEDED, found.inliers, seen.usable)
