@@ -1,1 +1,1 @@
-"""Photometric stereo: from a capture and a calibration to normals, albedo and depth, each with how sure it is."""
+"""Near-light photometric stereo: from a capture and a calibration to normals, albedo and depth with their uncertainties."""

@@ -1,17 +1,16 @@
-r"""Which distance the light supports: the rounds of a reconstruction in coarse pixels, from many distances.
+r"""Search over the object's distance: coarse reconstructions from several initial distances, and the probabilities of their local minima.
 
-Near light determines an object's distance by a cost that has more than one minimum, and rounds from one distance find the nearest. So plain
-rounds (no gloss, no light from elsewhere, the lights' field from a table) run from every start of a sweep; each ends in a basin, with the
-cost of its samples there::
+The near-light cost has several local minima over distance, and the reconstruction rounds find the nearest. So plain rounds (no gloss, no
+interreflection, the light field from a table) run from every start of a sweep; each ends in a local minimum of the cost::
 
     cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
 
-The odds of a basin are ``exp(-INDEPENDENT (cost - least) / 2)`` in units of the least cost a light, as what the model lacks is common to
-many pixels, times those of an object's standing so far from the working distance, ``1 / (1 + (log ratio / WORKING)^2)``: a broad prior,
-which decides where the light hardly determines it. The full solve begins in the likeliest.
+The probability of a minimum is proportional to ``exp(-INDEPENDENT (cost - least) / 2)``, in units of the least cost per light (errors of the
+model are correlated between pixels), times a broad prior about the working distance, ``1 / (1 + (log ratio / WORKING)^2)``, which decides
+where the light hardly determines the distance. The full solve starts at the most probable minimum.
 
-Smaller pieces of the full solve are swept (`of_piece`): their shape kept, the cost of their samples at each distance. How
-sharply this cost rises about the distance that a piece ends at is how surely its light knows it (`std_of`).
+Smaller pieces of the full solve are swept over distance with their shape kept (`of_piece`). The curvature of the cost about the final
+distance gives its standard deviation (`std_of`).
 """
 
 from __future__ import annotations
@@ -37,29 +36,30 @@ from lpcal.view.crop import Crop
 from lpcal.view.pixel_list import Illumination, Indices, PixelList, SignalMaps, light_vectors, list_pixels
 
 STARTS = (0.5, 0.65, 0.85, 1.1, 1.4, 1.9, 2.6)
-"""Distances from which rounds start, as shares of the working distance: basins are some 30 per cent wide."""
+"""Initial distances, in working distances: the basins of attraction are some 30 per cent wide."""
 GRADUATED = 2
-"""Rounds until a depth is good enough for what rests on it, and whose depths look for their jumps again."""
+"""Rounds integrated with graduated weights, until the depth is good enough for gloss, occlusion and interreflection to be based on it."""
 PIXELS = 1500
-"""Coarse pixels of an object that rounds run on: enough for its shape, few enough for seven starts."""
+"""Number of coarse pixels of an object: enough for its shape, few enough for seven starts."""
 ROUNDS = 5
-"""Rounds from a start: ends of one basin are within a per cent of each other by then."""
+"""Rounds from a start: runs in one basin are then within one per cent of each other."""
 APART = 0.03
-"""Difference of log distances under which two ends are one basin: right starts end within a per cent of each other."""
+"""Difference of log distances below which two results are the same minimum: runs in one basin agree within one per cent."""
 INDEPENDENT = 3.1
-"""Independent pixels that an object counts as: regions share the model's errors. By tools/fit_basin_odds.py on simulated scenes."""
+"""Effective number of independent pixels of an object, between minima: errors of the model are correlated over regions. Fitted by
+tools/fit_basin_odds.py on simulated scenes."""
 NEARBY = 150.0
-"""The same about one distance; the errors of 48 pieces of 44 simulated scenes are 0.89 of their standard deviations rms with it. Their
-likelihood is greatest at 240, by tools/fit_distance_sigma.py: real matter and real lights are less like the model than drawn ones."""
+"""Effective number of independent pixels about one minimum: with it the errors of 48 pieces of 44 simulated scenes are 0.89 standard
+deviations rms. Their likelihood is largest at 240 (tools/fit_distance_sigma.py); real matter and lights deviate more from the model."""
 WORKING = 0.3
-"""Natural logarithm of the ratio to the working distance at which a distance is half as likely: lights are set for where objects stand."""
+"""Log ratio to the working distance at which the prior has fallen to a half: lights are set for the distance of the object."""
 PIECE_SWEEP = np.linspace(np.log(0.4), np.log(2.5), 37)
 """Natural logarithms of a piece's distance over its own at which its samples are fitted, a twentieth apart: basins are wider."""
 
 
 @dataclass(frozen=True)
 class DistanceMinimum:
-    """An end of the rounds."""
+    """A local minimum over distance, where rounds ended."""
 
     u: Array
     """(P,) log depth of the coarse pixels."""
@@ -68,7 +68,7 @@ class DistanceMinimum:
 
 @dataclass(frozen=True)
 class DistanceMinima:
-    """Ends of the rounds, the likeliest first."""
+    """The local minima, the most probable first."""
 
     ends: tuple[DistanceMinimum, ...]
     mask: Mask
@@ -79,7 +79,7 @@ class DistanceMinima:
     """The working distance."""
 
     def start(self, mask: Mask) -> Array:
-        """Log depth (Q,) of the likeliest end at the pixels of a full-size mask (H, W)."""
+        """Log depth (Q,) of the most probable minimum at the pixels of a full-size mask (H, W)."""
         import cv2
 
         whole = np.zeros(self.mask.shape)
@@ -92,7 +92,7 @@ class DistanceMinima:
         return np.asarray(large[mask])
 
     def others(self) -> list[tuple[float, float]]:
-        """Basins other than the likeliest that the images allow: their distance over its, and their odds."""
+        """The other minima that the images allow: ratio of their distance to the most probable one's, and probability."""
         odds = odds_of(self.ends, self.lights, self.about_m)
         best = self.ends[0]
         both = zip(self.ends[1:], odds[1:], strict=True)
@@ -100,7 +100,7 @@ class DistanceMinima:
 
 
 def odds_of(ends: Sequence[DistanceMinimum], lights: int, about_m: float) -> Array:
-    """The odds (N,) of ends, of sum 1, where objects stand about `about_m`."""
+    """Probabilities (N,) of minima, of sum 1, for the working distance `about_m`."""
     cost = np.array([one.cost for one in ends])
     away = np.array([np.median(one.u) for one in ends]) - np.log(about_m)
     unit = max(float(cost.min()) / lights, 1.0)
@@ -112,7 +112,7 @@ def odds_of(ends: Sequence[DistanceMinimum], lights: int, about_m: float) -> Arr
 def search(
     maps: SignalMaps, rays_C: Array, mask: Mask, lights: Sequence[Light], about_m: float, progress: Progress = silent, name: str = "capture"
 ) -> DistanceMinima | None:
-    """The basins of an object of a mask (H, W); None where it is too small for coarse pixels. `name` is its name in progress messages."""
+    """The minima for the object in a mask (H, W); None if it is too small for coarse pixels. `name` is used in progress messages."""
     factor = max(1, int(np.sqrt(mask.sum() / PIXELS)))
     image = coarse.coarse_of(maps, rays_C, factor)
     rows, columns = image.shape
@@ -146,20 +146,20 @@ def search(
 
 @dataclass(frozen=True)
 class PieceEnds:
-    """Distances at which the light of a piece, its shape as it is, costs least, the likeliest first."""
+    """Local minima over the distance of a piece of fixed shape, the most probable first."""
 
     shift: Array
-    """(N,) natural logarithms of these distances over its own."""
+    """(N,) log ratios of these distances to its own."""
     odds: Array
     """(N,) of sum 1."""
     std: float
-    """Standard deviation of the first of the shifts, by the energy about it: wide where the light hardly knows the distance."""
+    """Standard deviation of the first shift, from the energy about it: large where the light hardly determines the distance."""
 
 
 def std_of(seen: PixelList, lights: Sequence[Light], u: Array, inside: Mask) -> float:
-    """Standard deviation of the log distance of a piece `inside` (P,) of log depths u (P,), by how its samples' cost rises about it.
+    """Standard deviation of the log distance of a piece `inside` (P,) of log depths u (P,), from the curvature of its samples' cost.
 
-    Few lights, near to each other or on one side, a shallow shape, shadows and gloss all make the same costs of neighbouring distances.
+    Few lights, lights close together or on one side, a flat shape, shadows and gloss all make the cost flat.
     """
     step = float(PIECE_SWEEP[1] - PIECE_SWEEP[0])
     nearer, here, beyond = _costs_of_shifts(seen, lights, u, None, _some(inside), (-step, 0.0, step))
@@ -168,7 +168,7 @@ def std_of(seen: PixelList, lights: Sequence[Light], u: Array, inside: Mask) -> 
 
 
 def of_piece(seen: PixelList, lights: Sequence[Light], u: Array, interreflected: Array | None, inside: Mask, main: float) -> PieceEnds:
-    """The distances that the light of a piece `inside` (P,) of log depths u (P,) supports, where the main piece is at log depth `main`.
+    """Local minima over the distance of a piece `inside` (P,) of log depths u (P,); the main piece is at log depth `main`.
 
     Pieces that are separate in the image are swept as a whole, since the rounds find only the nearest minimum. `interreflected` (L, P, 3)
     are the light vectors of interreflection. The energy is that of `odds_of`, with the main piece in place of the working distance.
@@ -185,18 +185,18 @@ def of_piece(seen: PixelList, lights: Sequence[Light], u: Array, interreflected:
 
 
 def _some(inside: Mask) -> Indices:
-    """Pixels of a piece, spread over it, by which its distances are judged."""
+    """A subset of a piece's pixels, spread over it, on which its distances are compared."""
     every = np.flatnonzero(inside)
     return every[:: max(1, len(every) // MANY_PIXELS)]
 
 
 def _energy(cost: Array, away: Array, lights: int) -> Array:
-    """Minus the log odds, but for a constant, of distances of some cost, `away` from where an object is expected, in log depth."""
+    """Minus the log probability, up to a constant, of distances with a cost, `away` in log depth from the expected distance."""
     return np.asarray(INDEPENDENT * cost / 2 / max(float(cost.min()) / lights, 1.0) + np.log1p((away / WORKING) ** 2))
 
 
 def _vertex(energy: Array, k: int) -> float:
-    """Where the parabola through a minimum of the sweep and its neighbours has its vertex."""
+    """Position of the vertex of the parabola through minimum k of the sweep and its neighbours."""
     step = float(PIECE_SWEEP[1] - PIECE_SWEEP[0])
     if not 0 < k < len(energy) - 1:
         return float(PIECE_SWEEP[k])
@@ -207,7 +207,7 @@ def _vertex(energy: Array, k: int) -> float:
 def _costs_of_shifts(
     seen: PixelList, lights: Sequence[Light], u: Array, interreflected: Array | None, some: Indices, shifts: Sequence[float] | Array
 ) -> Array:
-    """Mean cost (N,) of the samples of some pixels whose log depths, of u (P,), are changed by each of `shifts` (N,)."""
+    """Mean cost (N,) of the samples of some pixels with their log depths, from u (P,), changed by each of `shifts` (N,)."""
     few, light = seen.at(some), None if interreflected is None else interreflected[:, some]
     return np.array([_cost_of(few, lights, u[some] + shift, light) for shift in shifts])
 
@@ -220,7 +220,7 @@ def _cost_of(seen: PixelList, lights: Sequence[Light], u: Array, interreflected:
 
 
 def _costs(found: Estimate) -> Array:
-    """Cost (P,) of the samples of each pixel: all are outliers where nothing explains them."""
+    """Cost (P,) of each pixel's samples; all are outliers where there is no estimate."""
     return np.where(np.isfinite(found.b[:, 0]), found.cost, OUTLIER2 * len(found.inliers))
 
 

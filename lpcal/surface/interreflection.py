@@ -1,17 +1,17 @@
-r"""Light that an object gets from its own parts and from what stands round it, taken up as more light.
+r"""Interreflection: light that an object receives from its own parts and its surroundings, added to the light vectors.
 
 Symbols: patch j of area A_j and normal n_j has the radiance that its pixels show, signal I_k(j) under light k; e_pj is the unit vector from
-p to j at the distance r. A patch of reflectance a emits its signal, so point p of normal n and reflectance a_p gets besides::
+p to j at the distance r. Patches emit their observed signal, so a point p of normal n and reflectance a_p has the additional signal::
 
     a_p n . J_k(p),      J_k(p) = sum_j V_pj  e_pj  (e_jp . n_j) A_j / (pi r^2 + A_j)  I_k(j)
 
-with V whether p and j see each other. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the
-whole capture, the signal is ``b . (B_k + s J_k)``: what bounces acts as more light at each pixel, and the estimators stay as they are. J
-holds all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides that the
-camera does not see are guessed (surface.relief). s, and the shares of what is guessed, are estimated from the samples in shadow, which show
-interreflected light alone, and from the lit samples together with the smoothness of the surface (shading.field): posterior means over a
-grid, with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and
-Greenberg 1985 (form factors).
+with the visibility V of p and j. As b = albedo times n in the units of the signals and ``a = s albedo`` with one factor s for the whole
+capture, the signal is ``b . (B_k + s J_k)``: interreflection acts as additional light vectors, and the estimators need no change. J
+contains all bounces, since I_k(j) does. The wall and the support are patches like the object's own (surface.surroundings); sides hidden
+from the camera are modelled (surface.relief). s and the shares of the modelled light are estimated from shadowed samples, which contain
+interreflected light alone, and from lit samples together with the smoothness of the surface (shading.field): posterior means over a grid,
+with the reflectance of common matter as prior. Sources: Nayar, Ikeuchi and Kanade 1991, Int. J. Computer Vision 6; Cohen and Greenberg
+1985 (form factors).
 """
 
 from __future__ import annotations
@@ -36,73 +36,73 @@ from lpcal.view.constants import DOUBT, LEAST_COSINE, MANY_PIXELS, NEIGHBOURS, O
 from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
 STEPS = 6
-"""Places between two patches at which it is asked whether a surface stands there."""
+"""Points between two patches at which occlusion is tested."""
 BLOCK = 128
-"""Patches whose light is summed together: a call of the kernel then costs next to nothing of its own."""
+"""Patches processed in one kernel call, which makes the call's overhead negligible."""
 OFF = 0.025
-"""Share of the depth that is skipped at both ends of an occlusion ray, so that a patch does not hide itself."""
+"""Share of the depth skipped at both ends of an occlusion ray, so that a patch does not occlude itself."""
 REFLECTANCES = (0.03, *np.arange(0.05, 0.951, 0.05))
-"""Reflectances of the object's median pixel that are tried, from the darkest of paints on."""
+"""Grid of reflectances of the object's median pixel, from the darkest paints on."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
-"""Shares of what is guessed that are tried: of the light of sides that are not seen, and of what goes on around out of sight."""
+"""Grid of the shares of modelled light: that of the object's hidden sides, and that of surroundings out of sight."""
 COMMON, COMMON_SIGMA = 0.5, 0.25
-"""Reflectance of objects as prior."""
+"""Prior mean and standard deviation of an object's reflectance."""
 LIT_NEIGHBOURS = 4 * NEIGHBOURS
-"""How many lit samples are worth one: their own b takes up most of what is thrown onto them. With no more than in shadow rig_a's bunny
-comes out at a reflectance of .18 (.49), its depth a quarter of a millimetre worse."""
+"""Lit samples that count as one independent: their own b absorbs most of the interreflection. With NEIGHBOURS itself rig_a's bunny
+gets a reflectance of .18 (true: .49), and its depth is a quarter of a millimetre worse."""
 
 
 @dataclass(frozen=True)
 class Interreflection:
-    """Light that surfaces reflect onto P pixels under L lights, but for the factor of their reflectance."""
+    """Interreflected light at P pixels under L lights, without the factor s of the reflectance."""
 
     seen: Array
-    """J (L, P, 3) of the object's own parts and of what is seen around it."""
+    """J (L, P, 3) of the object's visible parts and visible surroundings."""
     sides: Array
-    """J (L, P, 3) of the object's sides that the camera does not see, by a guess that none of them turns away from its lights."""
+    """J (L, P, 3) of the object's sides hidden from the camera, modelled as facing their lights."""
     beyond: Array | None
-    """J (L, P, 3) of what is taken to go on around it where the camera sees nothing of it."""
+    """J (L, P, 3) of the planes' continuation out of the camera's sight."""
     unseen: Array
-    """Share (P,) of what stands round each pixel, by the cosine, that is a side of the object which the camera does not see."""
+    """Cosine-weighted share (P,) of each pixel's surroundings that are sides of the object hidden from the camera."""
 
     def J(self, sides: float = 1.0, beyond: float = 1.0) -> Array:
-        """All of it (L, P, 3), with shares of what is guessed."""
+        """Total J (L, P, 3), with shares of the modelled parts."""
         J = self.seen + sides * self.sides
         return J if self.beyond is None else J + beyond * self.beyond
 
     @property
     def parts(self) -> tuple[Array, Array, Array]:
-        """J (L, P, 3) of the seen parts, of the sides, and of what lies beyond."""
+        """J (L, P, 3) of the visible parts, of the hidden sides, and of what is out of sight."""
         return self.seen, self.sides, np.zeros_like(self.seen) if self.beyond is None else self.beyond
 
     def on(self, b: Array, light: Indices, pixel: Indices) -> tuple[Array, Array, Array]:
-        """What the seen parts, the sides and what lies beyond give (N,) to samples, by b (P, 3) and their lights and pixels."""
+        """Signals (N,) that each of the three parts adds to samples of given light and pixel, for b (P, 3)."""
         seen, sides, further = (lambert.dot(J[light, pixel], b[pixel]) for J in self.parts)
         return seen, sides, further
 
 
 @dataclass(frozen=True)
 class Reflectance:
-    """How much of the light that falls on it the object reflects, and what share of the guessed light is there."""
+    """The object's reflectance, and the shares of the modelled light."""
 
     median: float
     """Reflectance of the object's median pixel."""
     per_unit: float
-    """The same by its albedo in the units of the signals: what makes J light."""
+    """s: reflectance over albedo in the units of the signals."""
     sides: float
     beyond: float
-    """Shares of the guessed light of the unseen sides and of what lies out of sight."""
+    """Shares of the modelled light of the hidden sides and of what is out of sight."""
 
     @property
     def strengths(self) -> Array:
-        """What makes the three parts of J light (3,)."""
+        """Factors (3,) of the three parts of J."""
         return self.per_unit * np.array([1.0, self.sides, self.beyond])
 
 
 def interreflected(
     seen: PixelList, depth: Array, found: Estimate, n: Array, lights: Sequence[Light], around: Around | None = None
 ) -> Interreflection:
-    """The light that a surface of depths (P,), normals n (P, 3) and an estimate of its albedo gets from itself and what is around it."""
+    """Interreflected light of a surface of depths (P,) and normals n (P, 3) with an estimate of its albedo, and of its surroundings."""
     joined = _Joined.of(seen, depth, n)
     x_C, n_C = joined.places
     own = Patches(x_C, n_C, joined.total, joined.means(found.diffuse(seen).T).T)
@@ -120,7 +120,7 @@ def interreflected(
 
 
 def from_around(seen: PixelList, depth: Array, n: Array, lights: Sequence[Light], around: Around) -> Array:
-    """J (L, P, 3) of what is seen around a surface of depths (P,) and normals n (P, 3), and of half of what is taken to go on."""
+    """J (L, P, 3) from the visible surroundings of a surface of depths (P,) and normals n (P, 3), and half of that from out of sight."""
     joined = _Joined.of(seen, depth, n)
     x_C, n_C = joined.places
     own = Patches(x_C, n_C, joined.total, np.zeros((len(lights), len(x_C))))
@@ -131,7 +131,7 @@ def from_around(seen: PixelList, depth: Array, n: Array, lights: Sequence[Light]
 
 @dataclass(frozen=True)
 class _Joined:
-    """The pixels of an object joined to patches, Q of them."""
+    """An object's pixels joined to Q patches."""
 
     seen: PixelList
     size: int
@@ -150,7 +150,7 @@ class _Joined:
     def of(seen: PixelList, depth: Array, n: Array) -> _Joined:
         """By depths (P,) and normals (P, 3)."""
         size = max(1, int(np.ceil(np.sqrt(seen.pixels / MANY_PIXELS))))
-        rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # patches of the object, not of the picture about it
+        rows, columns = (index - index.min() for index in np.nonzero(seen.mask))  # relative to the object's bounding box
         _, of_pixel = np.unique(rows // size * seen.mask.shape[1] + columns // size, return_inverse=True)
         area = _areas(seen, depth, n)
         inside = np.asarray(raster.gaussian_filtered(seen.mask.astype(float), size / 2, "constant")[seen.mask])
@@ -176,15 +176,15 @@ class _Joined:
 
 @dataclass(frozen=True)
 class LitEvidence:
-    """Evidence of lit samples and of the surface's smoothness for the strengths x (3,) of the three parts of J: a quadratic cost."""
+    """Quadratic cost of the strengths x (3,) of the three parts of J, from lit samples and the smoothness of the surface."""
 
     x0: Array
-    """The strengths at which the next two hold."""
+    """(3,) strengths about which curvature and slope are given."""
     curvature: Array
     slope: Array
 
     def cost(self, x: Array) -> Array:
-        """Twice the negative logarithm of the likelihood (N,) of strengths (N, 3), all relative to that of the seen parts at x0."""
+        """Minus twice the log likelihood (N,) of strengths (N, 3)."""
         unit = max(float(self.x0[0]), 1e-12)
         curvature = self.curvature * unit**2 / LIT_NEIGHBOURS + REGULARISATION * np.eye(3)
         middle = np.linalg.solve(curvature, self.slope * unit / LIT_NEIGHBOURS)
@@ -194,11 +194,11 @@ class LitEvidence:
 
 
 def reflectance(seen: PixelList, by: Interreflection, b: Array, dark: Mask, lit: LitEvidence | None = None) -> Reflectance:
-    """The reflectance by the samples in shadow, and by the evidence of the lit ones.
+    """Estimate the reflectance from shadowed samples, and from the evidence of the lit ones.
 
-    `dark` (L, P) are samples that their light does not reach, by the shape: all that they show is reflected, ``s J_k . b``. A lit sample by
-    itself says next to nothing, since b takes up most of what is reflected onto it; together with its neighbours in other lights it does,
-    which is what `lit` holds. What is found are posterior means: where both say little the place of the least cost would jump.
+    `dark` (L, P) are samples that are shadowed according to the shape: their whole signal is interreflected, ``s J_k . b``. A lit sample
+    alone carries almost no information, since b absorbs most of the interreflection; together with its neighbours under other lights it
+    does, which is what `lit` holds. The results are posterior means: where the evidence is weak, the minimum would jump.
     """
     albedo = lambert.length(b)
     middle, bright = np.median(albedo), np.percentile(albedo, 95)
@@ -207,7 +207,7 @@ def reflectance(seen: PixelList, by: Interreflection, b: Array, dark: Mask, lit:
     light, pixel = light[some], pixel[some]
     signal, top = seen.signal[light, pixel], np.maximum(seen.signal[:, pixel].max(axis=0), 1e-12)
     noise2 = seen.sigma[light, pixel] ** 2 + (field.DARK * top) ** 2
-    possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # nothing reflects more than it gets
+    possible = [one for one in REFLECTANCES if one * bright <= middle] or [REFLECTANCES[0]]  # no pixel reflects more than it receives
     trials = np.array(list(product(possible, SHARES, SHARES)))
     strengths = trials[:, :1] / middle * np.column_stack([np.ones(len(trials)), trials[:, 1:]])
     fits = _fits(strengths, np.stack(by.on(b, light, pixel)), signal, noise2, top)
@@ -220,7 +220,7 @@ def reflectance(seen: PixelList, by: Interreflection, b: Array, dark: Mask, lit:
 
 
 def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Array) -> Array:
-    """Log likelihoods (T,) of signals (N,) in shadow, which the parts (3, N) of interreflected light at strengths (T, 3) predict."""
+    """Log likelihoods (T,) of shadowed signals (N,) predicted from the parts (3, N) of interreflected light at strengths (T, 3)."""
     if run := kernel("thrown_fits"):
         found = np.empty(len(strengths))
         given = (np.ascontiguousarray(one, float) for one in (strengths, parts, signal, noise2, top))
@@ -236,7 +236,7 @@ def _fits(strengths: Array, parts: Array, signal: Array, noise2: Array, top: Arr
 
 
 def in_shadow(seen: PixelList, lit: Illumination, n: Array, hidden: Mask) -> Mask:
-    """Samples (L, P) that their light does not reach, well inside their shadows: hidden from it, or turned away (n (P, 3))."""
+    """Mask (L, P) of samples well inside cast (`hidden`) or attached shadows, for normals n (P, 3)."""
     dark = hidden | (lambert.dot(lit.d, n) < -LEAST_COSINE)
     found = np.zeros_like(dark)
     for k, one in enumerate(dark):
@@ -255,7 +255,7 @@ def _areas(seen: PixelList, depth: Array, n: Array) -> Array:
 
 
 def _received(at: Patches, of: Patches, relief: Relief) -> Array:
-    """J (L, Q, 3) at patches, of the light of others."""
+    """J (L, Q, 3) at patches `at` from the patches `of`."""
     found = np.zeros((len(of.signal), *at.x_C.shape))
     if run := kernel("received"):
         signal = np.pad(of.signal.T, ((0, 0), (0, -len(of.signal) % LANES)))

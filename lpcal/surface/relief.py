@@ -1,17 +1,15 @@
-r"""A depth map as a body that stands in the way, and the light that its unseen sides throw.
+r"""Occlusion by a depth map taken as a solid of limited thickness, and interreflection from its sides hidden from the camera.
 
-Whether a straight line between two points passes behind the surface: a point y of the line is hidden where the surface, seen along y's own
-ray, is nearer than y by more than a tolerance: what lies behind the front that the camera sees is taken for solid, to a certain thickness.
-Source: shadow maps, Williams 1978, Computer Graphics 12(3).
+Occlusion of a segment between two points: a point y of the segment is inside the solid where the surface along y's own ray is nearer than y
+by more than a tolerance, and by less than a thickness. Source: shadow maps, Williams 1978, Computer Graphics 12(3).
 
-Light from the sides of the body that the camera does not see, such as the underside of what stands before its other parts: from a patch at
-p with normal n, directions w_i are spread by the cosine; each is followed until it enters the body at y. If y lies well behind the front
-that the camera sees there, it came in by an unseen side. Nothing shows that side, so it is taken for one of the front's albedo beside it,
-at right angles to the camera's ray, and lit by those lights that reach it::
+Light from hidden sides, such as the underside of a part that projects towards the camera: from a patch at p with normal n,
+cosine-distributed directions w_i are traced until they enter the solid at y. If y lies well behind the visible front there, the ray entered through a hidden
+side. That side is modelled with the albedo of the front beside it, perpendicular to the camera's ray, and lit by the lights that reach it::
 
     J_k(p) = 1/N sum_i  w_i / (w_i . n)  albedo E_k(y) max(m . d_k, 0)        m: the side's normal
 
-Approximate, but of the right sign and size; a second result states how much of the light depends on it.
+This is approximate, but of the right sign and size; a second result states how much of the light depends on it.
 """
 
 from __future__ import annotations
@@ -30,22 +28,22 @@ from lpcal.view.constants import LEAST_COSINE, MANY_PIXELS, SHADOW_STEPS
 from lpcal.view.pixel_list import Indices, PixelList, light_vectors, powers
 
 TOLERANCE = 0.003
-"""Share of the depth by which a point must lie behind the surface to be hidden."""
+"""Relative depth by which a point must lie behind the surface to be occluded."""
 THICKNESS = 0.2
-"""Share of the depth that a body is taken to reach behind its front."""
+"""Assumed thickness of the solid behind its visible front, as a share of the depth."""
 DIRECTIONS = 64
-"""Directions about a patch that are followed."""
+"""Number of directions traced from a patch."""
 REACHES = np.geomspace(0.01, 0.35, 12)
-"""Distances along a ray at which occlusion by the body is tested, as shares of the depth."""
+"""Distances along a ray at which occlusion is tested, as shares of the depth."""
 HALVINGS = 4
-"""Halvings of the last of these distances that find where the ray entered."""
+"""Bisections that locate where a ray enters the solid."""
 UNSEEN = 0.008
-"""Share of the depth: a ray that enters the body this far behind the visible front came through a side that is not seen."""
+"""Relative depth behind the visible front beyond which a ray counts as having entered through a hidden side."""
 
 
 @dataclass(frozen=True)
 class Relief:
-    """The front of a surface: its depth a pixel, and where a ray meets the image."""
+    """A surface's visible front as an occluder: its depth map, and the projection of rays to pixels."""
 
     front: Array
     """(H, W) depth of the furthest of 3x3 pixels, so that steep slopes do not hide themselves; inf outside."""
@@ -67,7 +65,7 @@ class Relief:
         return Relief(np.where(seen.mask, front, np.inf) if to_rim else front, pixel_of_ray)
 
     def hidden(self, start_C: Array, end_C: Array, steps: int) -> Mask:
-        """Whether the surface stands between points (N, 3) and (N, 3), tried at `steps` places."""
+        """Mask (N,): whether the surface occludes the segments between points (N, 3), tested at `steps` points each."""
         found = np.zeros(len(start_C), bool)
         if run := kernel("hidden"):
             ends = (np.ascontiguousarray(end, float) for end in (start_C, end_C))
@@ -78,12 +76,12 @@ class Relief:
         return found
 
     def holds(self, y_C: Array) -> Mask:
-        """Whether points (N, 3) lie in the body."""
+        """Mask (N,) of points (N, 3) inside the solid."""
         behind = self.behind(y_C)
         return np.asarray((behind > TOLERANCE) & (behind < THICKNESS))
 
     def behind(self, y_C: Array) -> Array:
-        """How far (N,) points (N, 3) lie behind the surface, by its depth; -1 where there is none."""
+        """Depth (N,) of points (N, 3) behind the surface, relative to the surface's depth; -1 where there is no surface."""
         if run := kernel("behind"):
             found = np.empty(len(y_C))
             run(len(found), np.ascontiguousarray(y_C, float), *self.front.shape, self.front, self.pixel_of_ray, found)
@@ -100,7 +98,7 @@ class Relief:
         return column, row, inside
 
     def hidden_from(self, x_C: Array, source_C: Array, steps: int) -> Mask:
-        """Whether the surface stands between points x_C (N, 3) of it and a source (3,): only the way up to its nearest part counts."""
+        """Mask (N,): whether the surface occludes its points x_C (N, 3) from a source (3,); segments end at its nearest depth."""
         nearest = float(np.min(self.front))
         fall = np.maximum(x_C[:, 2] - source_C[2], 1e-9)
         share = np.clip((x_C[:, 2] - nearest) / fall, 0, 1)
@@ -108,7 +106,7 @@ class Relief:
 
 
 def interreflected_by_sides(x_C: Array, n: Array, relief: Relief, albedo: Array, lights: Sequence[Light]) -> tuple[Array, Array]:
-    """J (L, Q, 3) at patches x_C (Q, 3) with normals n (Q, 3), and the share (Q,) of unseen sides in what stands round them.
+    """J (L, Q, 3) from hidden sides at patches x_C (Q, 3) with normals n (Q, 3), and their share (Q,) of the patches' surroundings.
 
     `albedo` (H, W) is in the units of the signals.
     """
@@ -123,7 +121,7 @@ def interreflected_by_sides(x_C: Array, n: Array, relief: Relief, albedo: Array,
 
 
 def _directions(n: Array) -> Array:
-    """Directions (DIRECTIONS, Q, 3) about normals n (Q, 3), as many to a solid angle as its cosine says."""
+    """Cosine-distributed directions (DIRECTIONS, Q, 3) about normals n (Q, 3)."""
     k = np.arange(DIRECTIONS) + 0.5
     radius, turn = np.sqrt(k / DIRECTIONS), np.pi * (1 + np.sqrt(5)) * k
     e1 = lambert.unit(lambert.cross(n, np.where(np.abs(n[:, :1]) < 0.9, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])))[0]
@@ -133,7 +131,7 @@ def _directions(n: Array) -> Array:
 
 
 def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
-    """Which of places and directions (Q, 3) enter the body by an unseen side, and where (N, 3)."""
+    """Indices of the rays, from points in directions (Q, 3), that enter the solid through a hidden side, and the entry points (N, 3)."""
     if run := kernel("entries"):
         found, far = np.empty(len(x_C), bool), np.empty(len(x_C))
         body = (*relief.front.shape, relief.front, relief.pixel_of_ray, TOLERANCE, THICKNESS)
@@ -163,13 +161,13 @@ def _entries(x_C: Array, way: Array, relief: Relief) -> tuple[Indices, Array]:
 
 
 def _unseen(at: Indices, y_C: Array, relief: Relief) -> tuple[Indices, Array]:
-    """Those of entries (N,) at places (N, 3) that the camera does not see."""
+    """The entries (N,) at points (N, 3) that are hidden from the camera."""
     unseen = relief.behind(y_C) > UNSEEN
     return at[unseen], y_C[unseen]
 
 
 def _shading(y_C: Array, way: Array, relief: Relief, lights: Sequence[Light]) -> Array:
-    """What the lights give to the unseen sides (L, N) at y_C (N, 3) that `way` (N, 3) meets."""
+    """Shading (L, N) by the lights of the hidden sides at y_C (N, 3) that rays of direction `way` (N, 3) meet."""
     ray = y_C / lambert.length(y_C)[..., None]
     m = -way
     m = lambert.unit(m - lambert.dot(m, ray)[:, None] * ray)[0]
