@@ -1,6 +1,6 @@
-"""The pieces of a surface as it states them: how far away each is, how surely, and what other distances the images allow.
+"""The reported pieces of a surface: mean depth, its standard deviation, and alternative distances that the images allow.
 
-The largest piece's other distances are those of the search, a smaller one's those of its own sweep (surface.distance_search).
+Alternatives of the largest piece come from the distance search, those of a smaller one from its own sweep (surface.distance_search).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lpcal.view.constants import STATED_STD, UNLIKELY
 
 
 def of(scene: Scene, state: State, depth: Array, label: Labels, minima: DistanceMinima | None) -> tuple[Component, ...]:
-    """The pieces by depths (P,) and labels (P,)."""
+    """The pieces of depths (P,) with labels (P,)."""
     found: list[Component] = []
     for one in np.unique(label):
         inside = label == one
@@ -45,7 +45,7 @@ def of(scene: Scene, state: State, depth: Array, label: Labels, minima: Distance
 
 
 def _by_its_light(scene: Scene, state: State, u: Array, label: Labels, piece: Component) -> Component:
-    """A smaller piece no surer than its light is of its distance, and with the others that it allows, by log depths u (P,)."""
+    """A smaller piece with the uncertainty and the alternatives of its own distance sweep, from log depths u (P,)."""
     ends = distance_search.of_piece(
         scene.seen, scene.lights, u, state.lit.interreflected, label == piece.label, float(np.median(u[label == 1]))
     )

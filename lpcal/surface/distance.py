@@ -3,9 +3,9 @@ r"""Each pixel's own distance, as near light determines it.
 Symbols: u = log z, samples ``I_k = B_k(u) . b + e_k`` of variance s_k^2. With b projected out, whitened residual r and derivative
 ``J = dr/du``::
 
-    H = J . J          curvature        h = u - J . r / H          place of the optimum
+    H = J . J          curvature        h = u - J . r / H          position of the optimum
 
-One pixel knows its distance to a tenth, an object of thousands to a thousandth. Source: the separable least squares of Golub and Pereyra
+A pixel determines its distance to a tenth, thousands of them to a thousandth. Source: the separable least squares of Golub and Pereyra
 1973, SIAM J. Numerical Analysis 10 (variable projection, Kaufman's simplification).
 """
 
@@ -26,17 +26,17 @@ from lpcal.view.constants import DOUBT, FEWEST_PIXELS, OUTLIER, REGULARISATION
 from lpcal.view.pixel_list import Illumination, Indices, PixelList, vectors
 
 FURTHEST = 0.5
-"""Most that a pixel's own distance moves log z in a round."""
+"""Largest change of log z by a pixel's own distance in a round."""
 GLOSS_DOUBT = 2.0
-"""Standard deviation of the gloss that was taken off, as a share of it: distances depend on small parts of the signal."""
+"""Relative standard deviation of the subtracted gloss: large, as distances depend on small parts of the signal."""
 ALIKE = 0.005
-"""Error that neighbouring samples share, as a share of the signal."""
+"""Relative error of the signal that is common to neighbouring samples."""
 
 
 def own_distance(light: Illumination | Array, slope_of: Callable[[slice], Array], depth: Array, seen: PixelList, found: Estimate) -> Own:
-    """Curvature and optimum of u (P,) about depths (P,) with their light, or its vectors (L, P, 3).
+    """Curvature and optimum of u (P,) about depths (P,), under an illumination or light vectors (L, P, 3).
 
-    `slope_of` gives the derivatives (L, Q, 3) of the light vectors of a slice of the pixels by u.
+    `slope_of` gives the derivatives (L, Q, 3) by u of the light vectors of a slice of the pixels.
     """
 
     def of(at: slice) -> Own:
@@ -47,7 +47,7 @@ def own_distance(light: Illumination | Array, slope_of: Callable[[slice], Array]
 
 
 def _own(B: Array, slope: Array, depth: Array, seen: PixelList, found: Estimate) -> Own:
-    """The same by light vectors B (L, P, 3) and their slope by u."""
+    """`own_distance` from light vectors B (L, P, 3) and their derivative by u."""
     if run := kernel("own_distance"):
         constants = np.array([normals.MODEL, GLOSS_DOUBT, REGULARISATION, FURTHEST, OUTLIER, lambert.SINGULAR])
         gloss = np.zeros(0) if found.gloss is None else found.gloss
@@ -75,10 +75,10 @@ def _own(B: Array, slope: Array, depth: Array, seen: PixelList, found: Estimate)
 
 
 def levelled(own: Own, u: Array, label: Indices) -> Array:
-    """u (P,) with each connected component, by its label (P,), moved to the mean of its pixels' own distances.
+    """u (P,) with each connected component, by its label (P,), shifted to the weighted mean of its pixels' own distances.
 
-    Doubts (`doubted`) decide about the shape. They would leave the distance to the few regions that are in no doubt, and an error is common
-    to a whole region: all of them together average over more errors.
+    The downweighting of `doubted` is for the shape only: for the distance it would leave few regions, whose errors are correlated; the mean
+    over all regions averages over more errors.
     """
     total = np.bincount(label, own.curvature)
     move = np.bincount(label, own.curvature * (own.optimum - u)) / np.maximum(total, REGULARISATION)
@@ -86,7 +86,7 @@ def levelled(own: Own, u: Array, label: Indices) -> Array:
 
 
 def doubted(own: Own, lit: Illumination, seen: PixelList, found: Estimate) -> Own:
-    """The own distances with less weight where light from other parts of the object is poorly known: a whole region errs alike there."""
+    """The own distances downweighted where interreflection is poorly known: errors are common to a whole region there."""
     if lit.unseen is None:
         return own
     square = lit.unseen**2 + interreflected_share(lit, found) ** 2

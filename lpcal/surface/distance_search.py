@@ -5,9 +5,9 @@ interreflection, the light field from a table) run from every start of a sweep; 
 
     cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
 
-The probability of a minimum is proportional to ``exp(-INDEPENDENT (cost - least) / 2)``, in units of the least cost per light (errors of the
-model are correlated between pixels), times a broad prior about the working distance, ``1 / (1 + (log ratio / WORKING)^2)``, which decides
-where the light hardly determines the distance. The full solve starts at the most probable minimum.
+The probability of a minimum is proportional to ``exp(-INDEPENDENT (cost - least) / 2)``, in units of the least cost per light (errors of
+the model are correlated between pixels), times a broad prior about the working distance, ``1 / (1 + (log ratio / WORKING)^2)``, which
+decides where the light hardly determines the distance. The full solve starts at the most probable minimum.
 
 Smaller pieces of the full solve are swept over distance with their shape kept (`of_piece`). The curvature of the cost about the final
 distance gives its standard deviation (`std_of`).

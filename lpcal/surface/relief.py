@@ -4,8 +4,9 @@ Occlusion of a segment between two points: a point y of the segment is inside th
 by more than a tolerance, and by less than a thickness. Source: shadow maps, Williams 1978, Computer Graphics 12(3).
 
 Light from hidden sides, such as the underside of a part that projects towards the camera: from a patch at p with normal n,
-cosine-distributed directions w_i are traced until they enter the solid at y. If y lies well behind the visible front there, the ray entered through a hidden
-side. That side is modelled with the albedo of the front beside it, perpendicular to the camera's ray, and lit by the lights that reach it::
+cosine-distributed directions w_i are traced until they enter the solid at y. If y lies well behind the front there, the ray entered by a
+hidden side. That side is modelled with the albedo of the front beside it, perpendicular to the camera's ray, and lit by the lights that
+reach it::
 
     J_k(p) = 1/N sum_i  w_i / (w_i . n)  albedo E_k(y) max(m . d_k, 0)        m: the side's normal
 

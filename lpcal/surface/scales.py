@@ -1,7 +1,7 @@
-"""A scene with blocks of pixels joined, and what the rounds settle there carried back to its own pixels.
+"""A scene binned into blocks of pixels, and the prolongation of its solution back to the pixels (a two-level scheme).
 
-What the rounds settle over many pixels, the distance, which lights the surface hides, gloss, and what its parts reflect onto each other, is
-the same in coarse pixels and takes a quarter of the time. Normals, albedo and steps of each pixel are found at full size after that.
+What the rounds determine jointly from many pixels (distance, occlusion, gloss and interreflection) is the same in blocks and takes
+a quarter of the time. Normals, albedo and steps of each pixel are then found at full size.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from lpcal.view.constants import LEAST_COSINE, REGULARISATION
 from lpcal.view.pixel_list import Illumination, Indices, PixelList
 
 PIXELS = 8000
-"""Blocks, about, that an object is joined to: enough for distance and gloss, and for 2000 patches that reflect light."""
+"""Approximate number of blocks of an object: enough for distance and gloss, and for 2000 patches of interreflection."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-r"""What a reading of the distance sensor says of the object's distance: where the beam meets the surface, or that it met something else.
+r"""Fusion of a distance sensor's reading with near light's estimate, allowing for a beam that missed the object.
 
 Symbols: beam o + t u, a piece with depths z(pixel) that may be scaled about the camera by s; at t the beam is over a pixel p(t) and meets
 the scaled piece once its own depth passes the piece's::
@@ -30,25 +30,25 @@ from lpcal.surface.distance_search import APART, INDEPENDENT, DistanceMinima, od
 from lpcal.view.constants import OUTLIER, OUTLIER_RATE, STATED_STD, UNLIKELY
 
 REACH_M = 2.0
-"""Metres over which a reading of something else may lie: as far as such sensors reach."""
+"""Range, metres, of the uniform density of readings of something else: as far as such sensors reach."""
 STEP_M = 5e-4
-"""Steps of the search along the beam: less than a pixel's width on the object."""
+"""Step of the search along the beam, metres: less than a pixel's width on the object."""
 NODES = 1201
 """Nodes of the grid of scales."""
 SLOPE = 0.5
-"""Tangent of the usual angle between the object's surface and the beam's cross-section: by it an error across the beam acts along it."""
+"""Tangent of a typical angle between the surface and the beam's cross-section: it converts lateral errors of the beam to range errors."""
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What the distance sensor read at a capture."""
+    """The distance sensor's reading of a capture."""
 
     sensor: DistanceSensor
     reading_m: float
 
 
 def reading_of(calibration: Calibration, reading_m: float | None) -> Reading | None:
-    """A reading of the calibration's sensor, where there are both."""
+    """The reading of the calibration's sensor; None without a sensor or a reading."""
     sensor = calibration.distance_sensor
     return None if sensor is None or reading_m is None else Reading(sensor, reading_m)
 
@@ -72,22 +72,22 @@ class DepthMap:
 
 @dataclass(frozen=True)
 class FusedDistance:
-    """What a reading and near light together say of a piece's scale."""
+    """Posterior of a piece's scale from a reading and near light."""
 
     log_scale: float
-    """By which the piece moves."""
+    """Log of the factor by which the piece is scaled."""
     std: float
-    """Relative, of its distance then."""
+    """Relative standard deviation of its distance after fusion."""
     hit: float
-    """Odds that the reading is of this piece."""
+    """Probability that the beam hit this piece."""
     log_evidence: float
-    """Log of how probable the reading is under this piece's distances; to be compared with that under others."""
+    """Log marginal likelihood of the reading for this piece, to be compared between alternatives."""
     expected_m: float
-    """Distance along the beam at which the piece stands as near light has it; NaN where the beam misses it."""
+    """Distance along the beam to the piece according to near light; NaN where the beam misses it."""
 
 
 def fused(read: Reading, piece: DepthMap, light_std: float) -> FusedDistance:
-    """Combine a reading with near light's estimate, of relative standard deviation `light_std`, of a piece's distance."""
+    """Fuse a reading with near light's estimate of a piece's distance, of relative standard deviation `light_std`."""
     sensor, reading_m = read.sensor, read.reading_m
     r, std_m = sensor.along_m(reading_m), float(np.hypot(sensor.std_m(reading_m), SLOPE * sensor.across_std_m(reading_m)))
     half = max(2 * OUTLIER * light_std, 1e-3)
@@ -109,7 +109,7 @@ def fused(read: Reading, piece: DepthMap, light_std: float) -> FusedDistance:
 
 
 def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera | None) -> DistanceMinima | None:
-    """The ends of a search for the distance, what the reading says of each counted in its cost, the likeliest first."""
+    """The minima of the distance search with the reading's evidence added to their costs, the most probable first."""
     if found is None or read is None or camera is None:
         return found
     costs = np.array([end.cost for end in found.ends])
@@ -127,17 +127,17 @@ def weighed(found: DistanceMinima | None, read: Reading | None, camera: Camera |
 
 @dataclass(frozen=True)
 class ReadingResult:
-    """What a reading says of a surface: of which piece (0: of none), and what."""
+    """The result of a reading for a surface: the label of the piece it refers to (0: none), and the fused distance."""
 
     label: int
     fused: FusedDistance | None
     figures: DistanceRead
     alternatives: tuple[Alternative, ...] = ()
-    """The other distances of that piece that the reading leaves likely."""
+    """Alternative distances of that piece that remain probable."""
 
 
 def of_surface(surface: Surface, camera: Camera, read: Reading) -> ReadingResult:
-    """Weigh a reading against the surface found from the light, at the piece that the beam meets."""
+    """Fuse a reading with the surface found from the light, for the piece that the beam meets."""
     whole = DepthMap(np.asarray(surface.depth, float), camera)
     label = _label_met(read, whole, surface.component)
     if label == 0:
@@ -153,7 +153,7 @@ def of_surface(surface: Surface, camera: Camera, read: Reading) -> ReadingResult
 
 
 def _left(own: Component, read: Reading, piece: DepthMap, found: FusedDistance) -> tuple[Alternative, ...]:
-    """A piece's other distances with their odds by light and reading, those of UNLIKELY odds left out."""
+    """A piece's alternative distances with probabilities from light and reading, without those below UNLIKELY."""
     ratios = [1.0, *(other.mean_depth_m / own.mean_depth_m for other in own.alternatives)]
     odds = np.array([max(1 - sum(other.odds for other in own.alternatives), 1e-3), *(other.odds for other in own.alternatives)])
     here = np.exp(found.log_scale)
@@ -168,7 +168,7 @@ def _left(own: Component, read: Reading, piece: DepthMap, found: FusedDistance) 
 
 
 def with_reading(surface: Surface, said: ReadingResult) -> Surface:
-    """The surface with the distance of its piece as sure as the reading makes it, and what was read among its figures."""
+    """The surface with its piece's updated standard deviation and alternatives, and the reading among its figures."""
     figures = replace(surface.figures, distance_reading=said.figures)
     if said.fused is None or said.fused.hit <= 0.5:
         return replace(surface, figures=figures)
@@ -183,7 +183,7 @@ def with_reading(surface: Surface, said: ReadingResult) -> Surface:
 
 
 def _label_met(read: Reading, piece: DepthMap, label: Labels) -> int:
-    """The piece (of labels (H, W)) that the beam meets first, or that it passes nearest to where it is read; 0 where it meets none."""
+    """Label (of labels (H, W)) of the piece that the beam meets first, or passes over nearest to the reading; 0 if there is none."""
     sensor = read.sensor
     t = np.arange(STEP_M, REACH_M, STEP_M)
     x_C = sensor.position_C + t[:, None] * sensor.direction_C
@@ -201,7 +201,7 @@ def _label_met(read: Reading, piece: DepthMap, label: Labels) -> int:
 
 
 def _hits(sensor: DistanceSensor, piece: DepthMap, scales: Array) -> Array:
-    """Distance along the beam (S,) at which it first meets the piece scaled by each of some increasing scales; NaN where it does not."""
+    """Distance along the beam (S,) to the piece scaled by each of the increasing scales (S,); NaN where the beam misses it."""
     t = np.arange(STEP_M, REACH_M, STEP_M)
     x_C = sensor.position_C + t[:, None] * sensor.direction_C
     ahead = x_C[:, 2] > 0.01

@@ -1,7 +1,7 @@
-r"""How sure each pixel is: its normal, its depth, and the distance of each piece.
+r"""Standard deviations of each pixel's normal and depth, and of each piece's distance.
 
-Symbols, degrees a pixel: s the error that the samples' own variances make, chi2 of dof; R the angle between the measured normal and that of
-the depth, R5 its rms over 5x5 pixels::
+Symbols, degrees per pixel: s the standard deviation due to the samples' variances, chi2 of dof; R the angle between the measured normal and
+that of the depth, R5 its rms over 5x5 pixels::
 
     sigma^2 = sum_i factor_i clue_i^2 + calibration^2
 
@@ -28,23 +28,22 @@ from lpcal.view.constants import RIM_PX
 from lpcal.view.pixel_list import Illumination
 
 FACTORS = (0.276, 0.051, 0.324, 1.31, 0.001, 252.0, 0.0045, 0.0083)
-"""What the square of each indicator adds to a normal's variance, degrees^2 (of angles: a share), in the order of `squares`; fitted by
-tools/fit_normal_sigma.py on 200 simulated scenes, the first held: drawn matter is the model's and says less of it than DiLiGenT's does."""
+"""Factors of the squared indicators in a normal's variance, degrees^2 (dimensionless for angles), in the order of `squares`: fitted by
+tools/fit_normal_sigma.py on 200 simulated scenes, the first one fixed from DiLiGenT, as simulated matter follows the model too well."""
 NEAR_FACTORS = (0.388, 1.75)
-"""The same of near light, where a network says how far it trusts a normal: R, and what the network states; fitted by
-tools/fit_normal_sigma.py on 70 simulated scenes that the network had not been fitted to. The samples' noise adds nothing to these two."""
+"""The factors for near light, of R and of the network's stated standard deviation: fitted by tools/fit_normal_sigma.py on 70 simulated
+scenes outside the network's training set. The samples' noise adds nothing to these two."""
 INDEPENDENT = 4.0
-"""Lights whose samples count in full: what real matter is not of the model's is common to neighbouring lights, and more of them do not
-average it away. By DiLiGenT's ball and bear, whose normals err alike by 10 lights and by 96."""
+"""Largest number of lights that count as independent: deviations of real matter from the model are common to neighbouring lights. From
+DiLiGenT's ball and bear, whose normals have the same errors with 10 lights as with 96."""
 MM_A_PERCENT = 4.0
-"""Millimetres of distance that one per cent of relative intensity costs at WORKING_M with one light; a law of panels of this kind."""
+"""Error of the distance, mm at WORKING_M, per per cent of relative intensity of one light; typical of panels of this kind."""
 WORKING_M = 0.35
 CORRELATION = 20.0
 BROKEN_OFF = 0.2
-"""Share of the log distance between a broken-off piece and the largest that is unsure: parts of one object seldom stand far apart.
-
-tools/fit_distance_sigma.py gives 0.4 on 99 such pieces of 204 simulated scenes, among which objects that do stand apart are rare; half of
-it holds the error within 1.3 sigma rms there.
+"""Standard deviation of a separate piece's log distance, as a share of its log distance to the largest piece: parts of one object are
+rarely far apart. tools/fit_distance_sigma.py gives 0.4 on 99 such pieces of 204 simulated scenes, in which truly separate objects are rare;
+with half of it the errors are 1.3 standard deviations rms.
 """
 
 
@@ -53,9 +52,9 @@ class Indicators:
     """Indicators of errors, a pixel: (P,) each."""
 
     noise_deg: Array
-    """Per axis, from the samples' variances."""
+    """s, per axis, from the samples' variances."""
     misfit: Array
-    """chi2 a degree of freedom, 1 where there is none."""
+    """chi2 per degree of freedom, 1 where there is none."""
     bend_deg: Array
     """R."""
     bend_round_deg: Array
@@ -64,11 +63,11 @@ class Indicators:
     used: Array
     filled: Mask
     interreflected: Array
-    """Light from around by that which comes straight."""
+    """Ratio of interreflected to direct light."""
     unseen: Array
-    """Share of unseen sides in what stands around."""
+    """Share of hidden sides in the pixel's surroundings."""
     expected_deg: Array | None = None
-    """What surface.normal_prior states of each normal; None where it is not asked."""
+    """Standard deviation that surface.normal_prior states for each normal; None without the network."""
 
 
 def indicators(
@@ -94,7 +93,7 @@ def indicators(
 
 
 def noise_deg(found: Estimate, normals: Array) -> tuple[Array, Array]:
-    """What the samples' variances make of normals (P, 3), degrees an axis, NaN where they are filled in; and chi2 a degree of freedom."""
+    """Standard deviation (P,) of normals from the samples' variances, degrees per axis, NaN where filled in; reduced chi2 (P,)."""
     filled = ~np.isfinite(found.b[:, 0])
     b = np.where(filled[:, None], normals, found.b)
     albedo = np.maximum(lambert.length(b), 1e-12)
@@ -147,22 +146,22 @@ def normal_sigma_deg(found: Indicators, calibration_deg: float) -> Array:
 
 
 def calibration_deg(lights: Sequence[Light]) -> float:
-    """What the lights' own uncertainty does to every normal alike: directions and intensities, averaged over the lights."""
+    """Standard deviation, degrees, common to all normals, from the lights' directions and intensities, averaged over the lights."""
     direction = _mean_square([np.degrees(light.direction_std_rad) for light in lights])
     intensity = _mean_square([np.degrees(light.intensity_std / np.sqrt(2)) for light in lights])
     return float(np.sqrt((direction + intensity) / len(lights)))
 
 
 def fewer_regions(pixels: int, largest: int) -> float:
-    """By how much what the model lacks in the distance of a piece of some pixels exceeds that of the largest one's.
+    """Factor of a piece's distance error due to the model, relative to that of the largest piece, from their numbers of pixels.
 
-    Its errors are common to whole regions of a surface (light between parts, a shadow, gloss): a small piece has fewer to average over.
+    Errors of the model are correlated over regions of a surface (interreflection, shadows, gloss); a small piece averages over fewer.
     """
     return float(np.sqrt(max(largest / max(pixels, 1), 1.0)))
 
 
 def scale_std(lights: Sequence[Light], curvature_total: float, distance_m: float, model: float) -> float:
-    """Relative standard deviation of the distance of a whole piece: by the calibration, by noise, and by the `model`.
+    """Relative standard deviation of the distance of a whole piece, from the calibration, the noise and the `model` error.
 
     `curvature_total` is that of the piece's log distance.
     """
@@ -173,11 +172,11 @@ def scale_std(lights: Sequence[Light], curvature_total: float, distance_m: float
 
 
 def depth_sigma(grid: Grid, sigma_deg: Array, towards: Array, plane: Array, scale: Array, label: Labels) -> Array:
-    """Standard deviation (P,) of the depth about its piece's own scale: that of sums of steps, in units of `scale` times those of `plane`.
+    """Standard deviation (P,) of the depth relative to its piece, from accumulated step errors, in units of `scale` times those of `plane`.
 
-    `towards` (P,) is the cosine between normal and viewer, `plane` (P, 2) where pixels lie at depth 1, `scale` (P,) their depth. Errors of
-    normals are correlated over CORRELATION pixels, so over a path of N pixels a step's error grows as sqrt(N CORRELATION); the path runs
-    from the pixel to the middle of its piece, and half as far counts since the rest of the piece holds it.
+    `towards` (P,) is the cosine between normal and viewer, `plane` (P, 2) the pixels' positions at depth 1, `scale` (P,) their depth.
+    Errors of normals are correlated over CORRELATION pixels, so over a path of N pixels a step's error grows as sqrt(N CORRELATION). The
+    path runs from the pixel to the centre of its piece, and counts half, as the rest of the piece constrains it.
     """
     pixel = float(np.median(np.linalg.norm(plane[grid.b] - plane[grid.a], axis=1))) if len(grid.a) else 1.0
     sigma = np.zeros(len(plane))
