@@ -1,10 +1,12 @@
 """Wrong captures among right ones: which are named, and what becomes of the model.
 
-``python tools/fuse_wrong.py RIG OTHER_RIG [--every 1] [--views 2,7]``. Of a simulated and reconstructed session every so many stops are
-fused: as they are, and one of them after the other left away, 20 mm beside its pose, 20 mm too far, 20 mm too near, flipped (half a turn of
-the tracked body about its axis), turned by 72 degrees (the body's markers taken for each other), and replaced by a view of another rig's
-object. Prints, a line each: the model's rms and the share of what two right views see that it has, the same of the model without the wrong
-view, whether that view alone is left out, and what is said.
+``python tools/fuse_wrong.py RIG OTHER_RIG [--every 1] [--views 2,7] [--together]``. Of a simulated and reconstructed session every so
+many stops are fused: as they are, and one of them after the other left away, 20 mm beside its pose, 20 mm too far, 20 mm too near,
+flipped (half a turn of the tracked body about its axis), turned by 72 degrees (the body's markers taken for each other), and replaced by
+a view of another rig's object. Prints, a line each: the model's rms and the share of what two right views see that it has, the same of it
+without the wrong view, and what becomes of the wrong view, and of right ones that are left out or remarked. With ``--together`` the views
+are wrong at once: all in the same way (moved together they confirm each other), and the first of them flipped, the next 20 mm too near,
+and so on.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import numpy as np
 import lpcal
 from bench_fuse import Truth, of_mesh, twice_seen
 from lpcal.geometry import se3
+from lpcal.records.model import ViewInModel
 from lpcal.records.surface import Surface
 
 OFF_M = 0.02
@@ -41,18 +44,38 @@ def main() -> None:
     parser.add_argument("other", type=Path)
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--views", default="2,7", help="which of the stops that are fused are spoilt, one at a time, counted from 0")
+    parser.add_argument("--together", action="store_true", help="spoil them all at once")
     options = parser.parse_args()
     truth = Truth.of(options.rig)
     folders = sorted((options.rig / "surfaces").glob("stop_*"))[:: options.every]
     right = [lpcal.read_surface(folder) for folder in folders]
     print(f"| none | {figures(truth, lpcal.fuse(right), right)} |", flush=True)
-    for place in map(int, options.views.split(",")):
+    places = [int(word) for word in options.views.split(",")]
+    strange = [lpcal.read_surface(options.other / "surfaces" / folder.name) for folder in folders]
+    if options.together:
+        together(truth, right, strange, places)
+        return
+    for place in places:
         others = [surface for k, surface in enumerate(right) if k != place]
         without = figures(truth, lpcal.fuse(others), others)
         print(f"| {right[place].name} left away | {without} |", flush=True)
-        for kind, wrong in spoilt(right[place], lpcal.read_surface(options.other / "surfaces" / folders[place].name)).items():
+        for kind, wrong in spoilt(right[place], strange[place]).items():
             model = lpcal.fuse([wrong if k == place else surface for k, surface in enumerate(right)])
-            print(f"| {right[place].name} {kind} | {figures(truth, model, others)} | {verdict(model, place)} |", flush=True)
+            print(f"| {right[place].name} {kind} | {figures(truth, model, others)} | {verdict(model, [place])} |", flush=True)
+
+
+def together(truth: Truth, right: list[Surface], strange: list[Surface], places: list[int]) -> None:
+    """The figures with several views wrong at once."""
+    others = [surface for k, surface in enumerate(right) if k not in places]
+    print(f"| without {', '.join(right[k].name for k in places)} | {figures(truth, lpcal.fuse(others), others)} |", flush=True)
+    wrong = {k: spoilt(right[k], strange[k]) for k in places}
+    kinds = list(wrong[places[0]])
+    alike = [[kind] * len(places) for kind in kinds]
+    for named in [*alike, [("flipped", "20 mm too near", "another object", "20 mm beside")[k % 4] for k in range(len(places))]]:
+        spoilt_views = {k: wrong[k][kind] for k, kind in zip(places, named, strict=True)}
+        model = lpcal.fuse([spoilt_views.get(k, surface) for k, surface in enumerate(right)])
+        said = ", ".join(f"{right[k].name} {kind}" for k, kind in zip(places, named, strict=True))
+        print(f"| {said} | {figures(truth, model, others)} | {verdict(model, places)} |", flush=True)
 
 
 def spoilt(surface: Surface, strange: Surface) -> dict[str, Surface]:
@@ -74,13 +97,19 @@ def figures(truth: Truth, model: lpcal.ObjectModel, right: list[Surface]) -> str
     return f"{said['rms_mm']:.3f} mm | {said['completeness_percent']:.2f} %"
 
 
-def verdict(model: lpcal.ObjectModel, place: int) -> str:
-    """Whether the wrong view is left out and no other, and what is said of it or of others."""
-    out = [k for k, view in enumerate(model.views) if not view.used]
-    word = "left out" if out == [place] else "left out with others" if place in out else "others left out" if out else "used"
-    said = [f"{view.name}: {view.why}" for view in model.views if not view.used]
-    said += [one for one in model.warnings if "its distance was changed" in one]
-    return f"{word} | {'; '.join(said)}"
+def verdict(model: lpcal.ObjectModel, places: list[int]) -> str:
+    """Which of the wrong views are left out, or used with a remark, and which right ones; and what is said of them."""
+    remarked = {k: one for k, view in enumerate(model.views) for one in model.warnings if one.startswith(f"{view.name}: its distance")}
+    words = []
+    for k, view in enumerate(model.views):
+        if k in places or not view.used or k in remarked:
+            state = "left out" if not view.used else "used, remarked" if k in remarked else "used"
+            words.append(f"{'' if k in places else 'right, but '}{state}: {view.name}: {remarked.get(k, view.why or _changed(view))}")
+    return "; ".join(words)
+
+
+def _changed(view: ViewInModel) -> str:
+    return f"changed by {1e3 * (view.distance_change_m or 0):+.1f} mm, {view.distance_sigmas:.1f} sigmas"
 
 
 if __name__ == "__main__":

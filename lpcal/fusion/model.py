@@ -16,7 +16,7 @@ import numpy as np
 
 from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
-from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, usual_growth
+from lpcal.fusion.consensus import REMARKED_SCALE_SIGMAS, usual_growth
 from lpcal.fusion.missing import missing
 from lpcal.fusion.pieces import Piece
 from lpcal.fusion.registration import Registered, registered
@@ -82,20 +82,23 @@ def shared_covariance(views: Sequence[PlacedView]) -> Array:
 
 def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Vertices) -> ObjectModel:
     aligned, kept = places.aligned, places.kept
+    largest = {k: max((one for one in places.pieces[k] if one.why is None), key=lambda one: one.pixels) for k in kept}
+    usual = {k: usual_growth([one.delta for other, one in largest.items() if other != k]) for k in kept}
     said = []
     for k, view in enumerate(views):
         share = None if not np.isfinite(places.shares[k]) else places.shares[k]
         if k in kept:
-            said.append(replace(_fit(aligned, kept.index(k), share, view), pieces=_pieces(view, places.pieces[k])))
+            sigmas = abs(largest[k].delta - usual[k]) / dict(view.pieces)[largest[k].label]
+            fit = _fit(aligned, kept.index(k), share, view)
+            said.append(replace(fit, distance_sigmas=float(sigmas), pieces=_pieces(view, places.pieces[k])))
         else:
             said.append(ViewInModel(view.name, False, places.why.get(k, "nothing of it fits the others"), share))
     warnings = [f"{view.name} is left out: {view.why}" for view in said if not view.used]
     warnings += [
         f"{view.name} has too few points in common with the others: placed by its pose alone" for view in said if view.agreement is None
     ]
-    largest = {k: max((one for one in places.pieces[k] if one.why is None), key=lambda one: one.pixels) for k in kept}
     for k in kept:
-        warnings += _stretched(views[k], largest[k], usual_growth([one.delta for other, one in largest.items() if other != k]))
+        warnings += _stretched(views[k], largest[k], usual[k], said[k].distance_sigmas or 0.0)
     for one in said:
         lost = [piece for piece in one.pieces if piece.why is not None]
         warnings += [f"{one.name}: a piece of {piece.pixels} pixels is left out: {piece.why}" for piece in lost]
@@ -118,17 +121,16 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
     )
 
 
-def _stretched(view: PlacedView, piece: Piece, usual: float) -> list[str]:
-    """A remark where the distance of a view's largest piece was changed otherwise than the others', by many of its sigmas.
+def _stretched(view: PlacedView, piece: Piece, usual: float, sigmas: float) -> list[str]:
+    """A remark where the distance of a view's largest piece was changed otherwise than the others', by some of its sigmas.
 
-    It is used all the same where too few views would be left without it. `usual` is what the others' logarithms were changed by.
+    It is used: put where the others have it, it agrees with them. `usual` is what the others' logarithms were changed by.
     """
-    sigmas = abs(piece.delta - usual) / dict(view.pieces)[piece.label]
-    if sigmas < MOST_SCALE_SIGMAS:
+    if sigmas < REMARKED_SCALE_SIGMAS:
         return []
     by_mm, usual_mm = (1e3 * view.distance_m * np.expm1(delta) for delta in (piece.delta, usual))
-    apart = f"the others' by {usual_mm:+.1f} mm, {sigmas:.1f} of its sigmas apart"
-    return [f"{view.name}: its distance was changed by {by_mm:+.1f} mm, {apart}, to fit the others"]
+    apart = f"the others' by {usual_mm:+z.1f} mm, {sigmas:.1f} of its sigmas apart"
+    return [f"{view.name}: its distance was changed by {by_mm:+z.1f} mm, {apart}, to fit the others"]
 
 
 def _pieces(view: PlacedView, pieces: Sequence[Piece]) -> tuple[PieceInModel, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from statistics import median
 
 from lpcal.api.engines import Engine
 from lpcal.api.fusing import fuse, refine_rig
@@ -23,6 +24,8 @@ from lpcal.records.outcome import Outcome, Progress
 from lpcal.records.surface import Surface
 from lpcal.report.model_page import missing_words, model_html, rig_words
 
+FEWEST_OTHERS = 3
+"""Views of which one is said to be changed most: of two that differ nobody knows which is wrong."""
 SURFACES = "surfaces"
 """The folder of a rig that holds its surfaces."""
 
@@ -159,9 +162,22 @@ def _said(target: Path, model: ObjectModel, *, again: bool) -> list[str]:
             f"{which} solved again with the light between the object's parts: it needs the rig's calibration, and the capture as it was "
             "reconstructed, with an ambient image"
         )
+    lines += _most_changed(used)
     lines += [_line(view) for view in model.views]
     lines += [] if model.missing is None else missing_words(model.missing, model.frame)
     return lines + ([] if model.rig is None else rig_words(model.rig))
+
+
+def _most_changed(used: Sequence[ViewInModel]) -> list[str]:
+    """The view whose distance was changed most against the others, however well it fits them since."""
+    changes = {view.name: view.distance_change_m for view in used if view.distance_change_m is not None}
+    if len(changes) < FEWEST_OTHERS:
+        return []
+    usual = median(changes.values())
+    most = max(used, key=lambda view: abs(changes.get(view.name, usual) - usual))
+    apart = "" if most.distance_sigmas is None else f", {most.distance_sigmas:.1f} of its sigmas from the others'"
+    by_mm, usual_mm = 1e3 * changes[most.name], 1e3 * usual
+    return [f"distances were changed by {usual_mm:+z.1f} mm, the median; most that of {most.name}, by {by_mm:+z.1f} mm{apart}"]
 
 
 def _line(view: ViewInModel) -> str:
@@ -169,4 +185,5 @@ def _line(view: ViewInModel) -> str:
         return f"  {view.name}: left out: {view.why}"
     confirmed = "placed by its pose alone" if view.agreement is None else f"confirmed by {100 * view.agreement:.0f} %"
     moved = f"moved {1e3 * (view.moved_m or 0):.2f} mm, distance {1e3 * (view.distance_change_m or 0):+.2f} mm"
+    moved += "" if view.distance_sigmas is None else f", {view.distance_sigmas:.1f} sigmas from the others'"
     return f"  {view.name}: {confirmed}; {moved}; within {1e3 * (view.residual_m or 0):.3f} mm of the others"

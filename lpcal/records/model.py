@@ -44,6 +44,8 @@ class ViewInModel:
     """By how much it was turned."""
     distance_change_m: float | None = None
     """By how much its distances were changed, the median."""
+    distance_sigmas: float | None = None
+    """By how much the distance of its largest piece was changed otherwise than the others', in standard deviations of its own."""
     residual_m: float | None = None
     """Robust rms of its points from the other views' surfaces, along the normal."""
     H_AC: Array | None = None

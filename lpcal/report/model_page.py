@@ -124,7 +124,9 @@ def _from(cameras: list[Array], centre: Array) -> Array:
 def _line(view: ViewInModel) -> str:
     if not view.used:
         return f"{view.name}: left out, {view.why}"
-    return f"{view.name}: moved {1e3 * (view.moved_m or 0):.2f} mm, within {1e3 * (view.residual_m or 0):.2f} mm of the others"
+    changed = f"distance {1e3 * (view.distance_change_m or 0):+.2f} mm"
+    changed += "" if view.distance_sigmas is None else f" ({view.distance_sigmas:.1f} sigmas from the others')"
+    return f"{view.name}: moved {1e3 * (view.moved_m or 0):.2f} mm, {changed}, within {1e3 * (view.residual_m or 0):.2f} mm of the others"
 
 
 def missing_words(missing: Missing, frame: str) -> list[str]:

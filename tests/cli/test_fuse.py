@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import lpcal as library
@@ -33,6 +34,31 @@ def test_fuse(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: p
     assert main(["fuse", "nothing", "-o", "model"]) == 3
     assert "no surface there" in capsys.readouterr().err
     assert main(["fuse", names[0], names[0], "-o", "model"]) == 6
+
+
+def test_a_distance_that_was_put_right_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One view 6 % too far, by little more of its sigmas than right views are: on the screen, in summary.json and on the page."""
+    off, sigmas = 0.06, 2.2
+    for surface in scene().surfaces:
+        one = surface
+        if surface.name == "stop_04":
+            component = replace(surface.components[0], scale_std=off / sigmas)
+            one = replace(surface, depth=surface.depth * np.float32(np.exp(off)), components=(component,))
+        library.write_surface(tmp_path / surface.name, one)
+    folders = sorted(str(path) for path in tmp_path.glob("stop_*"))
+    assert main(["fuse", *folders, "-o", str(tmp_path / "model"), "--step", "2.4mm"]) == 0
+    told = capsys.readouterr()
+    assert "mm, the median; most that of stop_04, by -" in told.out
+    summary = json.loads((tmp_path / "model" / "summary.json").read_text(encoding="utf-8"))
+    view = next(view for view in summary["views"] if view["name"] == "stop_04")
+    assert view["distance_sigmas"] == pytest.approx(sigmas, abs=0.3)
+    assert view["distance_change_m"] < -0.012
+    remark = "stop_04: its distance was changed by -"
+    assert remark in told.out + told.err
+    assert sum(note.startswith(remark) for note in summary["notes"]) == 1
+    page = (tmp_path / "model" / "model.html").read_text(encoding="utf-8")
+    assert remark.removesuffix("-") in page  # which has a minus sign there
+    assert f"({view['distance_sigmas']:.1f} sigmas from the others" in page
 
 
 @pytest.mark.parametrize(
