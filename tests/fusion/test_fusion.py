@@ -246,6 +246,26 @@ def test_a_wrong_view_is_named_and_left_out(kind: str) -> None:
     assert "the others confirm" in out[0].why
 
 
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        {3: "shifted", 4: "shifted"},
+        {3: "shifted", 4: "flipped"},
+        {3: "flipped", 4: "other object"},
+        {3: "shifted", 5: "other object"},
+        {3: "other object", 5: "other object"},
+    ],
+)
+def test_two_wrong_views_at_once_are_named_and_left_out(kinds: dict[int, str]) -> None:
+    """Neighbours, and two with a right view between them, which stays: two of ten do not outvote the rest."""
+    surfaces = list(scene().surfaces)
+    for k, kind in kinds.items():
+        surfaces[k] = _wrong(surfaces[k], kind)
+    views = [view_of(surface, surface.placement) for surface in surfaces]
+    out = outvoted(len(views), align.compared(views, shared_covariance(views)))
+    assert sorted(one.index for one in out) == sorted(kinds)
+
+
 def test_of_two_views_that_differ_nobody_knows_which_is_wrong() -> None:
     """A view that one other alone judges stays until it is aligned; one that two contradict goes."""
     fine, bad = align.PairFit(900, 30, 1e-3), align.PairFit(0, 400, 1e-3)
