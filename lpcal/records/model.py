@@ -44,8 +44,6 @@ class ViewInModel:
     """By how much it was turned."""
     distance_change_m: float | None = None
     """By how much its distances were changed, the median."""
-    distance_sigmas: float | None = None
-    """By how much the distance of its largest piece was changed otherwise than the others', in standard deviations of its own."""
     residual_m: float | None = None
     """Robust rms of its points from the other views' surfaces, along the normal."""
     H_AC: Array | None = None
@@ -54,6 +52,8 @@ class ViewInModel:
     """Whether its capture was solved again with the light that the object's parts throw on each other."""
     pieces: tuple[PieceInModel, ...] = ()
     """Its connected pieces, and parts of them that breaks and seams cut off, which count on; none of a surface that was left out."""
+    distance_sigmas: float | None = None
+    """By how much the distance of its largest piece was changed otherwise than the others', in standard deviations of its own."""
 
 
 @dataclass(frozen=True)
