@@ -1,4 +1,4 @@
-/* Coarser levels of a masked matrix: what holds together within 2x2 pixels becomes one unknown. Twin: integration/multigrid.py (_levels).
+/* Coarser levels of a masked matrix: strongly coupled unknowns within 2x2 pixels are aggregated into one. Twin: integration/multigrid.py (_levels).
 
    Which unknowns hold together is asked of the weights, every time that they change: an aggregate over a break would tie together what stands
    at two depths, and a level of such aggregates says next to nothing of either. */

@@ -1,4 +1,4 @@
-/* Blocks of pixels joined into one. Twin: view/coarse.py (coarse_of). */
+/* Binning of blocks of pixels. Twin: view/coarse.py (coarse_of). */
 
 #include "kernel.h"
 
@@ -26,7 +26,7 @@ KERNEL void lpcal_block_means(int64_t rows, int64_t columns, int64_t factor, int
     }
 }
 
-/* Signals, noise and whether all pixels count, of blocks of maps (L, height, width); `work` are twice width numbers. */
+/* Signals, noise and usability (all pixels usable) of blocks of maps (L, height, width); `work` are twice width numbers. */
 KERNEL void lpcal_blocks(int64_t L, int64_t rows, int64_t columns, int64_t factor, int64_t height, int64_t width, const float *signal,
                          const float *sigma, const bool *usable, double *work, double *joined, double *noise, bool *counts) {
     int64_t used = columns * factor;

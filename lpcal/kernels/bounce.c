@@ -1,10 +1,10 @@
-/* How well a reflectance explains what samples in shadow show. Twin: surface/interreflection.py (_fits). */
+/* Likelihood of shadowed samples under a reflectance. Twin: surface/interreflection.py (_fits). */
 
 #include "kernel.h"
 
 #define BLOCK 64
 
-/* Log likelihoods (T) of signals (N) of variance noise2 (N): each of T trials throws `by` (T, 3) times the three parts (3, N) there, which are
+/* Log likelihoods (T) of signals (N) of variance noise2 (N): each of T trials predicts `by` (T, 3) times the three parts (3, N), which are
    in doubt by a share; a share of the samples shows anything up to `top` (N). */
 KERNEL void lpcal_thrown_fits(int64_t T, int64_t N, const double *by, const double *parts, const double *signal, const double *noise2,
                               const double *top, double doubt, double other, double *found) {

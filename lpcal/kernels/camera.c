@@ -2,7 +2,7 @@
 
 #include "kernel.h"
 
-/* Distorted place of a point of the plane, and the derivatives J (2, 2); lens: k1 k2 p1 p2 k3 k4 k5 k6. */
+/* Distorted coordinates of a point of the plane, and their Jacobian J (2, 2); lens: k1 k2 p1 p2 k3 k4 k5 k6. */
 static inline void distorted(const double point[2], const double lens[8], double found[2], double J[4]) {
     double x = point[0], y = point[1], r2 = x * x + y * y, p1 = lens[2], p2 = lens[3];
     double above = 1 + r2 * (lens[0] + r2 * (lens[1] + r2 * lens[4])), below = 1 + r2 * (lens[5] + r2 * (lens[6] + r2 * lens[7]));
@@ -21,7 +21,7 @@ KERNEL void lpcal_distort(int64_t count, const double *plane, const double *lens
 
 #define BLOCK 64
 
-/* Places of the plane (count, 2) whose distorted places are given, by Newton's steps from those; all go on until the largest step is small. */
+/* Undistorted plane coordinates (count, 2) of distorted ones, by Newton's method; all iterate until the largest step is small. */
 KERNEL void lpcal_undistort(int64_t count, const double *given, const double *lens, int64_t most, double precision, double *plane) {
     double held[8], largest = INFINITY;
     memcpy(held, lens, sizeof held);

@@ -1,4 +1,4 @@
-/* Cuts of an image by primal-dual steps. Twins: segmentation/cut.py (_relaxed) and segmentation/layers.py (cheapest); to the last bit. */
+/* Segmentation of an image by a primal-dual method. Twins: segmentation/cut.py (_relaxed) and segmentation/layers.py (cheapest); to the last bit. */
 
 #include "kernel.h"
 
@@ -83,7 +83,7 @@ static void on_the_simplex(int64_t layers, double at[][BLOCK]) {
         }
 }
 
-/* Many labels on the way: layers of pictures. */
+/* State of the multi-label problem: images of all layers. */
 typedef struct {
     int64_t layers, rows, columns;
     const double *cost, *across, *down;

@@ -1,4 +1,4 @@
-/* What near light says of each pixel's own distance. Twin: surface/distance.py (_own). Light vectors B (L, P, 3), their slope by log depth,
+/* Each pixel's own distance from near light (variable projection). Twin: surface/distance.py (_own). Light vectors B (L, P, 3), their slope by log depth,
    signals (L, P), b (P, 3). */
 
 #include "kernel.h"

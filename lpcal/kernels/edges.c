@@ -1,4 +1,4 @@
-/* How well edges fit profiles across a curve, at all places of a window at once. */
+/* Misfit of edge models to profiles across a curve, at all positions of a window at once. */
 
 #include "kernel.h"
 

@@ -1,4 +1,4 @@
-/* What the samples of each pixel say of its b, by the states and the weights that they have at the b so far. Twin: shading/field.py
+/* Normal equations of each pixel's own samples, with their states and weights at the current b. Twin: shading/field.py
    (_gathered). Light comes from directions d (L, P, 3) with irradiances E (L, P), and as J (L, P, 3) from other surfaces. */
 
 #include "kernel.h"
@@ -7,7 +7,7 @@
 
 enum { MODEL, SHARED, DARK, THROWN_DOUBT, PRICE, HIDDEN, GLOSS_DOUBT, WIDTH2, STRENGTH, ROUGHNESS, WARMTH };
 
-/* How the lobe changes with the normal, along the tangents: see shading/gloss.py (turned). */
+/* Derivative of the lobe by the normal, in the tangent plane: see shading/gloss.py (turned). */
 static inline void turned(const double d[3], const double n[3], const double v[3], double a2, double found[3]) {
     double h[3] = {d[0] + v[0], d[1] + v[1], d[2] + v[2]}, length = greater(sqrt(dot3(h, h)), 1e-9);
     double nh = greater(dot3(h, n) / length, 0.0), nd = greater(dot3(d, n), 0.0), nv = greater(dot3(v, n), STEEPEST);
@@ -28,12 +28,12 @@ KERNEL void lpcal_lobe(int64_t L, int64_t P, const double *d, const double *n, c
         for (int64_t p = 0; p < P; p++) found[k * P + p] = lobe(d + 3 * (k * P + p), n + 3 * p, v + 3 * p, roughness * roughness);
 }
 
-/* A block of pixels: b, its length, normals, directions to the viewer, brightest samples, and their normal equations in the making. */
+/* A block of pixels: b, its length, normals, directions to the viewer, brightest samples, and their accumulating normal equations. */
 typedef struct {
     double b[3][BLOCK], albedo[BLOCK], n[BLOCK][3], top[BLOCK], M[6][BLOCK], right[3][BLOCK];
 } Pixels;
 
-/* What one light's samples of a block hold besides: light thrown by surfaces, whether the light is hidden, gloss and how it changes. */
+/* Further inputs of one light's samples of a block: interreflected light, occlusion, gloss and its derivative. */
 typedef struct {
     double thrown[3][BLOCK], hidden[BLOCK], shown[BLOCK], change[3][BLOCK];
 } Besides;

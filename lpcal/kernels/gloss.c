@@ -1,4 +1,4 @@
-/* A gloss lobe for a whole object: what no b explains of residuals and lobe, and what strengths of it cost. Twin: shading/gloss.py
+/* A gloss lobe for a whole object: residuals and lobe projected onto the complement of b, and the costs of its strengths. Twin: shading/gloss.py
    (_unexplained, _costs). Values are (L, P), light vectors B (L, P, 3); weights are 1 for samples that count, else 0. */
 
 #include "kernel.h"
@@ -21,7 +21,7 @@ static inline void solved(const double M[6], const double right[6], double b[6])
     }
 }
 
-/* What no b of a pixel explains of a residual and a shape of gloss: left and own (L, P), by the weights of a robust regression of the one on
+/* Residual and gloss lobe projected onto the complement of b: left and own (L, P), with the weights of a robust regression of the one on
    the other in so many rounds. `pull` (L, P) is work space. */
 KERNEL void lpcal_unexplained(int64_t L, int64_t P, const double *residual, const double *shape, const double *weight, const double *spread2,
                               const double *B, double width2, int64_t rounds, double *pull, double *left, double *own) {

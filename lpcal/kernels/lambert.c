@@ -3,7 +3,7 @@
 
 #include "kernel.h"
 
-/* Normal equations in the making, and what solves them: NaN where the lights do not span space. */
+/* Accumulation and solution of normal equations: NaN where the lights do not span space. */
 typedef struct {
     double M[3][3], right[3];
 } Equations;
@@ -40,7 +40,7 @@ KERNEL void lpcal_weighted(int64_t L, int64_t P, const double *B, const double *
 
 #define LANES 8
 
-/* A number of each of LANES pixels beside each other: what is done to all of them is done at once. */
+/* One value of each of LANES pixels, processed together (SIMD). */
 typedef double Lanes[LANES];
 
 static inline void exchanged(double *restrict low, double *restrict high) {
@@ -248,7 +248,7 @@ KERNEL void lpcal_many(int64_t L, int64_t P, const double *B, const double *sign
 
 #define FEW 8
 
-/* b of the three lights that count whose proposal the others contradict least, by no more than `most` each; NaN where none are. `weight` (L)
+/* b of the usable triple of lights with the least truncated misfit (at most `most` each) of the others; NaN where there is none. `weight` (L)
    is 1 over the variance of a sample that counts, else 0. */
 static void best_three(int64_t L, const Many *of, const Lanes *weight, double most, double singular, Lanes best[3]) {
     Lanes crossed[FEW][FEW][3], size[FEW], least;

@@ -95,7 +95,7 @@ KERNEL void lpcal_cluster_single(int64_t count, int64_t leds, const double *x, c
     }
 }
 
-/* How the vector of irradiance (count, 3) at points x (count, 3) changes with the logarithm of their distance from the frame's origin. */
+/* Derivative of the irradiance vector (count, 3) at points x (count, 3) by the logarithm of their distance from the frame's origin. */
 KERNEL void lpcal_cluster_slope(int64_t count, int64_t leds, const double *x, const double *place, const double *axis, const double *power,
                                 double m, double *slope) {
     Points at, total;

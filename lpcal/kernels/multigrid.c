@@ -175,7 +175,7 @@ typedef struct {
     double *closeness[2], *weight[2], *residual;
 } Edges;
 
-/* Weights by how well x keeps the steps: (C^2 / (C^2 + e^2))^2, C no less than `spread` medians of abs(e). */
+/* Weights from the residuals of the steps: (C^2 / (C^2 + e^2))^2, C no less than `spread` medians of abs(e). */
 static void weighed(const Edges *edges, Shape shape, const double *x, double robust, double spread, double least) {
     int64_t count = 0, close = 0;
     double narrow = robust / spread;

@@ -1,4 +1,4 @@
-/* What hangs together. Twin: integration/pieces.py (_connected). */
+/* Connected components of a graph of pixels. Twin: integration/pieces.py (_connected). */
 
 #include "kernel.h"
 
@@ -7,7 +7,7 @@ static int64_t first_of(int64_t *of, int64_t p) {
     return p;
 }
 
-/* A label (P) from 0 for each set of pixels that hang together over those of the edges a, b that are whole, in the order of their first
+/* Labels (P) from 0 of the components connected by the unbroken edges a, b, in the order of their first
    pixels (sets by union, halving the paths: Tarjan and van Leeuwen 1984). */
 KERNEL void lpcal_connected(int64_t P, int64_t edges, const int64_t *a, const int64_t *b, const bool *is_whole, int64_t *label) {
     for (int64_t p = 0; p < P; p++) label[p] = p;

@@ -1,4 +1,4 @@
-/* How well pixels fit a plane. Twin: segmentation/planes.py (misfit). Signals and those of a white plane are (L, P). */
+/* Misfit of pixels against a plane. Twin: segmentation/planes.py (misfit). Signals and those of the plane at albedo 1 are (L, P). */
 
 #include "kernel.h"
 
@@ -8,7 +8,7 @@
 
 enum { MODEL, SHADE, WEAK };
 
-/* The middle one of `sound` ratios among L, of which all others are the least. */
+/* The median of the `sound` ratios among L, the others being the smallest. */
 static double middle(const double ratio[][BLOCK], int64_t p, int64_t L, int64_t sound) {
     double sorted[MOST_LIGHTS];
     for (int64_t k = 0; k < L; k++) {

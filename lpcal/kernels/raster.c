@@ -1,4 +1,4 @@
-/* Pictures of rows and columns. Twins: geometry/raster.py, which asks scipy.ndimage. */
+/* Image operations. Twins: geometry/raster.py, which calls scipy.ndimage. */
 
 #include "kernel.h"
 
@@ -9,7 +9,7 @@ static int64_t first_of(int32_t *of, int64_t p) {
     return p;
 }
 
-/* A label (H, W) from 1 for each set of the mask's pixels that touch by their sides, in the order of their first pixels; 0 outside. */
+/* Labels (H, W) from 1 of the mask's 4-connected components, in the order of their first pixels; 0 outside. */
 KERNEL void lpcal_labelled(int64_t H, int64_t W, const bool *mask, int32_t *of, int32_t *label, int32_t *count) {
     for (int64_t i = 0; i < H; i++)
         for (int64_t j = 0, p = i * W; j < W; j++, p++) {
@@ -73,7 +73,7 @@ KERNEL void lpcal_nearest(int64_t H, int64_t W, const bool *mask, int64_t *work,
     }
 }
 
-/* The place within 0..n that a place beyond an end stands for; -1: nothing. Borders: 0 nothing, 1 the end's own, 2 mirrored. */
+/* The index in 0..n that replaces an index beyond an end; -1: zero. Borders: 0 zero, 1 nearest, 2 mirrored. */
 static int64_t within(int64_t at, int64_t n, int64_t border) {
     if (at >= 0 && at < n) return at;
     if (border == 0) return -1;
@@ -83,7 +83,7 @@ static int64_t within(int64_t at, int64_t n, int64_t border) {
     return at < n ? at : 2 * n - 1 - at;
 }
 
-/* Values (outer, n, inner) joined along the middle by weights (radius + 1) of their distance, the furthest first. Work: 3 n + 2 radius + BLOCK. */
+/* Values (outer, n, inner) convolved along the middle axis with a symmetric window (radius + 1), the furthest weight first. Work: 3 n + 2 radius + BLOCK. */
 #define JOINED(name, number)                                                                                                               \
     KERNEL void name(int64_t outer, int64_t n, int64_t inner, int64_t radius, int64_t border, const double *weight, double *work,          \
                      const number *values, number *found) {                                                                                \

@@ -1,4 +1,4 @@
-/* A depth map as a body that stands in the way, and the light that patches throw on each other past it.
+/* Occlusion by a depth map taken as a solid, and interreflection between patches with that occlusion.
    Twins: surface/relief.py (behind, hidden) and surface/interreflection.py (_received). */
 
 #include "kernel.h"
@@ -6,7 +6,7 @@
 #define PI 3.141592653589793
 #define WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding and taking it off rounds to the nearest whole number, halves to even */
 
-/* How far y lies behind the front (height, width), by its depth; -1 where there is none. */
+/* Depth of y behind the front (height, width), relative to the front's depth; -1 where there is none. */
 static double behind(const double y[3], int64_t height, int64_t width, const double *front, const double *pixel_of_ray) {
     double a = y[0] / y[2], b = y[1] / y[2];
     double power[6] = {1.0, a, b, a * a, a * b, b * b};
@@ -21,7 +21,7 @@ static double behind(const double y[3], int64_t height, int64_t width, const dou
     return y[2] / front[(int64_t)row * width + (int64_t)column] - 1.0;
 }
 
-/* Whether a point lies in the body: more than `tolerance` of its depth behind the front, and less than `thickness`. */
+/* Whether a point lies in the solid: more than `tolerance` of its depth behind the front, and less than `thickness`. */
 static bool holds(const double y[3], int64_t height, int64_t width, const double *front, const double *pixel_of_ray, double tolerance,
                   double thickness) {
     double deep = behind(y, height, width, front, pixel_of_ray);

@@ -54,7 +54,7 @@ KERNEL void lpcal_turns(int64_t S, int64_t N, int64_t pairs, const double *A, co
     }
 }
 
-/* By how much A_n X_s B_n misses Y_s: chord of the rotations (S, N) and distance (S, N); A, B (N, 4, 4), X, Y (S, 4, 4). */
+/* Residuals of A_n X_s B_n against Y_s: chord of the rotations (S, N) and distance (S, N); A, B (N, 4, 4), X, Y (S, 4, 4). */
 KERNEL void lpcal_misses(int64_t S, int64_t N, const double *A, const double *B, const double *X, const double *Y, double *chord,
                          double *distance) {
     for (int64_t s = 0; s < S; s++)

@@ -1,4 +1,4 @@
-/* What samples that hold a room's light say of a pixel, as matter of any normal or as part of a plane. Twin: segmentation/ambient_sample_costs.py (free,
+/* Costs of samples with unknown ambient light, for a surface of free normal or a plane. Twin: segmentation/ambient_sample_costs.py (free,
    planar). Signals are (L, P), at most MOST_LIGHTS of them a pixel; the room's light A of a pixel is share[k] A in the signal of light k. */
 
 #include "kernel.h"
@@ -57,7 +57,7 @@ static inline double solved(const double M[10], const double right[4], double x[
     return 1.0 / d3;
 }
 
-/* b (P, 3), A (P), cost (P) and information (P) of pixels as matter of any normal, lit by B (L, P, 3). */
+/* b (P, 3), A (P), cost (P) and information (P) of pixels as surfaces of free normal, lit by B (L, P, 3). */
 KERNEL void lpcal_room_free(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *B,
                             const float *doubt, const double *share, double level, const double *c, int64_t steps, double *b, double *A,
                             double *cost, double *information) {
@@ -209,7 +209,7 @@ static void consider(Best *best, const Block *of, const double m[][BLOCK], int64
     }
 }
 
-/* Cost (P), albedo (P), lit samples (L, P) and A (P) of pixels as parts of a plane of signals m (L, P). */
+/* Cost (P), albedo (P), lit samples (L, P) and A (P) of pixels on a plane of signals m (L, P). */
 KERNEL void lpcal_room_planar(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *m,
                               const float *doubt, const double *share, double level, const double *c, int64_t rounds, double *cost,
                               double *albedo, bool *lit, double *A) {

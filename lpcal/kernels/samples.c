@@ -1,4 +1,4 @@
-/* What samples say of a pixel as matter of any normal or as part of a plane, and what a table of the lights' field makes of a plane.
+/* Costs of samples for a surface of free normal or a plane, and the signals of a plane from a table of the light field.
    Twins: segmentation/sample_costs.py (free, planar) and segmentation/plane_hough.py (white). Signals are (L, P), at most MOST_LIGHTS of them a pixel. */
 
 #include "kernel.h"
@@ -8,7 +8,7 @@
 
 enum { MODEL2, BRIGHTER, DARKER, OUTLIER, DARK, HALF_DARK, DARK_SHARE, SHADOW, WIDTH2, SINGULAR };
 
-/* Not negative; what is no number stays none. */
+/* max(x, 0); NaN stays NaN. */
 static inline double from_zero(double x) { return x < 0.0 ? 0.0 : x; }
 
 static inline double square_residual(double signal, double predicted, double spread2, double top, const double *c) {
@@ -68,7 +68,7 @@ static void solved(int64_t L, const double B[][3][BLOCK], const double signal[][
     }
 }
 
-/* b (P, 3) and the cost (P) of pixels as matter of any normal, lit by B (L, P, 3); c holds the constants. */
+/* b (P, 3) and the cost (P) of pixels as surfaces of free normal, lit by B (L, P, 3); c holds the constants. */
 KERNEL void lpcal_free(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *B,
                        const float *doubt, const double *c, int64_t rounds, double *b, double *cost) {
     for (int64_t first = 0; first < P; first += BLOCK) {
@@ -121,7 +121,7 @@ KERNEL void lpcal_free(int64_t L, int64_t P, const double *signal, const double 
     }
 }
 
-/* Where an albedo explains a block's signals at less cost than those before, it takes their place. */
+/* Keep an albedo where it explains a block's signals at less cost than the best so far. */
 static void consider(const Block *of, int64_t L, const double m[][BLOCK], const double one[BLOCK], const double allowed[BLOCK],
                      const double *c, double least[BLOCK], double albedo[BLOCK], double lit[][BLOCK]) {
     double total[BLOCK] = {0.0}, count[BLOCK] = {0.0}, agree[MOST_LIGHTS][BLOCK], better[BLOCK];
@@ -141,7 +141,7 @@ static void consider(const Block *of, int64_t L, const double m[][BLOCK], const 
         for (int p = 0; p < BLOCK; p++) lit[k][p] = better[p] > 0.0 ? agree[k][p] : lit[k][p];
 }
 
-/* Cost (P), albedo (P) and lit samples (L, P) of pixels as parts of a plane that sends back m (L, P) where it is white. */
+/* Cost (P), albedo (P) and lit samples (L, P) of pixels on a plane that has signals m (L, P) at albedo 1. */
 KERNEL void lpcal_planar(int64_t L, int64_t P, const double *signal, const double *sigma, const bool *usable, const double *m,
                          const float *doubt, const double *c, double *cost, double *albedo, bool *lit) {
     for (int64_t first = 0; first < P; first += BLOCK) {
@@ -189,7 +189,7 @@ KERNEL void lpcal_planar(int64_t L, int64_t P, const double *signal, const doubl
     }
 }
 
-/* m (L, Q) of a white plane q (3) along rays (Q, 3) in pixels (Q) of a table (P, nodes, L, 3) of the field, 0 where a ray misses it or the
+/* m (L, Q) of a plane q (3) of albedo 1 along rays (Q, 3) in pixels (Q) of a table (P, nodes, L, 3) of the field, 0 where a ray misses it or the
    table; and the doubt (L, Q) of the nearest node. */
 KERNEL void lpcal_white(int64_t L, int64_t nodes, int64_t Q, const float *table, const float *doubts, double first, double step,
                         const double *q, const double *rays, const int64_t *pixel, double *m, float *doubt) {
