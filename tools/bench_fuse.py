@@ -6,9 +6,9 @@
 
 Prints, of the model: rms and quantiles of the distance along the true normal, the part of the true surface that two views see and the model
 has within a millimetre, angles of the normals, as it stands and once it is put where it belongs (a thin body half a millimetre off has the
-normals of another place), how many vertices lie within two of their sigmas, and the errors in sigmas, the part that all vertices share
-apart; of the single surfaces as they were placed: the same rms, and how far their distances are off, before and after; and how far each
-camera is from where it was, as placed and as aligned.
+normals of another place), the latter also in their sigmas, how many vertices lie within two of their sigmas, and the errors in sigmas, the
+part that all vertices share apart; of the single surfaces as they were placed: the same rms, and how far their distances are off, before
+and after; and how far each camera is from where it was, as placed and as aligned.
 """
 
 from __future__ import annotations
@@ -93,10 +93,13 @@ def of_model(truth: Truth, model: ObjectModel) -> dict:
     angle = np.degrees(np.arccos(np.clip((normals * model.normals_A).sum(axis=1), -1, 1)))
     common, back_O = shared_part(model.vertices_A, normals, off)
     own = np.degrees(np.arccos(np.clip((truth.along(back_O)[1] * model.normals_A).sum(axis=1), -1, 1)))
+    own_in_sigmas = own / np.degrees(model.normal_sigma_rad)
     few = model.seen_by <= 2
     return {
         "normals_median_deg": float(np.median(angle)),
         "normals_own_median_deg": float(np.median(own)),
+        "normals_sigma_median_deg": float(np.degrees(np.median(model.normal_sigma_rad))),
+        "normals_own_rms_in_sigmas": rms(own_in_sigmas) / np.sqrt(2),
         "normals_of_one_or_two_median_deg": float(np.median(own[few])) if few.any() else float("nan"),
         "seen_by_one_or_two_percent": 100 * float(few.mean()),
         "lone_within_2_sigma_percent": within(off, model.sigma_m, model.seen_by < 2),

@@ -16,7 +16,7 @@ import numpy as np
 from lpcal.geometry.arrays import Array, Index
 
 BIAS_RAD = float(np.radians(1.0))
-"""What every normal of a view may be off by at least: light between surfaces shows in no standard deviation of one view."""
+"""Least standard deviation, radians, with which a normal pulls at vertices: light between surfaces turns neighbours together."""
 HOLD_PX = 0.25
 """How far normals may pull a vertex off the views' mean, one standard deviation, in footprints of a pixel."""
 SLOW_PX = 8.0
@@ -25,8 +25,8 @@ LIKE_RAD = float(np.radians(5.0))
 """By how much a normal and the surface may differ and still tell of a slow error: some degrees; at steps and edges they differ by tens."""
 
 
-def with_detail(v: Array, n: Array, faces: Index, mean: Array, effective: Array, footprint_m: float) -> tuple[Array, Array, Array]:
-    """Vertices (V, 3) whose faces lie as the photometric normals say, those normals (V, 3), and their standard deviation (V,).
+def with_detail(v: Array, n: Array, faces: Index, mean: Array, effective: Array, footprint_m: float) -> tuple[Array, Array]:
+    """Vertices (V, 3) whose faces lie as the photometric normals say, and those normals (V, 3).
 
     `mean` (V, 3) is the views' weighted mean of normals, shorter where they differ, `effective` (V,) how many views it is worth.
     """
@@ -55,7 +55,7 @@ def with_detail(v: Array, n: Array, faces: Index, mean: Array, effective: Array,
     A = A + diags_array(np.full(count_v, (HOLD_PX * footprint_m) ** -2.0))
     g = np.bincount(a, w * ja * r, count_v) + np.bincount(b, w * jb * r, count_v)
     h, _ = cg(A, -g, rtol=1e-3, maxiter=300, M=diags_array(1 / A.diagonal()))
-    return v + n * h[:, None], m, sigma_n
+    return v + n * h[:, None], m
 
 
 def corrected(m: Array, n: Array, edges: Index, edge_m: float, footprint_m: float) -> Array:

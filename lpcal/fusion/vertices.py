@@ -17,13 +17,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned
 from lpcal.fusion.detail import with_detail
 from lpcal.fusion.factor import columns_of
 from lpcal.fusion.pairs import Placed, background
 from lpcal.fusion.views import look, may_see
-from lpcal.fusion.volume import Triangles, normals_of, weight_of
+from lpcal.fusion.volume import Triangles, area_of, held_together, normals_of, rested, weight_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Image, Index, Mask
 
@@ -66,6 +65,8 @@ class Evidence:
     column: Index
     bent_m: Image
     """How far off along its normal a view may be there against its own mean about the place, a standard deviation: see `_bent_m`."""
+    normal_std_rad: Image
+    """Standard deviation of the view's normal there, an axis."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,7 @@ class Vertices:
     views: Index
     """How many see it."""
     normal_sigma_rad: Array
+    """Standard deviation of each photometric normal, an axis."""
     shared_sigma_m: float
     """What of sigma all vertices share, rms: see `shared`."""
     loose_m2: float
@@ -99,17 +101,17 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
         rest = _resting(state, v, n, footprint_m)
         v = v + n * rest.off_m[:, None]
         n = normals_of(v, faces)
-    v, n_photometric, normal_sigma = with_detail(v, n, faces, rest.mean_normal_A, rest.effective, footprint_m)
+    v, n_photometric = with_detail(v, n, faces, rest.mean_normal_A, rest.effective, footprint_m)
     rest = _resting(state, v, n, footprint_m)
     seen, faces = rested(rest.count > 0, faces)
-    v, n, n_photometric, normal_sigma, rest = v[seen], n[seen], n_photometric[seen], normal_sigma[seen], rest.of(seen)
+    v, n, n_photometric, rest = v[seen], n[seen], n_photometric[seen], rest.of(seen)
     sigma = _sigma(aligned, rest, v, n, footprint_m)
     distance_m = float(np.median([one.view.distance_m for one in state]))
     lone = np.flatnonzero(rest.count == 1)
     loose = np.zeros(len(v), bool)
     loose[lone] = (sigma[lone] > LOOSE * distance_m) | (through(state, v[lone], LOOSE * distance_m) >= OUTVOTED)
     tied, held = held_together(faces, loose)
-    loose_m2 = _area(v, faces) - _area(v[tied], held)
+    loose_m2 = area_of(v, faces) - area_of(v[tied], held)
     v, n, rest = v[tied], n[tied], rest.of(tied)
     albedo = albedo_of(state, v, n, footprint_m)
     return Vertices(
@@ -119,7 +121,7 @@ def on_the_views(aligned: Aligned, rough: Triangles) -> Vertices:
         sigma[tied],
         rest.disagreement_m,
         rest.count,
-        normal_sigma[tied],
+        rest.normal_sigma_rad,
         _shared_m(aligned, v, n, rest.count),
         loose_m2,
     )
@@ -140,6 +142,17 @@ class Resting:
     disagreement_m: Array
     bent_m2: Array
     """Variance of their mean by what each view's normals may bend it within a cell of knots."""
+    turned_rad2: Array
+    """Variance of their mean normal, an axis, by the standard deviations that the views state."""
+
+    @property
+    def normal_sigma_rad(self) -> Array:
+        """Standard deviation of the mean normal, an axis: what views state, or what they differ by where that is more.
+
+        Each view has its lights elsewhere, so the views' errors are taken for independent. Where none sees a vertex nothing is known.
+        """
+        differ = 1 - np.minimum(np.linalg.norm(self.mean_normal_A, axis=1), 1)
+        return np.asarray(np.sqrt(np.maximum(self.turned_rad2, differ / np.where(self.count > 0, self.effective, 1))))
 
     def of(self, some: Index) -> Resting:
         """What they say of some of the vertices."""
@@ -165,51 +178,17 @@ def _resting(state: Sequence[Placed], v: Array, n: Array, footprint_m: float) ->
         disagreement = np.sqrt((off**2).sum(axis=0) / np.maximum(count - 1, 1))
         effective = np.maximum((share**2).sum(axis=0), 1e-3) ** -1
         bent = ((share * found.bent_m) ** 2).sum(axis=0)
-        parts.append((mean, np.einsum("nv,nvk->vk", share, found.normals_A), effective, count, disagreement, bent))
+        turned = ((share * found.normal_std_rad) ** 2).sum(axis=0)
+        parts.append((mean, np.einsum("nv,nvk->vk", share, found.normals_A), effective, count, disagreement, bent, turned))
     return Resting(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-
-def held_together(faces: Index, loose: Mask) -> tuple[Index, Index]:
-    """The vertices that stay, and the faces between them by their new numbers: faces with a loose corner go.
-
-    Raises
-    ------
-    DegenerateError
-        None would stay.
-    """
-    stays = faces[~loose[faces].any(axis=1)]
-    if not len(stays):
-        raise DegenerateError(
-            "every part is seen by one view alone and its distance is not known",
-            where="fuse",
-            needed="surfaces that overlap, or distances that are known better",
-            todo="take more captures round the object",
-        )
-    kept, numbers = np.unique(stays, return_inverse=True)
-    return kept, numbers.reshape(stays.shape)
-
-
-def _area(v: Array, faces: Index) -> float:
-    a, b, c = (v[faces[:, k]] for k in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
-
-
-def rested(rests: Mask, faces: Index) -> tuple[Index, Index]:
-    """The vertices that stay, and the faces between them by their new numbers: a patch that no view puts there goes.
-
-    Between two views that contradict each other, both seen by no third, the volume's zero lies where neither sees a surface. A face with
-    two corners at least that a view sees stays, so that no pinholes open where a surface turns sharply.
-    """
-    stays = faces[rests[faces].sum(axis=1) >= 2]
-    kept, numbers = np.unique(stays, return_inverse=True)
-    return kept, numbers.reshape(stays.shape)
 
 
 def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> Evidence:
     """What every view says of vertices with normals (V, 3)."""
     shape = len(state), len(v_A)
     weight, residual, normals = np.zeros(shape), np.zeros(shape), np.zeros((*shape, 3), np.float32)
-    row, column, bent = np.zeros(shape, np.intp), np.zeros(shape, np.intp), np.zeros(shape, np.float32)
+    row, column = np.zeros(shape, np.intp), np.zeros(shape, np.intp)
+    bent, normal_std = np.zeros(shape, np.float32), np.zeros(shape, np.float32)
     for k, one in enumerate(state):
         if not may_see(one.view, one.H_AC, v_A):
             continue
@@ -229,7 +208,8 @@ def evidence(state: Sequence[Placed], v_A: Array, n_A: Array, gate_m: float) -> 
         weight[k, at] = weight_of(one, row[k, at], column[k, at], cosine[at])
         residual[k, at], normals[k, at] = r[same], n_view[same]
         bent[k, at] = _bent_m(one, row[k, at], column[k, at], cosine[at])
-    return Evidence(weight, residual, normals, row, column, bent)
+        normal_std[k, at] = one.view.normal_std_rad[row[k, at], column[k, at]]
+    return Evidence(weight, residual, normals, row, column, bent, normal_std)
 
 
 def _bent_m(one: Placed, row: Index, column: Index, cosine: Array) -> Array:

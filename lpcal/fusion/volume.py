@@ -186,3 +186,40 @@ def normals_of(vertices_A: Array, faces: Index) -> Array:
         for axis in range(3):
             found[:, axis] += np.bincount(faces[:, k], flat[:, axis], len(vertices_A))
     return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-30))
+
+
+def held_together(faces: Index, loose: Mask) -> tuple[Index, Index]:
+    """The vertices that stay, and the faces between them by their new numbers: faces with a loose corner go.
+
+    Raises
+    ------
+    DegenerateError
+        None would stay.
+    """
+    stays = faces[~loose[faces].any(axis=1)]
+    if not len(stays):
+        raise DegenerateError(
+            "every part is seen by one view alone and its distance is not known",
+            where="fuse",
+            needed="surfaces that overlap, or distances that are known better",
+            todo="take more captures round the object",
+        )
+    kept, numbers = np.unique(stays, return_inverse=True)
+    return kept, numbers.reshape(stays.shape)
+
+
+def area_of(v: Array, faces: Index) -> float:
+    """The area of faces (F, 3) of vertices (V, 3)."""
+    a, b, c = (v[faces[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def rested(rests: Mask, faces: Index) -> tuple[Index, Index]:
+    """The vertices that stay, and the faces between them by their new numbers: a patch that no view puts there goes.
+
+    Between two views that contradict each other, both seen by no third, the volume's zero lies where neither sees a surface. A face with
+    two corners at least that a view sees stays, so that no pinholes open where a surface turns sharply.
+    """
+    stays = faces[rests[faces].sum(axis=1) >= 2]
+    kept, numbers = np.unique(stays, return_inverse=True)
+    return kept, numbers.reshape(stays.shape)

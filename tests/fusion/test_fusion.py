@@ -21,8 +21,8 @@ from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.missing import loops_of
 from lpcal.fusion.model import _fit, shared_covariance
 from lpcal.fusion.partners import everyone
-from lpcal.fusion.vertices import held_together, rested
 from lpcal.fusion.views import fitted, view_of
+from lpcal.fusion.volume import held_together, rested
 from lpcal.geometry import se3
 from lpcal.records.model import ObjectModel
 from lpcal.records.surface import Component, Surface
@@ -54,6 +54,24 @@ def test_the_model_is_nearer_than_the_views_and_says_how_near() -> None:
     assert all(view.used and view.agreement is not None and view.agreement > 0.8 for view in model.views)
     assert not model.warnings
     assert "10 of 10 used" in repr(model)
+
+
+def test_normals_have_the_sigma_that_the_views_state() -> None:
+    """Views whose normals are known to a degree: the mean of several is known better, and its errors are of that size.
+
+    All vertices share a move, which on a bumpy stone leads to other normals: they are compared where each vertex belongs.
+    """
+    found, model = fused()
+    v, n = model.vertices_A, found.normals(model.vertices_A)
+    away = v - v.mean(axis=0)
+    moves = np.column_stack([n, np.cross(away, n), (away * n).sum(axis=1)])
+    by = np.linalg.lstsq(moves, found.off_m(v))[0]
+    there = v - by[:3] - np.cross(by[3:6], away) - by[6] * away
+    angle = np.arccos(np.clip((found.normals(there) * model.normals_A).sum(axis=1), -1, 1))
+    sigma = model.normal_sigma_rad
+    assert 0.45 < np.sqrt(np.mean((angle / sigma) ** 2) / 2) < 1.1
+    assert np.degrees(np.median(sigma[model.seen_by >= 3])) < 0.75
+    assert np.degrees(np.median(sigma[model.seen_by == 1])) == pytest.approx(1.0, rel=0.02)
 
 
 @pytest.mark.slow
