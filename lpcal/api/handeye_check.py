@@ -166,6 +166,9 @@ def check_handeye(
         pairs = poses, np.ones(len(poses), dtype=bool)
     if pairs is not None:
         _motion(boards, *pairs, findings, HandEyeOptions(inverted=inverted, carries=carries))
+    if findings.wrong and stream is not None and boards.t_camera_s is not None:
+        misread = clock.misread_rate(track_of(stream), boards.t_camera_s, boards.H_CB)
+        findings.wrong = findings.wrong if misread is None else [misread]
     return HandEyeCheck(tuple(findings.notes), tuple(findings.wrong), tuple(findings.warnings), findings.figures)
 
 

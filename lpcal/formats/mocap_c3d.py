@@ -13,7 +13,7 @@ import numpy as np
 from lpcal.errors import InputError
 from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import is_rate
-from lpcal.formats.pose_table import METRES
+from lpcal.formats.pose_table import unit_of
 from lpcal.formats.reading import parse_limited
 
 OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")
@@ -40,7 +40,7 @@ def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
     if not points.size or not set(labels) - made:
         raise InputError("no markers", where=str(path), needed="points with labels", todo="export the marker trajectories")
     stated = "".join(parameters.get("UNITS", {"value": []})["value"]).strip().lower()
-    if units is None and stated not in METRES:
+    if units is None and unit_of(stated) is None:
         raise InputError(f"{stated!r} as unit of length", where=str(path), needed="m, cm or mm", todo="state mocap.units in panel.yaml")
     rate = float(parameters.get("RATE", {"value": [0]})["value"][0])
     if not is_rate(str(rate)):
@@ -49,7 +49,7 @@ def read_c3d(path: Path, units: str | None = None) -> MarkerTable:
     notes = (f"lengths read as {units}, as panel.yaml says, against the file's {stated}",) if units and stated not in {"", units} else ()
     t_s = (first + np.arange(points.shape[2])) / rate
     tracks = {label: track for label, track in zip(labels, x, strict=False) if label not in made}
-    return MarkerTable(t_s, tracks, units or stated, notes)
+    return MarkerTable(t_s, tracks, units or str(unit_of(stated)), notes)
 
 
 def parse(path: str) -> dict[str, Any]:

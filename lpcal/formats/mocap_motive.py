@@ -22,11 +22,10 @@ from lpcal.formats.body_choice import choose_body
 from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import read_numbers
 from lpcal.formats.outputs import whole
-from lpcal.formats.pose_table import PoseTable
+from lpcal.formats.pose_table import PoseTable, unit_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
-UNITS = {"meters": "m", "centimeters": "cm", "millimeters": "mm"}
 BODY_TYPES = ("rigid body", "bone")
 ERRORS = ("mean marker error", "error per marker")
 HEADER_ROWS = 30
@@ -200,11 +199,11 @@ def _rotation(
 
 
 def _units(header: _Header, units: str | None, path: Path) -> tuple[str, list[str]]:
-    stated = UNITS.get(header.keys.get("length units", "").lower())
+    said = header.keys.get("length units", "")
+    stated = unit_of(said)
     if units is None and stated is None:
-        raise InputError(
-            "the header does not say the unit of length", where=f"{path}:1", needed="Length Units", todo="state mocap.units in panel.yaml"
-        )
+        found = f"Length Units {said[:40]!r}" if said else "the header does not say the unit of length"
+        raise InputError(found, where=f"{path}:1", needed="Length Units: Meters, for example", todo="state mocap.units in panel.yaml")
     notes = [f"lengths read as {units}, as panel.yaml says, against the header's {stated}"] if units and stated not in {None, units} else []
     return units or str(stated), notes
 

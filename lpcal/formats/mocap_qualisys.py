@@ -36,6 +36,8 @@ class _Header:
     """Columns before the first block: Frame, Time."""
     timed: bool
     first_line: int
+    turned: bool = True
+    """Whether the row of labels, if there is one, has a rotation matrix."""
 
 
 def is_qualisys(text: str) -> bool:
@@ -60,6 +62,13 @@ def read_qualisys(text: str, path: Path, body: str | None, units: str | None = N
     names = header.keys[names_key]
     numbers = read_numbers("\n".join(lines[header.first_line - 1 :]) + "\n" * text.endswith("\n"), header.first_line, path, delimiter="\t")
     least = header.lead + width * len(names)
+    if bodies and numbers.shape[1] < least and not header.turned:
+        raise InputError(
+            "rotations as Roll, Pitch and Yaw alone, whose axes and order each QTM sets for itself",
+            where=f"{path}:{header.first_line - 1}",
+            needed="the columns Rot[0] to Rot[8]",
+            todo="export the 6D data anew with the rotation matrix",
+        )
     if numbers.shape[1] < least:
         raise InputError(f"{numbers.shape[1]} columns", where=f"{path}:{header.first_line}", needed=f"{least}", todo="export it again")
     rate = float(header.keys["FREQUENCY"][0])
@@ -101,7 +110,7 @@ def _header(lines: list[str], names_key: str, width: int, path: Path) -> _Header
     labelled = not is_number(cells[0]) and bool(cells[0])
     if labelled:
         lead = [cell.lower() for cell in cells[:2] if cell.lower() in {"frame", "time"}]
-        return _Header(keys, len(lead), "time" in lead, at + 2)
+        return _Header(keys, len(lead), "time" in lead, at + 2, any(cell.lower().startswith("rot[") for cell in cells))
     lead_columns = min(max(len(cells) - width * len(keys[names_key]), 0), 2)
     return _Header(keys, lead_columns, lead_columns == 2, at + 1)
 

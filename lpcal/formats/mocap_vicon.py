@@ -18,7 +18,7 @@ from lpcal.errors import InputError
 from lpcal.formats.body_choice import choose_body
 from lpcal.formats.marker_table import MarkerTable
 from lpcal.formats.number_table import is_rate, read_numbers
-from lpcal.formats.pose_table import METRES, PoseTable
+from lpcal.formats.pose_table import PoseTable, unit_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array
 
@@ -98,7 +98,7 @@ def _numbers(section: _Section, places: list[int], path: Path) -> tuple[Array, A
 
 def _unit(section: _Section, place: int, units: str | None, path: Path) -> str:
     stated = section.units[place] if place < len(section.units) else ""
-    unit = units or (stated if stated in METRES else None)
+    unit = units or unit_of(stated)
     if unit is None:
         raise InputError(
             f"{stated!r} as unit of length", where=f"{path}:{section.first_line - 1}", needed="m, cm or mm", todo="state mocap.units"

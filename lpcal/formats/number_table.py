@@ -73,13 +73,20 @@ def _complaint(text: str, first_line: int, path: Path, delimiter: str | None, co
             continue
         needed = needed or (1 + max(columns) if columns else len(cells))
         if len(cells) < needed:
-            return InputError(
-                f"{len(cells)} cells", where=f"{path}:{number}", needed=f"{needed}", todo="is the file cut off? export it again"
-            )
+            todo = _joined(text, number - first_line, delimiter) or "is the file cut off? export it again"
+            return InputError(f"{len(cells)} cells", where=f"{path}:{number}", needed=f"{needed}", todo=todo)
         for place in columns or range(needed):
             if cells[place] and not is_number(cells[place]):
-                return InputError(f"{cells[place]!r} in column {place + 1}", where=f"{path}:{number}", needed="a number")
+                found = f"{cells[place]!r} in column {place + 1}"
+                return InputError(found, where=f"{path}:{number}", needed="a number", todo=_joined(text, number - first_line, delimiter))
     return InputError("rows of unlike length", where=f"{path}:{first_line}", needed="as many numbers in every row")
+
+
+def _joined(text: str, row: int, delimiter: str | None) -> str:
+    """What to do about a row without numbers that has rows of numbers before and behind it."""
+    numbers = [is_number(line.split(delimiter)[0].strip()) for line in text.splitlines()]
+    both = any(numbers[:row]) and any(numbers[row + 1 :]) and not numbers[row]
+    return "is it the header of a second recording, joined to the first? keep one recording a file" if both else ""
 
 
 def is_number(cell: str) -> bool:

@@ -17,7 +17,14 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.observations import PoseStream
 
-METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}
+SPELLED = {"metre": "m", "meter": "m", "centimetre": "cm", "centimeter": "cm", "millimetre": "mm", "millimeter": "mm"} | {
+    "inch": "in",
+    "inche": "in",
+    "foot": "ft",
+    "feet": "ft",
+}
+"""Units of length as systems spell them out, small and without the plural's s."""
 QUATERNION_TOLERANCE = 0.02
 """How far from 1 the length of a quaternion may be."""
 FARTHEST_M = 1e5
@@ -36,6 +43,12 @@ SLOW_S, SLOW_ROWS, EVEN = 2.0, 200, 0.2
 TWO_STEPS, TWO_M, TWO_SHARE = 10.0, 0.005, 0.1
 """Two poses of one time, or neighbours in time, that are so many usual steps and metres apart, are of two bodies or recordings; of the
 repeated times it takes this share of all rows, for one stray row is no recording."""
+
+
+def unit_of(text: str) -> str | None:
+    """The unit of METRES that a file names: mm, Millimeters, inch, Feet; None for another."""
+    name = text.strip().lower()
+    return name if name in METRES else SPELLED.get(name) or SPELLED.get(name.removesuffix("s"))
 
 
 @dataclass(frozen=True)
@@ -157,6 +170,8 @@ def _refuse_two(t_s: Array, x_m: Array, seen: Mask, keep: npt.NDArray[np.intp], 
         return
     apart = np.linalg.norm(np.diff(x_m[order], axis=0), axis=1)
     same = np.diff(t_s[order]) < SUPERFLUOUS
+    if np.array_equal(rows, order) and same.sum() > len(order) / 2:
+        _refuse_coarse(t_s[keep], x_m[keep], apart[same], len(order), path)
     of_time, of_file = (np.linalg.norm(np.diff(x_m[some], axis=0), axis=1) for some in (keep, rows))
     twice = float(np.median(apart[same])) if same.sum() > TWO_SHARE * len(order) else 0.0
     pairs = ((twice, float(np.median(of_time))), (float(np.median(of_time)), float(np.median(of_file))))
@@ -168,6 +183,21 @@ def _refuse_two(t_s: Array, x_m: Array, seen: Mask, keep: npt.NDArray[np.intp], 
         where=str(path),
         needed="one body's recording, its times in one row",
         todo="keep one of them, or add a column that names the body",
+    )
+
+
+def _refuse_coarse(t_s: Array, x_m: Array, within_m: Array, count: int, path: Path) -> None:
+    """Stop where many poses bear one time, rounded so far that the body goes on its way between two times."""
+    leap = float(np.median(np.linalg.norm(np.diff(x_m, axis=0), axis=1)))
+    if leap <= max(TWO_M, TWO_STEPS * float(np.median(within_m))):
+        return
+    step = float(np.median(np.diff(t_s)))
+    raise DisagreementError(
+        f"{count} poses at {len(t_s)} times, {step:.4g} s from one to the next, between which the body moves by {1e3 * leap:.0f} mm: "
+        "the times are rounded",
+        where=str(path),
+        needed="a time of its own for each pose",
+        todo="export the times with more digits, or write the frame's number over the rate",
     )
 
 

@@ -295,3 +295,55 @@ def test_ros_refusals(tmp_path: Path, truth: tuple[Array, Array], monkeypatch: p
     monkeypatch.setitem(__import__("sys").modules, "rosbags.highlevel", None)
     with pytest.raises(InputError, match=r"pip install lpcal\[ros\]"):
         read_mocap(path, "panel")
+
+
+@pytest.mark.parametrize(("unit", "metres"), [("Inches", 0.0254), ("Feet", 0.3048), ("Centimeters", 0.01)])
+def test_units_are_read_as_they_are_spelled(tmp_path: Path, truth: tuple[Array, Array], unit: str, metres: float) -> None:
+    t, H_OP = truth
+    path = motive(tmp_path / "take.csv", t, H_OP)
+    path.write_text(path.read_text().replace("Length Units,Meters", f"Length Units,{unit}"))
+    np.testing.assert_allclose(read_mocap(path).H_OP[:, :3, 3], metres * H_OP[:, :3, 3], atol=1e-8)
+    path = vicon_poses(tmp_path / "vicon.csv", H_OP)
+    path.write_text(path.read_text().replace("mm", unit.lower()))
+    np.testing.assert_allclose(read_mocap(path).H_OP[:, :3, 3], metres * 1000 * H_OP[:, :3, 3], atol=1e-6)
+
+
+def test_a_unit_that_nobody_knows_is_shown(tmp_path: Path, truth: tuple[Array, Array]) -> None:
+    path = motive(tmp_path / "take.csv", *truth)
+    path.write_text(path.read_text().replace("Length Units,Meters", "Length Units,Furlongs"))
+    with pytest.raises(InputError, match="'Furlongs'"):
+        read_mocap(path)
+
+
+def test_two_takes_in_one_file_are_named(tmp_path: Path, truth: tuple[Array, Array]) -> None:
+    path = motive(tmp_path / "take.csv", *truth)
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([*lines, *lines]) + "\n")
+    with pytest.raises(InputError, match=rf"take\.csv:{len(lines) + 1}: .*\n.*\n.*the header of a second recording"):
+        read_mocap(path)
+    path.write_text("\n".join([*lines, "the end"]) + "\n")
+    with pytest.raises(InputError) as caught:
+        read_mocap(path)
+    assert "second recording" not in str(caught.value)
+
+
+def test_qualisys_without_matrices_says_what_to_export(tmp_path: Path, truth: tuple[Array, Array]) -> None:
+    _, H_OP = truth
+    path = qualisys(tmp_path / "take.tsv", "6D", ("Panel",), [body_block(H_OP)])
+    rows = [line.split("\t") for line in path.read_text().splitlines()]
+    path.write_text("\n".join("\t".join(row if len(row) < 18 else row[:9]) for row in rows) + "\n")
+    with pytest.raises(InputError, match=r"Roll, Pitch and Yaw alone.*\n.*Rot\[0\]"):
+        read_mocap(path)
+
+
+@pytest.mark.parametrize("digits", [0, 1, 6])
+def test_times_rounded_to_seconds_are_no_second_body(tmp_path: Path, digits: int) -> None:
+    t = np.arange(600) / RATE
+    rows = [f"{one:.{digits}f} {np.sin(one):.6f} {0.2 * one:.6f} 0 0 0 0 1" for one in t]
+    path = tmp_path / "tum.txt"
+    path.write_text("\n".join(rows) + "\n")
+    if digits:
+        assert len(read_mocap(path).t_s) >= 60
+    else:
+        with pytest.raises(DisagreementError, match=r"\d+ poses at 7 times, 1 s from one to the next.*rounded"):
+            read_mocap(path)

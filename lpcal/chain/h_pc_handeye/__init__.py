@@ -255,7 +255,9 @@ def start_moving(boards: BoardPoses, track: PoseTrack, t_camera_s: Array, camera
 def _by_the_clock(
     error: DisagreementError, boards: BoardPoses, track: PoseTrack, t_camera_s: Array, stated_s: float | None
 ) -> DisagreementError:
-    """The error of a motion that is not rigid, or that of the stated clock offset where the angles fit at another one only."""
+    """The error of a motion that is not rigid; that of a rate, or of the stated clock offset, where the angles fit at another one only."""
+    if stated_s is None and (misread := clocks.misread_rate(track, t_camera_s, boards.H_CB)) is not None:
+        return misread
     candidates = [] if stated_s is None else clocks.offset_candidates(track, t_camera_s - stated_s, boards.H_CB)
     if stated_s is None or not candidates:
         return error

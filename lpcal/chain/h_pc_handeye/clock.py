@@ -18,7 +18,7 @@ others, so it stays in and pulls the offset: hence a warning, though the views t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 
 import numpy as np
@@ -26,7 +26,7 @@ import numpy.typing as npt
 
 from lpcal.chain.h_pc_handeye.likelihood import Views, misfit
 from lpcal.chain.h_pc_handeye.state import SolveState
-from lpcal.errors import DegenerateError
+from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.geometry.pose_track import PoseTrack, poses_at
@@ -51,6 +51,8 @@ REACH_STEPS = 150
 """Steps to either side over which a plateau is followed: three seconds, as long as anybody rests for a photograph."""
 MOST_RATE, RATE_STEP_S = 2e-3, 0.1
 """Largest difference of two clocks' rates that is looked for (29.97 frames counted as 30 is half of it), and the step of the search."""
+MISREAD, MISREAD_GAIN = (2.0, 3.0, 4.0, 1.2, 1.25, 1.5, 5 / 3, 2.4), 2.0
+"""Ratios of rates that are taken for each other (a rate doubled, 120 for 100 or 50, 60 for 24), and how many RATE_GAINs one must bring."""
 RATE_GAIN = 1.0
 """How much the cost must fall, in logarithms of squares, for a rate to be believed."""
 
@@ -179,6 +181,27 @@ def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Arra
     if best == 0.0 or found[best] > found[0.0] - RATE_GAIN:
         return t_camera_s, 0.0
     return t_camera_s - best * (t_camera_s - middle), best
+
+
+def misread_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> DisagreementError | None:
+    """What to say where the angles fit only if the recording's times are those of another rate, as of a header that misstates it.
+
+    Any mistake of axes, order or direction leaves the angles of relative turns as they are; a rate that is misread does not.
+    """
+    stated = min((one.cost for one in offset_candidates(track, t_camera_s, H_CB)), default=np.inf)
+    costs = {}
+    for factor in (*MISREAD, *(1 / one for one in MISREAD)):
+        other = replace(track, t_s=factor * track.t_s, starts_s=factor * track.starts_s, ends_s=factor * track.ends_s)
+        costs[factor] = min((one.cost for one in offset_candidates(other, t_camera_s, H_CB)), default=np.inf)
+    best = min(costs, key=lambda factor: costs[factor])
+    if not costs[best] < stated - MISREAD_GAIN * RATE_GAIN:
+        return None
+    hz = 1 / float(np.median(np.diff(track.t_s)))
+    return DisagreementError(
+        f"the turns of body and camera fit only if the recording runs {best:.4g} times as long: at {hz / best:.4g} Hz, not {hz:.4g}",
+        needed="times of both clocks in true seconds",
+        todo="correct the recording's rate (its header's, or that of the export), or the images' times",
+    )
 
 
 def epochs(track: PoseTrack, t_camera_s: Array) -> str:

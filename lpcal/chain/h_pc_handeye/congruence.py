@@ -60,11 +60,13 @@ class Diagnosis:
     """Distance of the camera from the body's origin after the cure."""
 
     def better_than(self, other: Diagnosis | None) -> bool:
-        """Whether the cure is to be preferred: it fits better, or as well and with the camera nearer to the body.
+        """Whether the cure is to be preferred: it fits better with the camera about as near, or as well with the camera nearer to the body.
 
         Inverting the mocap's or the board's poses corrects the same mistake; only one leaves the camera near the body.
         """
         if other is None or self.cured < other.cured / ALIKE:
+            return True
+        if self.cured < other.cured and NEARER * self.reach_m < other.reach_m:
             return True
         return self.cured < other.cured * ALIKE and self.reach_m < NEARER * other.reach_m
 

@@ -78,7 +78,8 @@ def _other_angles(H_OP: Array, H_CB: Array) -> Iterator[tuple[str, str, Array, A
             if name != read and (read, name) != ("rpy_deg", "abc_deg"):
                 H = with_rotations(H_OP, meant(v))
                 words = f"the rotations' three numbers are of another order or kind than {read.split('_deg')[0]}: {MEANT[name]}"
-                yield words, f"write mocap.rotation: {name}{_other_way(read, name)}", H, H_CB
+                todo = f"write mocap.rotation: {name}{_other_way(read, name)}; of a recording, export quaternions"
+                yield words, todo, H, H_CB
 
 
 def _other_way(read: str, name: str) -> str:

@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import lpcal
 from handeye_scene import Session, moving_session
 from lpcal.chain.h_op_panel import track_of
 from lpcal.chain.h_pc_handeye import HandEyeOptions, solve_moving
+from lpcal.errors import DisagreementError
 
 
 def warnings(session: Session, t_camera_s: np.ndarray) -> str:
@@ -42,3 +44,22 @@ def test_blurred_boards_are_no_wrong_stamps(seed: int) -> None:
     H_CB[:, :3, 3] += shift
     smeared = replace(session, boards=replace(session.boards, corners_px=corners, H_CB=H_CB))
     assert "stamps" not in warnings(smeared, session.boards.t_camera_s)
+
+
+@pytest.mark.parametrize(("factor", "words"), [(2.0, "runs 0.5 times as long"), (0.5, "runs 2 times as long"), (1.2, "runs 0.8333 times")])
+def test_a_recording_whose_rate_is_misread_is_named(factor: float, words: str) -> None:
+    session = moving_session(np.random.default_rng(0), 48)
+    stream = replace(session.stream, t_s=factor * session.stream.t_s)
+    with pytest.raises(DisagreementError, match=words):
+        solve_moving(session.boards, track_of(stream), session.camera, HandEyeOptions())
+    found = lpcal.check_handeye(stream, session.boards)
+    assert [words in one.found for one in found.wrong] == [True]
+
+
+def test_other_mistakes_are_no_misread_rate() -> None:
+    session = moving_session(np.random.default_rng(1), 48)
+    mirrored = np.diag([1.0, -1.0, 1.0, 1.0])
+    for wrong in (np.linalg.inv(session.stream.H_OP), mirrored @ session.stream.H_OP @ mirrored):
+        found = lpcal.check_handeye(replace(session.stream, H_OP=wrong), session.boards)
+        assert found.wrong
+        assert "times as long" not in found.wrong[0].found
