@@ -14,7 +14,7 @@ from lpcal.api.lights import INTENSITY_STD
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, BY_LARGEST, Statements, sensor_of_camera, sensor_of_capture, unlike_plain
 from lpcal.api.staged import staged
 from lpcal.chain.refine_lights import refine_judged
-from lpcal.detect.ambient import ambient_changes, refuse_auto_exposure
+from lpcal.detect.ambient import ambient_changes, refuse_auto_exposure, room_changes
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
 from lpcal.detect.spheres import Expected, observe_sphere
@@ -99,8 +99,9 @@ def find_sphere(
     in_use = sensor_of_capture(raw, _saying(sensor, raw, camera))
     used = in_use.sensor
     plain = to_radiance(raw, used)
-    refuse_auto_exposure(plain, raw, used)
-    changes = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, used))
+    by_light = room_changes(plain)
+    refuse_auto_exposure(plain, raw, used, by_light)
+    changes = [f"left out: {image} is no light's" for image in raw.left_out] + list(ambient_changes(plain, raw, used, by_light))
     own = [f"{raw.name}: sensor: {in_use.document()['in_words']}"] if {BY_CAPTURE, BY_LARGEST} & {*in_use.said_by.values()} else []
     radiance = with_short_exposures(plain, raw, used) if kind == "matte" else plain
     hint = None if hint_px is None else given.shaped(hint_px, (3,), "hint_px")

@@ -27,7 +27,7 @@ from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, 
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import contradicting, far_stated, notes_of, refuse_outside
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
-from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient
+from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient, room_changes
 from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
@@ -254,10 +254,11 @@ def linear(raw: RawCapture, calibration: Calibration, saying: Statements) -> tup
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
     """The capture made linear, or the part of it that is asked for; notes hold what is said of it."""
     plain = to_radiance(raw, sensor)
-    if raw.ambient is not None:
-        refuse_foreign_ambient(plain)
+    changes = None if raw.ambient is None else room_changes(plain)
+    if changes is not None:
+        refuse_foreign_ambient(plain, changes)
     found = with_short_exposures(plain, raw, sensor)
-    notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor))
+    notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor, changes))
     whole = [replace(found, notes=notes, mask=found.mask if use_mask else None)]
     del plain, found  # a large capture's maps go as their parts are taken
     return whole.pop() if part is None else part.radiance(whole.pop())

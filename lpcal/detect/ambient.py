@@ -10,9 +10,10 @@ import numpy as np
 
 from lpcal.errors import DisagreementError
 from lpcal.geometry import raster
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import Sensor
+from lpcal.view import parallel
 
 BLOCK_PX, FEWEST_BLOCKS = 8, 40
 ROOM_SHARE, ROOM_SIGMAS = 0.3, 30.0
@@ -35,20 +36,28 @@ FAR_DARKER = 0.3
 """Share of the ambient light that lacks in the shadows of most lights from which its image cannot be one of theirs: a cloud takes less."""
 
 
-def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """Notes on the ambient light: that it changed, that it is stronger than the lights."""
+type RoomChanges = dict[str, tuple[float, float]]
+"""By light: how much more light there is than the ambient image says where the light does not reach, in shares of the ambient light there,
+and of what the light does to bright places."""
+
+
+def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges | None = None) -> tuple[str, ...]:
+    """Notes on the ambient light: that it changed, that it is stronger than the lights; by its `changes` (`room_changes`) where known."""
     if raw.ambient is None:
         return ()
     level = float(np.mean(_ambient_levels(raw, sensor)))
     lamps = _lamps(radiance, sensor)
-    found = ambient_changes(radiance, raw, sensor)
+    found = ambient_changes(radiance, raw, sensor, changes)
     if level > lamps > 0:
         found += (f"more ambient light than lamp light (the brightest lamp adds {100 * lamps / level:.0f} % of it): shade the scene",)
     return found
 
 
-def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tuple[str, ...]:
-    """Where the ambient light is not what its image says: it changed between its images, or in the image of a light."""
+def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges | None = None) -> tuple[str, ...]:
+    """Where the ambient light is not what its image says: it changed between its images, or in the image of a light.
+
+    By its `changes` in these (`room_changes`) where they are known.
+    """
     if raw.ambient is None:
         return ()
     levels = _ambient_levels(raw, sensor)
@@ -56,7 +65,7 @@ def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> tupl
     if len(levels) > 1 and np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
         change = 100 * np.ptp(levels) / max(level, 1e-12)
         return (f"the ambient light changed by {change:.0f} % between its {len(levels)} images; their mean was taken away",)
-    return tuple(_changes_in_frames(radiance))
+    return tuple(_changes_in_frames(room_changes(radiance) if changes is None else changes))
 
 
 def _ambient_levels(raw: RawCapture, sensor: Sensor) -> list[float]:
@@ -92,7 +101,7 @@ def refuse_bright_ambient(raw: RawCapture, sensor: Sensor) -> None:
         )
 
 
-def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) -> None:
+def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges) -> None:
     """Refuse a capture whose lit images were exposed less than its ambient image: the room in the shadows is darker under most lights.
 
     Raises
@@ -103,10 +112,10 @@ def refuse_auto_exposure(radiance: Radiance, raw: RawCapture, sensor: Sensor) ->
     levels = _ambient_levels(raw, sensor)
     if levels and np.ptp(levels) > DRIFT_SHARE * abs(np.mean(levels)):
         return  # the room's own light changed: its mean is no measure
-    _refuse_darker(radiance, SHADOWS_DARKER)
+    _refuse_darker(radiance, changes, SHADOWS_DARKER)
 
 
-def refuse_foreign_ambient(radiance: Radiance) -> None:
+def refuse_foreign_ambient(radiance: Radiance, changes: RoomChanges) -> None:
     """Refuse an ambient image that holds far more light than the shadows of most lights: one of another exposure, or with a lamp on.
 
     Raises
@@ -114,12 +123,12 @@ def refuse_foreign_ambient(radiance: Radiance) -> None:
     DisagreementError
         It does.
     """
-    _refuse_darker(radiance, FAR_DARKER)
+    _refuse_darker(radiance, changes, FAR_DARKER)
 
 
-def _refuse_darker(radiance: Radiance, by: float) -> None:
+def _refuse_darker(radiance: Radiance, changes: RoomChanges, by: float) -> None:
     """Stop where under most lights what they do not reach is darker than in the ambient image by more than a share."""
-    darker = [light for light, (change, _) in _room_changes(radiance).items() if change < -by]
+    darker = [light for light, (change, _) in changes.items() if change < -by]
     if len(darker) > 2 and 2 * len(darker) > len(radiance.lights):
         raise DisagreementError(
             f"under {', '.join(darker)} the places that no light reaches are darker than in the ambient image",
@@ -129,8 +138,7 @@ def _refuse_darker(radiance: Radiance, by: float) -> None:
         )
 
 
-def _changes_in_frames(radiance: Radiance) -> list[str]:
-    changes = _room_changes(radiance)
+def _changes_in_frames(changes: RoomChanges) -> list[str]:
     usual = float(np.median([change for change, _ in changes.values()])) if changes else 0.0
     darker = {light: change for light, (change, _) in changes.items() if change < -SHADOWS_DARKER}
     brighter = {
@@ -146,21 +154,23 @@ def _changes_in_frames(radiance: Radiance) -> list[str]:
     ]
 
 
-def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
-    """How much more light there is than the ambient image says where a light does not reach, the darkest blocks.
-
-    In shares of the ambient light there, and of what the light does to bright places.
-    """
+def room_changes(radiance: Radiance) -> RoomChanges:
+    """How far the ambient light is from what its image says, by the darkest blocks of each light's image; those without are left out."""
     signal = radiance.signal if radiance.signal.ndim == 3 else radiance.signal.mean(axis=3)
     ambient = radiance.ambient if radiance.ambient.ndim == 2 else radiance.ambient.mean(axis=2)
-    room = _block_mean(ambient[None])[0]
+    room = _block_mean(ambient)
     bright = room > max(ROOM_SHARE * float(np.median(room)), 0.0)
-    found, lamps = {}, _block_mean(signal)
-    for k, light in enumerate(radiance.lights):
+    lamps = np.stack(parallel.run_all(_block_mean, signal))
+    dark = IN_SHADOW * np.maximum(lamps.max(axis=0), 0.0)
+
+    def clear_of(k: int) -> Mask:
+        """Blocks where the room's light is bright and that of light k does not reach."""
         sigma = radiance.sigma[k] if radiance.sigma.ndim == 3 else radiance.sigma[k].mean(axis=-1)
-        clear = bright & (_block_mean(radiance.saturated[k][None].astype(np.float32))[0] == 0)
-        clear &= room > ROOM_SIGMAS * _block_mean(sigma[None])[0] / BLOCK_PX
-        lit, clear = lamps[k], clear & (lamps[k] < IN_SHADOW * np.maximum(lamps.max(axis=0), 0.0))
+        clear = bright & (room > ROOM_SIGMAS * _block_mean(sigma) / BLOCK_PX) & (lamps[k] < dark)
+        return clear & (_block_mean(radiance.saturated[k].astype(np.float32)) == 0) if radiance.saturated[k].any() else clear
+
+    found = {}
+    for light, lit, clear in zip(radiance.lights, lamps, parallel.run_all(clear_of, range(len(lamps))), strict=True):
         if clear.sum() > FEWEST_BLOCKS:
             change, further = (float(np.quantile(lit[clear] / room[clear], share)) for share in (DARKEST, 2 * DARKEST))
             if further - change < ALIKE * max(change, 1.0):
@@ -168,6 +178,6 @@ def _room_changes(radiance: Radiance) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _block_mean(images: Image) -> Array:
-    """Mean (L, h, w) over blocks of images (L, H, W)."""
-    return np.stack([raster.block_means(image, BLOCK_PX) for image in images])
+def _block_mean(image: Image) -> Array:
+    """Means (h, w) of blocks of an image (H, W)."""
+    return raster.block_means(image, BLOCK_PX)

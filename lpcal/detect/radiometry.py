@@ -27,6 +27,7 @@ from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.geometry.clipping import clipping_level, clipping_words
 from lpcal.records.observations import Radiance, RawCapture
 from lpcal.records.sensor import FlatField, Sensor, StatedSensor
+from lpcal.view import parallel
 
 NO_AMBIENT = "no ambient image: what lights the scene beside the lights is not taken away"
 """The note of a capture whose ambient light nothing shows; it no longer holds once that light is estimated."""
@@ -115,8 +116,11 @@ def part_to_radiance(part: RawCapture, sensor: Sensor, noise: tuple[float, float
 def _linear(raw: RawCapture, sensor: Sensor) -> Image:
     """The linear numbers of the lights' images."""
     signal = np.empty(raw.images.shape, np.float32)
-    for image, stored in zip(signal, raw.images, strict=True):
-        image[...] = sensor.linear(stored)
+
+    def fill(k: int) -> None:
+        signal[k] = sensor.linear(raw.images[k])
+
+    parallel.run_all(fill, range(len(signal)))
     return signal
 
 
@@ -130,8 +134,12 @@ def _unit_exposure(raw: RawCapture, sensor: Sensor, linear: Image, noise: tuple[
         ambient_variance = np.asarray(np.mean(_variance(ambient_linear, noise) / times**2, axis=0) / len(ambient_linear), np.float32)
     sigma = np.empty(linear.shape, np.float32)
     uneven = None if np.all(response == 1) else response
-    for lit, std, exposure in zip(linear, sigma, raw.exposure_s.astype(np.float32), strict=True):
-        _unit_exposure_of(lit, std, exposure, noise, (ambient, ambient_variance), uneven)
+    exposures = raw.exposure_s.astype(np.float32)
+
+    def of(k: int) -> None:
+        _unit_exposure_of(linear[k], sigma[k], exposures[k], noise, (ambient, ambient_variance), uneven)
+
+    parallel.run_all(of, range(len(linear)))
     return sigma, ambient
 
 
@@ -191,7 +199,7 @@ def noise_model(linear: Image, saturated: Mask, step: float) -> tuple[float, flo
     The second difference along both axes (kernel of Immerkaer 1996) leaves noise where an image is smooth. Of the blocks of one
     brightness those in the lower quarter of its variance count, so that texture and edges do not.
     """
-    found = [_levels_of(image, full) for image, full in zip(linear, saturated, strict=True)]
+    found = parallel.run_all(lambda k: _levels_of(linear[k], saturated[k]), range(len(linear)))
     level, variance = (np.concatenate(parts).astype(float) for parts in zip(*found, strict=True))
     quantisation = (step**2) / 12
     if level.size < 20 * NOISE_BINS:
@@ -209,6 +217,8 @@ def _levels_of(linear: Image, saturated: Mask) -> tuple[Image, Image]:
     kernel_rows = stack[:, :-2] - 2 * stack[:, 1:-1] + stack[:, 2:]
     detail = (kernel_rows[:, :, :-2] - 2 * kernel_rows[:, :, 1:-1] + kernel_rows[:, :, 2:]) / 6.0
     level, variance = _block_mean(stack[:, 1:-1, 1:-1]), _block_mean(detail**2)
+    if not saturated.any():
+        return level.ravel(), variance.ravel()
     fine = np.broadcast_to(_block_mean(saturated[None, 1:-1, 1:-1].astype(np.float32)) == 0, level.shape)
     return level[fine], variance[fine]
 

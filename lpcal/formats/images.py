@@ -141,7 +141,8 @@ def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple
     found = np.empty((len(paths), *shape) if paths else 0, np.float32)
 
     def fill(k: int) -> None:
-        found[k] = read(paths[k]).image.pixels
+        numbers = read(paths[k])
+        np.divide(numbers.stored, np.float32(numbers.full_scale), out=found[k], dtype=np.float32)
 
     parallel.run_all(fill, range(len(paths)))
     return found

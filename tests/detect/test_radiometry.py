@@ -11,6 +11,7 @@ import pytest
 from lpcal.detect.radiometry import Sensor, fit_flat_field, noise_model, to_radiance
 from lpcal.errors import DegenerateError, DisagreementError
 from lpcal.records.observations import RawCapture
+from lpcal.view.parallel import cores
 
 SHAPE = (96, 128)
 
@@ -191,3 +192,28 @@ def test_a_black_level_over_the_darkest_pixels_is_refused(black: float, stated: 
     assert f"stated as {100 * stated:.3g} %" in error.value.found
     to_radiance(capture(images, step=1 / 65535), Sensor(black_level=black))
     to_radiance(capture(images, step=1 / 65535), Sensor(black_level=black + 0.003))
+
+
+@pytest.mark.parametrize("channels", [(), (3,)])
+def test_any_number_of_cores_finds_the_same(channels: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(5)
+    images = rng.uniform(0.05, 1.0, (5, 96, 130, *channels)).astype(np.float32)
+    raw = capture(images, 0.5 * images[:1], exposure_s=np.linspace(1, 2, 5))
+    found = []
+    for count in (1, 2, 5):
+        with cores(count):
+            found.append(to_radiance(raw, Sensor(black_level=0.02)))
+    for one in found[1:]:
+        assert np.array_equal(one.signal, found[0].signal)
+        assert np.array_equal(one.sigma, found[0].sigma)
+
+
+def test_the_noise_is_the_same_whether_pixels_are_known_not_to_saturate_or_looked_at() -> None:
+    rng = np.random.default_rng(6)
+    smooth = np.linspace(0.1, 0.8, 240, dtype=np.float32) + np.zeros((4, 200, 240), np.float32)
+    linear = smooth + rng.normal(0, 0.01, smooth.shape).astype(np.float32)
+    full = np.zeros(linear.shape, bool)
+    full[:, 0, 0] = True  # of no block, as the finest detail has no rim
+    assert noise_model(linear, full, 1e-5) == noise_model(linear, np.zeros_like(full), 1e-5)
+    full[:, :, 120:] = True
+    assert noise_model(linear, full, 1e-5) != noise_model(linear, np.zeros_like(full), 1e-5)

@@ -9,7 +9,7 @@ import pytest
 
 import lpcal
 from lit_scene import Scene, calibration, draw
-from lpcal.detect.ambient import ambient_notes, refuse_foreign_ambient
+from lpcal.detect.ambient import ambient_notes, refuse_foreign_ambient, room_changes
 from lpcal.detect.radiometry import Sensor, to_radiance
 from lpcal.errors import DisagreementError
 from lpcal.records.observations import RawCapture
@@ -94,18 +94,41 @@ def in_a_room(level: float, of_ambient: float) -> RawCapture:
     return replace(raw, images=0.7 * raw.images + room, ambient=(of_ambient * (room + np.zeros_like(noise)) + noise)[None])
 
 
+def refused_or_not(raw: RawCapture) -> None:
+    radiance = to_radiance(raw, Sensor())
+    refuse_foreign_ambient(radiance, room_changes(radiance))
+
+
+def test_places_where_a_light_saturates_say_nothing_of_the_room() -> None:
+    rng, room = np.random.default_rng(4), np.full((200, 240), 0.2, np.float32)
+    images = np.tile(1.05 * room, (4, 1, 1)) + rng.normal(0, 1e-3, (4, *room.shape)).astype(np.float32)
+    for k in range(4):  # each light reaches a quarter of the picture
+        images[k, :, 60 * k : 60 * (k + 1)] += 0.5
+    raw = RawCapture("test", tuple("abcd"), images, np.ones(4), room[None], np.ones(1), step=1 / 65535)
+    radiance = to_radiance(raw, Sensor())
+    seen = room_changes(radiance)
+    assert list(seen) == list(radiance.lights)
+    assert [change for change, _ in seen.values()] == pytest.approx([0.05] * 4, abs=0.01)
+    assert room_changes(replace(radiance, saturated=np.ones_like(radiance.saturated))) == {}
+    one = radiance.saturated.copy()
+    one[0] = True
+    assert room_changes(replace(radiance, saturated=one)) == {
+        light: change for light, change in seen.items() if light != radiance.lights[0]
+    }
+
+
 @pytest.mark.parametrize("times", [2.0, 4.0])
 def test_an_ambient_image_of_another_exposure_is_refused(times: float) -> None:
     raw = in_a_room(0.08, times)
     with pytest.raises(DisagreementError, match="the places that no light reaches are darker than in the ambient image"):
-        refuse_foreign_ambient(to_radiance(raw, Sensor()))
+        refused_or_not(raw)
     with pytest.raises(DisagreementError, match="ambient image"):
         lpcal.reconstruct(raw, calibration(), mask="none")
 
 
 @pytest.mark.parametrize("times", [0.8, 1.0, 1.1])
 def test_a_room_that_changes_a_little_is_not(times: float) -> None:
-    refuse_foreign_ambient(to_radiance(in_a_room(0.08, times), Sensor()))
+    refused_or_not(in_a_room(0.08, times))
 
 
 def test_of_one_ambient_image_nothing_changes() -> None:

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from lpcal.errors import DisagreementError, InputError
-from lpcal.formats.images import read_image
+from lpcal.formats.images import read_image, read_numbers, stacked
 from lpcal.pipeline.intrinsics import search
 from lpcal.pipeline.workspace import Workspace
 from lpcal.records.observations import Board
@@ -136,3 +136,15 @@ def test_what_is_no_picture_yet_is_named(tmp_path: Path, name: str, monkeypatch:
     (tmp_path / name).write_bytes(b"RIFF")
     with pytest.raises(InputError, match="turn it into PNG or TIFF first"):
         read_image(tmp_path / name)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize("channels", [(), (3,)])
+def test_images_are_stacked_as_each_is_read(tmp_path: Path, dtype: type[Any], channels: tuple[int, ...]) -> None:
+    rng, paths = np.random.default_rng(1), [tmp_path / f"{k}.tiff" for k in range(3)]
+    for path in paths:
+        numbers = rng.uniform(0, 1, (7, 9, *channels)) * (1 if dtype is np.float32 else np.iinfo(dtype).max)
+        cv2.imwrite(str(path), numbers.astype(dtype))
+    found = stacked(paths, read_numbers, (7, 9, *channels))
+    assert found.dtype == np.float32
+    assert np.array_equal(found, np.stack([read_image(path).pixels for path in paths]))
