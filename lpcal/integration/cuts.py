@@ -14,6 +14,19 @@ MOST = 2**31 - 1
 """Largest of these numbers: the library counts in 32 bits."""
 
 
+def cheapest_change(grid: Grid, taken: Array, neither: Array, only_a: Array, only_b: Array, both: Array) -> Mask:
+    """The pixels (P,) to change, where a change costs `taken` (P,) and an edge what is given (edges,) for those of its ends that change.
+
+    Edges for which ``only_a + only_b < neither + both`` have the dearer of the two raised until they do not: no change is then worth more
+    than it is. Source: Rother, Kumar, Kolmogorov and Blake 2005, Digital tapestry, CVPR.
+    """
+    lack = np.maximum(neither + both - only_a - only_b, 0)
+    only_a, only_b = only_a + lack * (only_a >= only_b), only_b + lack * (only_a < only_b)
+    of_a, of_b = (both - neither + only_a - only_b) / 2, (both - neither + only_b - only_a) / 2
+    total = taken + np.bincount(grid.a, of_a, len(taken)) + np.bincount(grid.b, of_b, len(taken))
+    return cheapest(grid, total, np.maximum((only_a + only_b - neither - both) / 2, 0))
+
+
 def cheapest(grid: Grid, taken: Array, parted: Array) -> Mask:
     """The pixels (P,) to take, where one costs `taken` (P,) and an edge with one of its pixels taken `parted` (edges,), no less than 0.
 

@@ -96,11 +96,7 @@ class _Cost:
 
     def _worth(self, u: Array, d: float) -> Mask:
         """The pixels (P,) that are worth a jump by d."""
-        grid, own, residual = self.grid, self.own, self.residual(u)
+        own, residual = self.own, self.residual(u)
         here, of_a, of_b = (self.of_edges(one) for one in (residual, residual - d, residual + d))
-        lack = np.maximum(2 * here - of_a - of_b, 0)
-        of_a, of_b = of_a + lack * (of_a >= of_b), of_b + lack * (of_a < of_b)
-        uneven = (of_a - of_b) / 2
         taken = own.curvature * d * (d + 2 * (u - own.optimum))
-        taken = taken + np.bincount(grid.a, uneven, len(u)) - np.bincount(grid.b, uneven, len(u))
-        return cuts.cheapest(grid, taken, np.maximum((of_a + of_b) / 2 - here, 0))
+        return cuts.cheapest_change(self.grid, taken, here, of_a, of_b, here)

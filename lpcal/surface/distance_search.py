@@ -5,6 +5,10 @@ interreflection, the light field from a table) run from every start of a sweep; 
 
     cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
 
+An object of several bodies may be right only in parts from any one start. So the best minimum takes over parts of the others, one after
+the other, by fusion moves: each changes the set of pixels for which the cost falls the most (integration.cuts). Rounds from the result
+give one more minimum. Source: Lempitsky, Rother, Roth and Blake 2010, IEEE Trans. PAMI 32.
+
 The probability of a minimum is proportional to ``exp(-INDEPENDENT (cost - least) / 2)``, in units of the least cost per light (errors of
 the model are correlated between pixels), times a broad prior about the working distance, ``1 / (1 + (log ratio / WORKING)^2)``, which
 decides where the light hardly determines the distance. The full solve starts at the most probable minimum.
@@ -16,13 +20,14 @@ distance gives its standard deviation (`std_of`).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
 
 import numpy as np
 
 from lpcal.geometry import lambert, raster
 from lpcal.geometry.arrays import Array, Mask
-from lpcal.integration import pieces
+from lpcal.integration import cuts, pieces
 from lpcal.integration.integrate import Grid, integrate, settle, steps
 from lpcal.records.calibration import Light
 from lpcal.records.outcome import Progress, silent
@@ -126,7 +131,7 @@ def search(
     grid = Grid.of(inside)
     done: list[float] = []
 
-    def ended(share_of_working: float) -> DistanceMinimum:
+    def ended(share_of_working: float) -> _End:
         end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
         done.append(share_of_working)
         progress(f"{name}: distance", len(done), len(STARTS))
@@ -134,7 +139,9 @@ def search(
 
     progress(f"{name}: distance", 0, len(STARTS))
     ends: list[DistanceMinimum] = []
-    for end in parallel.run_all(ended, STARTS):
+    from_starts = parallel.run_all(ended, STARTS)
+    fused = _fused(from_starts)
+    for end in (one.minimum for one in (from_starts if fused is None else [*from_starts, _rounds(seen, grid, table, fused, 0)])):
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
             ends.append(end)
@@ -224,14 +231,63 @@ def _costs(found: Estimate) -> Array:
     return np.where(np.isfinite(found.b[:, 0]), found.cost, OUTLIER2 * len(found.inliers))
 
 
-def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> DistanceMinimum:
-    """Plain rounds from u (P,)."""
+@dataclass(frozen=True)
+class _Edges:
+    """Steps of log depth between neighbouring pixels, by their normals."""
+
+    grid: Grid
+    step: Array
+    """(edges,)."""
+    sigma: Array
+    """(edges,)."""
+
+    def costs(self, u_a: Array, u_b: Array) -> Array:
+        """Cost (edges,) of log depths u_a and u_b (edges,) at their ends."""
+        return np.minimum(((u_b - u_a - self.step) / self.sigma) ** 2, OUTLIER2)
+
+    def exchanged(self, other: _Edges, some: Mask) -> _Edges:
+        """Those of another end where `some` (edges,)."""
+        return replace(self, step=np.where(some, other.step, self.step), sigma=np.where(some, other.sigma, self.sigma))
+
+
+@dataclass(frozen=True)
+class _End:
+    """An end of the rounds, and what it costs where."""
+
+    u: Array
+    """(P,) log depth."""
+    of_pixels: Array
+    """(P,) cost of the samples of each pixel."""
+    edges: _Edges
+
+    @property
+    def minimum(self) -> DistanceMinimum:
+        """The same as a whole."""
+        a, b = self.edges.grid.a, self.edges.grid.b
+        return DistanceMinimum(self.u, float(self.of_pixels.mean() + self.edges.costs(self.u[a], self.u[b]).mean()))
+
+    def partly(self, other: _End) -> _End:
+        """With those parts of another end that lower the cost the most."""
+        grid = self.edges.grid
+        here, there = ((one.u[grid.a], one.u[grid.b]) for one in (self, other))
+        mixed = (there[0], here[1]), (here[0], there[1])
+        only_a, only_b = (np.minimum(self.edges.costs(*u), other.edges.costs(*u)) for u in mixed)
+        per_edge = len(self.u) / len(grid.a)  # the cost is one of means
+        of_edges = (per_edge * cost for cost in (self.edges.costs(*here), only_a, only_b, other.edges.costs(*there)))
+        some = cuts.cheapest_change(grid, other.of_pixels - self.of_pixels, *of_edges)
+        u, of_pixels = np.where(some, other.u, self.u), np.where(some, other.of_pixels, self.of_pixels)
+        return _End(u, of_pixels, self.edges.exchanged(other.edges, some[grid.a] & some[grid.b]))
+
+
+def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array, graduated: int = GRADUATED) -> _End:
+    """Plain rounds from u (P,), the first of which look for all jumps."""
     pixels = np.arange(seen.pixels)
 
     def slope_of(some: slice) -> Array:
         return table.slope(u[some], pixels[some])
 
-    cost = np.inf
+    of_pixels = np.full(seen.pixels, OUTLIER2 * len(seen.signal))
+    edges = _Edges(grid, np.zeros(len(grid.a)), np.ones(len(grid.a)))
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
         B = table.at(u, pixels)[0]
@@ -241,12 +297,18 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> Distanc
             break
         n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
         step, sigma = steps(grid, n, seen.rays_C, central=True)
-        strained = np.minimum(((u[grid.b] - u[grid.a] - step) / sigma) ** 2, OUTLIER2)
-        cost = float(_costs(found).mean() + strained.mean())
+        of_pixels, edges = _costs(found), _Edges(grid, step, sigma)
         if k == ROUNDS:
             break
         own = distance.own_distance(B, slope_of, np.exp(u), seen, found)
-        u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
+        u, weight = integrate(grid, step, sigma, own, u, graduated=k < graduated)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, own, u, weight)
-    return DistanceMinimum(u, cost)
+    return _End(u, of_pixels, edges)
+
+
+def _fused(ends: Sequence[_End]) -> Array | None:
+    """Log depth (P,) put together from parts of several ends, where that costs less than the best of them; None where it does not."""
+    best, *others = sorted(ends, key=lambda one: one.minimum.cost)
+    fused = reduce(_End.partly, others, best)
+    return None if np.array_equal(fused.u, best.u) else fused.u

@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 
 from lit_scene import Scene, calibration, draw, truth
+from lpcal.geometry.arrays import Array
+from lpcal.integration.integrate import Grid
 from lpcal.records.observations import Radiance
+from lpcal.surface import distance_search
 from lpcal.surface.distance_search import DistanceMinima, DistanceMinimum, odds_of, search
 from lpcal.view import pixel_list
 
@@ -60,3 +63,27 @@ def test_what_the_model_lacks_makes_basins_more_alike() -> None:
 
 def replace_all(given: DistanceMinima, by: float) -> DistanceMinima:
     return replace(given, ends=tuple(replace(one, cost=one.cost + by) for one in given.ends))
+
+
+def two_ends(cost: float) -> tuple[distance_search._End, distance_search._End, Array]:
+    """One end is right on the left, the other, half a unit of log depth further away, on the right; elsewhere a pixel costs `cost`."""
+    grid = Grid.of(np.ones((20, 30), bool))
+    left = grid.columns < 12
+    edges = distance_search._Edges(grid, np.zeros(len(grid.a)), np.full(len(grid.a), 0.01))
+    near = distance_search._End(np.zeros(len(left)), np.where(left, 1.0, 1 + cost), edges)
+    far = distance_search._End(np.full(len(left), 0.5), np.where(left, 1 + cost, 1.0), edges)
+    return near, far, np.where(left, 0.0, 0.5)
+
+
+def test_parts_that_are_right_from_different_starts_are_put_together() -> None:
+    near, far, right = two_ends(20.0)
+    fused = distance_search._fused([near, far])
+    assert fused is not None
+    assert np.array_equal(fused, right)
+    whole = near.partly(far)
+    assert whole.minimum.cost < min(near.minimum.cost, far.minimum.cost)
+
+
+def test_an_end_that_costs_hardly_more_anywhere_stays_whole() -> None:
+    near, far, _ = two_ends(0.2)  # the break along twenty edges costs more than the pixels gain
+    assert distance_search._fused([near, far]) is None
