@@ -141,7 +141,7 @@ def search(
     ends: list[DistanceMinimum] = []
     from_starts = parallel.run_all(ended, STARTS)
     fused = _fused(from_starts)
-    for end in (one.minimum for one in (from_starts if fused is None else [*from_starts, _rounds(seen, grid, table, fused, 0)])):
+    for end in (one.minimum for one in (from_starts if fused is None else [*from_starts, _rounds(seen, grid, table, fused)])):
         twin = next((k for k, one in enumerate(ends) if abs(np.median(one.u - end.u)) < APART), None)
         if twin is None:
             ends.append(end)
@@ -279,8 +279,8 @@ class _End:
         return _End(u, of_pixels, self.edges.exchanged(other.edges, some[grid.a] & some[grid.b]))
 
 
-def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array, graduated: int = GRADUATED) -> _End:
-    """Plain rounds from u (P,), the first of which look for all jumps."""
+def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _End:
+    """Plain rounds from u (P,)."""
     pixels = np.arange(seen.pixels)
 
     def slope_of(some: slice) -> Array:
@@ -301,7 +301,7 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array, graduated:
         if k == ROUNDS:
             break
         own = distance.own_distance(B, slope_of, np.exp(u), seen, found)
-        u, weight = integrate(grid, step, sigma, own, u, graduated=k < graduated)
+        u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, own, u, weight)
     return _End(u, of_pixels, edges)

@@ -211,14 +211,14 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, inter
         else:
             lit, reflects = _interreflected(scene, depth, shaped, lit, by_object, hidden)
     usable = normals.candidates(seen, lit.E, hidden)
-    glossy = interreflection.COMMON if reflects is None else reflects.median
+    glossy = (k >= SHAPE_ROUND or not scene.near) and not interreflection_known
     whole = _estimated(
         scene,
         lit,
         usable,
         hidden,
         before,
-        glossy if (k >= SHAPE_ROUND or not scene.near) and not interreflection_known else None,
+        interreflection.COMMON if glossy else None,
         CARRIED_ROUNDS if interreflection_known else None,
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
