@@ -9,7 +9,8 @@ the complement of what b can explain (variable projection, Golub and Pereyra 197
 reflectance R and albedo b in the signals' unit has the normal-incidence reflectance ``F0 = ks R / (pi b)``. Common matter has F0 near .045,
 which is the prior. R is that of common matter, too: an estimate from interreflection may be too small at first, by which any lobe is
 plausible, and the wide lobe that is then found keeps it small. Strength and roughness are posterior means over a grid of both and of the
-hypothesis of no gloss, whose prior is one half. The normals are those of the field (shading.field), which fits the gloss again in every round.
+hypothesis of no gloss, whose prior is one half. The normals are those of the
+field (shading.field), which fits the gloss again in every round.
 
 Sources: Walter, Marschner, Li and Torrance 2007, Microfacet models for refraction through rough surfaces (GGX); Akenine-Moeller et al.
 2018, Real-Time Rendering, 9.5 (F0 of common matter).
