@@ -4,6 +4,8 @@
    inner loop goes straight through memory. The cycle's numbers are singles: it only says where to look next, the conjugate gradients decide
    in doubles. */
 
+#include <float.h>
+
 #include "multigrid.h"
 
 /* Sums are always made in the same eight lanes. */
@@ -265,8 +267,8 @@ static void left_over(Shape shape, const double *block, const double *across, co
     }
 }
 
-/* x (P, 3) of a system of blocks and links by conjugate gradients from x, preconditioned by the blocks (L D L', raised by `small`), until the
-   residual is no longer than `enough`. `work` is zero: links and the direction with a pixel more at both ends, and 15 numbers a pixel.
+/* x (P, 3) of a system of blocks and links by conjugate gradients from x, preconditioned by the blocks (L D L', each raised by the share `small` of
+   its trace), until the residual is no longer than `enough`. `work` is zero: links and the direction with a pixel more at both ends, and 15 numbers a pixel.
    Twin: shading/field.py (_System.solved). */
 KERNEL void lpcal_coupled(int64_t pixels, int64_t stretches, const int32_t *stretch, const double *block, const double *across,
                           const double *down, const double *right, double *x, double *work, double enough, int64_t most, double small) {
@@ -282,14 +284,14 @@ KERNEL void lpcal_coupled(int64_t pixels, int64_t stretches, const int32_t *stre
     }
     for (int64_t p = 0; p < pixels; p++) {
         const double *M = block + 9 * p;
-        double *f = factor + 6 * p, d0 = M[0] + small, l10 = M[3] / d0, l20 = M[6] / d0;
-        double d1 = M[4] + small - l10 * M[3], rest = M[7] - l20 * M[3], l21 = rest / d1;
+        double *f = factor + 6 * p, raise = small * (M[0] + M[4] + M[8]) + DBL_MIN, d0 = M[0] + raise, l10 = M[3] / d0, l20 = M[6] / d0;
+        double d1 = M[4] + raise - l10 * M[3], rest = M[7] - l20 * M[3], l21 = rest / d1;
         f[0] = l10;
         f[1] = l20;
         f[2] = l21;
         f[3] = 1 / d0;
         f[4] = 1 / d1;
-        f[5] = 1 / (M[8] + small - l20 * M[6] - l21 * rest);
+        f[5] = 1 / (M[8] + raise - l20 * M[6] - l21 * rest);
     }
     memcpy(direction, x, (size_t)n * sizeof *x);
     left_over(shape, block, next, above, down, right, direction, residual);

@@ -277,18 +277,22 @@ class _System:
         return np.asarray(np.einsum("pij,pj->pi", self.block, x) - np.stack(around, axis=1))
 
     def solved(self, right: Array, begin: Array) -> Array:
-        """Solution x (P, 3) by conjugate gradients from an initial value `begin`."""
+        """Solution x (P, 3) by conjugate gradients from an initial value `begin`.
+
+        Each block of the preconditioner is raised by a share of its own trace: one of the largest trace buries the other pixels where
+        the albedo of some has run away to nothing.
+        """
         block = self.block
-        small = 1e-12 * float(lambert.trace(block).max())
         if run := kernel("coupled"):
             stretches, (across, down) = self.grid.pyramid.levels[0].stretches, self.grid.pyramid.levels[0].by_pixel(self.link)
             x, work = np.array(begin, float), np.zeros(3 * (len(right) + 2) + 18 * len(right) + 12)
             given = (np.ascontiguousarray(one, float) for one in (block, across, down, right))
-            run(len(right), len(stretches), stretches, *given, x, work, PRECISION * float(np.linalg.norm(right)), MOST, small)
+            run(len(right), len(stretches), stretches, *given, x, work, PRECISION * float(np.linalg.norm(right)), MOST, lambert.SINGULAR)
             return x
         from scipy.sparse import linalg
 
-        inverse = np.linalg.inv(block + small * np.eye(3))
+        raised = lambert.SINGULAR * lambert.trace(block) + np.finfo(float).tiny  # a block of zeros has no trace
+        inverse = np.linalg.inv(block + raised[:, None, None] * np.eye(3))
         shape = (begin.size, begin.size)
         A = linalg.LinearOperator(shape, matvec=lambda x: self.times(x.reshape(-1, 3)).ravel(), dtype=float)
         M = linalg.LinearOperator(shape, matvec=lambda x: np.einsum("pij,pj->pi", inverse, x.reshape(-1, 3)).ravel(), dtype=float)

@@ -11,6 +11,7 @@ import pytest
 from lpcal.geometry import lambert
 from lpcal.geometry.arrays import Array, Mask
 from lpcal.integration.integrate import Grid
+from lpcal.kernels.library import SWITCH, kernel
 from lpcal.shading import field, gloss, normals
 from lpcal.view.pixel_list import Illumination, PixelList
 
@@ -202,3 +203,20 @@ def test_a_normal_that_one_strong_sample_holds_is_open_across_it_and_no_more_tha
         own = np.einsum("i,j->ij", light, light)[None] / 1e-6
         tilt = field._tilt_rad(albedo * n[None], own)
         assert tilt[0] == pytest.approx(field.ANY_RAD / np.sqrt(2), rel=1e-3), albedo
+
+
+@pytest.mark.parametrize("by", ["kernels", "numpy"])
+def test_pixels_whose_albedo_has_run_away_leave_the_others_their_solution(by: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The matrices of an albedo of 1e-10 are 1e20 times those of others: against a direct solve of every pixel in units of its own."""
+    if by == "kernels" and kernel("coupled") is None:
+        pytest.skip("kernels not compiled")
+    monkeypatch.setenv(SWITCH, by)
+    rng = np.random.default_rng(0)
+    grid = Grid.of(np.ones((30, 40), bool))
+    scale = np.where((grid.rows < 10) & (grid.columns < 10), 1e-10, 1.0)
+    b = scale[:, None] * (np.array([0.1, 0.2, -0.9]) + 0.05 * rng.normal(size=(len(scale), 3)))
+    B = rng.normal(size=(len(scale), 2, 3)) / scale[:, None, None]  # two samples a pixel leave the third direction to its neighbours
+    system = field._System.at(grid, b, np.einsum("pki,pkj->pij", B, B))
+    right = system.times(b)
+    found = system.solved(right, b * rng.uniform(0.5, 1.5, size=b.shape))
+    assert np.abs((found - b) / scale[:, None]).max() < 1e-5
