@@ -32,9 +32,6 @@ FEWEST_JUDGES = 2
 MOST_SCALE_SIGMAS = 2.75
 """By how many of its sigmas the distance of a view's largest piece may have changed otherwise than the others': of 95 right views of six
 simulated sessions it was 1.7 in all but one of 2.6, of a view 20 mm too near or too far it is 2.9 and more."""
-REMARKED_SCALE_SIGMAS = 2.0
-"""By how many of its sigmas a view's distance must have been changed otherwise than the others' for a remark: of right views whose sigmas
-hold it is one in twenty."""
 FEWEST_OTHERS = 3
 """Views of which the middle one says what distances were changed by usually: of fewer one wrong one is half of it."""
 

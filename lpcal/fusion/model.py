@@ -16,7 +16,7 @@ import numpy as np
 
 from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
-from lpcal.fusion.consensus import REMARKED_SCALE_SIGMAS, usual_growth
+from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, usual_growth
 from lpcal.fusion.missing import missing
 from lpcal.fusion.pieces import Piece
 from lpcal.fusion.registration import Registered, registered
@@ -122,11 +122,11 @@ def _model(name: str, views: Sequence[PlacedView], places: Registered, found: Ve
 
 
 def _stretched(view: PlacedView, piece: Piece, usual: float, sigmas: float) -> list[str]:
-    """A remark where the distance of a view's largest piece was changed otherwise than the others', by some of its sigmas.
+    """A remark where the distance of a view's largest piece was changed otherwise than the others', by many of its sigmas.
 
-    It is used: put where the others have it, it agrees with them. `usual` is what the others' logarithms were changed by.
+    It is used all the same where too few views would be left without it. `usual` is what the others' logarithms were changed by.
     """
-    if sigmas < REMARKED_SCALE_SIGMAS:
+    if sigmas < MOST_SCALE_SIGMAS:
         return []
     by_mm, usual_mm = (1e3 * view.distance_m * np.expm1(delta) for delta in (piece.delta, usual))
     apart = f"the others' by {usual_mm:+z.1f} mm, {sigmas:.1f} of its sigmas apart"
