@@ -27,7 +27,7 @@ from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, 
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import contradicting, far_stated, notes_of, refuse_outside
 from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
-from lpcal.detect.ambient import ambient_notes, refuse_bright_ambient, refuse_foreign_ambient, room_changes
+from lpcal.detect.ambient import RoomChanges, ambient_notes, refuse_bright_ambient, refuse_foreign_ambient, room_changes
 from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import to_radiance
@@ -199,13 +199,8 @@ def _reconstructed(
         The object has more samples than are solved at once, and nothing is kept.
     """
     settled = settle_sensor(raw, calibration, saying)
-    used, said, given, hints, method = (
-        settled.used.sensor,
-        (*settled.notes, *contradictions(saying)),
-        asked.given,
-        asked.hints,
-        asked.method,
-    )
+    used, said = settled.used.sensor, (*settled.notes, *contradictions(saying))
+    given, hints, method = asked.given, asked.hints, asked.method
     refuse_bright_ambient(raw, used)
     automatic = asked.automatic and given is None
     wanted = raw.mask if automatic else given
@@ -254,8 +249,9 @@ def linear(raw: RawCapture, calibration: Calibration, saying: Statements) -> tup
 def _linear(raw: RawCapture, sensor: Sensor, said: tuple[str, ...], part: Crop | None, *, use_mask: bool) -> Radiance:
     """The capture made linear, or the part of it that is asked for; notes hold what is said of it."""
     plain = to_radiance(raw, sensor)
-    changes = None if raw.ambient is None else room_changes(plain)
-    if changes is not None:
+    changes: RoomChanges = {}
+    if raw.ambient is not None:
+        changes = room_changes(plain)
         refuse_foreign_ambient(plain, changes)
     found = with_short_exposures(plain, raw, sensor)
     notes = (*found.notes, *said, *ambient_notes(plain, raw, sensor, changes))

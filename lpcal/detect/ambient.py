@@ -41,8 +41,8 @@ type RoomChanges = dict[str, tuple[float, float]]
 and of what the light does to bright places."""
 
 
-def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges | None = None) -> tuple[str, ...]:
-    """Notes on the ambient light: that it changed, that it is stronger than the lights; by its `changes` (`room_changes`) where known."""
+def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges) -> tuple[str, ...]:
+    """Notes on the ambient light: that it changed, that it is stronger than the lights; `changes` are those of `room_changes`."""
     if raw.ambient is None:
         return ()
     level = float(np.mean(_ambient_levels(raw, sensor)))
@@ -53,11 +53,8 @@ def ambient_notes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: 
     return found
 
 
-def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges | None = None) -> tuple[str, ...]:
-    """Where the ambient light is not what its image says: it changed between its images, or in the image of a light.
-
-    By its `changes` in these (`room_changes`) where they are known.
-    """
+def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes: RoomChanges) -> tuple[str, ...]:
+    """Where the ambient light is not what its image says: between its images, or in a light's image by `changes` (see `room_changes`)."""
     if raw.ambient is None:
         return ()
     levels = _ambient_levels(raw, sensor)
@@ -65,7 +62,7 @@ def ambient_changes(radiance: Radiance, raw: RawCapture, sensor: Sensor, changes
     if len(levels) > 1 and np.ptp(levels) > DRIFT_SHARE * min(level, _lamps(radiance, sensor)):
         change = 100 * np.ptp(levels) / max(level, 1e-12)
         return (f"the ambient light changed by {change:.0f} % between its {len(levels)} images; their mean was taken away",)
-    return tuple(_changes_in_frames(room_changes(radiance) if changes is None else changes))
+    return tuple(_changes_in_frames(changes))
 
 
 def _ambient_levels(raw: RawCapture, sensor: Sensor) -> list[float]:

@@ -92,8 +92,11 @@ class Numbers:
     @property
     def image(self) -> StoredImage:
         """The same as fractions of full scale."""
-        pixels = np.ascontiguousarray(self.stored, dtype=np.float32) / np.float32(self.full_scale)
-        return StoredImage(pixels, self.step, self.claim, self.taken)
+        return StoredImage(self.fractions(np.empty(self.stored.shape, np.float32)), self.step, self.claim, self.taken)
+
+    def fractions(self, out: Image) -> Image:
+        """`out` (H, W) or (H, W, 3), filled with the numbers as fractions of full scale."""
+        return np.divide(self.stored, np.float32(self.full_scale), out=out, dtype=np.float32)
 
 
 @reader("an image", "cv2")
@@ -141,8 +144,7 @@ def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple
     found = np.empty((len(paths), *shape) if paths else 0, np.float32)
 
     def fill(k: int) -> None:
-        numbers = read(paths[k])
-        np.divide(numbers.stored, np.float32(numbers.full_scale), out=found[k], dtype=np.float32)
+        read(paths[k]).fractions(found[k])
 
     parallel.run_all(fill, range(len(paths)))
     return found

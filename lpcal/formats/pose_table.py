@@ -18,13 +18,19 @@ from lpcal.geometry.arrays import Array, Mask
 from lpcal.records.observations import PoseStream
 
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}
-SPELLED = {"metre": "m", "meter": "m", "centimetre": "cm", "centimeter": "cm", "millimetre": "mm", "millimeter": "mm"} | {
+SPELLED = {
+    "metre": "m",
+    "meter": "m",
+    "centimetre": "cm",
+    "centimeter": "cm",
+    "millimetre": "mm",
+    "millimeter": "mm",
     "inch": "in",
-    "inche": "in",
+    "inches": "in",
     "foot": "ft",
     "feet": "ft",
 }
-"""Units of length as systems spell them out, small and without the plural's s."""
+"""Units of length as systems spell them out, in lower case; unit_of takes off a plural's s."""
 QUATERNION_TOLERANCE = 0.02
 """How far from 1 the length of a quaternion may be."""
 FARTHEST_M = 1e5

@@ -97,8 +97,8 @@ def solve(
 ) -> Field:
     """Solve for the field from per-pixel estimates, or from an earlier field at a similar depth.
 
-    `hidden` (L, P) are samples that the depth predicts to be occluded. `glossy` is the reflectance of the object's median pixel, the scale
-    of the gloss; None fits no gloss. `rounds` defaults to what the kind of start needs.
+    `hidden` (L, P) are samples that the depth predicts to be occluded. `glossy` is the reflectance assumed of the object's median
+    pixel, the scale of the gloss; None fits no gloss. `rounds` defaults to what the kind of start needs.
     """
     v = -seen.rays_C / lambert.length(seen.rays_C)[..., None]
     before = start if isinstance(start, Field) else None

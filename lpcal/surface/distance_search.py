@@ -131,7 +131,7 @@ def search(
     grid = Grid.of(inside)
     done: list[float] = []
 
-    def ended(share_of_working: float) -> _End:
+    def ended(share_of_working: float) -> _Minimum:
         end = _rounds(seen, grid, table, np.full(seen.pixels, np.log(about_m * share_of_working)))
         done.append(share_of_working)
         progress(f"{name}: distance", len(done), len(STARTS))
@@ -245,14 +245,14 @@ class _Edges:
         """Cost (edges,) of log depths u_a and u_b (edges,) at their ends."""
         return np.minimum(((u_b - u_a - self.step) / self.sigma) ** 2, OUTLIER2)
 
-    def exchanged(self, other: _Edges, some: Mask) -> _Edges:
-        """Those of another end where `some` (edges,)."""
+    def replaced(self, other: _Edges, some: Mask) -> _Edges:
+        """These, with those of another minimum at the edges `some` (edges,)."""
         return replace(self, step=np.where(some, other.step, self.step), sigma=np.where(some, other.sigma, self.sigma))
 
 
 @dataclass(frozen=True)
-class _End:
-    """An end of the rounds, and what it costs where."""
+class _Minimum:
+    """A result of the rounds with its cost at each pixel and edge."""
 
     u: Array
     """(P,) log depth."""
@@ -262,24 +262,24 @@ class _End:
 
     @property
     def minimum(self) -> DistanceMinimum:
-        """The same as a whole."""
+        """The result with its total cost."""
         a, b = self.edges.grid.a, self.edges.grid.b
         return DistanceMinimum(self.u, float(self.of_pixels.mean() + self.edges.costs(self.u[a], self.u[b]).mean()))
 
-    def partly(self, other: _End) -> _End:
-        """With those parts of another end that lower the cost the most."""
+    def fused_with(self, other: _Minimum) -> _Minimum:
+        """One fusion move: the result with those parts of another that lower its cost the most."""
         grid = self.edges.grid
         here, there = ((one.u[grid.a], one.u[grid.b]) for one in (self, other))
         mixed = (there[0], here[1]), (here[0], there[1])
         only_a, only_b = (np.minimum(self.edges.costs(*u), other.edges.costs(*u)) for u in mixed)
-        per_edge = len(self.u) / len(grid.a)  # the cost is one of means
+        per_edge = len(self.u) / max(len(grid.a), 1)  # the cost is a sum of means
         of_edges = (per_edge * cost for cost in (self.edges.costs(*here), only_a, only_b, other.edges.costs(*there)))
         some = cuts.cheapest_change(grid, other.of_pixels - self.of_pixels, *of_edges)
         u, of_pixels = np.where(some, other.u, self.u), np.where(some, other.of_pixels, self.of_pixels)
-        return _End(u, of_pixels, self.edges.exchanged(other.edges, some[grid.a] & some[grid.b]))
+        return _Minimum(u, of_pixels, self.edges.replaced(other.edges, some[grid.a] & some[grid.b]))
 
 
-def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _End:
+def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _Minimum:
     """Plain rounds from u (P,)."""
     pixels = np.arange(seen.pixels)
 
@@ -304,11 +304,11 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _End:
         u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
         u = settle(grid, step, sigma, own, u, weight)
-    return _End(u, of_pixels, edges)
+    return _Minimum(u, of_pixels, edges)
 
 
-def _fused(ends: Sequence[_End]) -> Array | None:
-    """Log depth (P,) put together from parts of several ends, where that costs less than the best of them; None where it does not."""
+def _fused(ends: Sequence[_Minimum]) -> Array | None:
+    """Log depth (P,) combined from parts of several results; None where the best one costs least everywhere."""
     best, *others = sorted(ends, key=lambda one: one.minimum.cost)
-    fused = reduce(_End.partly, others, best)
+    fused = reduce(_Minimum.fused_with, others, best)
     return None if np.array_equal(fused.u, best.u) else fused.u

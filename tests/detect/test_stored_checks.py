@@ -133,4 +133,5 @@ def test_a_room_that_changes_a_little_is_not(times: float) -> None:
 
 def test_of_one_ambient_image_nothing_changes() -> None:
     raw = in_a_room(0.08, 4.0)
-    assert not any("between its 1 images" in note for note in ambient_notes(to_radiance(raw, Sensor()), raw, Sensor()))
+    radiance = to_radiance(raw, Sensor())
+    assert not any("between its 1 images" in note for note in ambient_notes(radiance, raw, Sensor(), room_changes(radiance)))

@@ -65,13 +65,13 @@ def replace_all(given: DistanceMinima, by: float) -> DistanceMinima:
     return replace(given, ends=tuple(replace(one, cost=one.cost + by) for one in given.ends))
 
 
-def two_ends(cost: float) -> tuple[distance_search._End, distance_search._End, Array]:
+def two_ends(cost: float) -> tuple[distance_search._Minimum, distance_search._Minimum, Array]:
     """One end is right on the left, the other, half a unit of log depth further away, on the right; elsewhere a pixel costs `cost`."""
     grid = Grid.of(np.ones((20, 30), bool))
     left = grid.columns < 12
     edges = distance_search._Edges(grid, np.zeros(len(grid.a)), np.full(len(grid.a), 0.01))
-    near = distance_search._End(np.zeros(len(left)), np.where(left, 1.0, 1 + cost), edges)
-    far = distance_search._End(np.full(len(left), 0.5), np.where(left, 1 + cost, 1.0), edges)
+    near = distance_search._Minimum(np.zeros(len(left)), np.where(left, 1.0, 1 + cost), edges)
+    far = distance_search._Minimum(np.full(len(left), 0.5), np.where(left, 1 + cost, 1.0), edges)
     return near, far, np.where(left, 0.0, 0.5)
 
 
@@ -80,7 +80,7 @@ def test_parts_that_are_right_from_different_starts_are_put_together() -> None:
     fused = distance_search._fused([near, far])
     assert fused is not None
     assert np.array_equal(fused, right)
-    whole = near.partly(far)
+    whole = near.fused_with(far)
     assert whole.minimum.cost < min(near.minimum.cost, far.minimum.cost)
 
 

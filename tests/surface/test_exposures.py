@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lit_scene import SIZE, Scene, calibration, draw, truth
-from lpcal.detect.ambient import ambient_notes
+from lpcal.detect.ambient import ambient_notes, room_changes
 from lpcal.detect.exposures import with_short_exposures
 from lpcal.detect.radiometry import Sensor, fit_flat_field, to_radiance
 from lpcal.formats.documents import plain
@@ -57,12 +57,18 @@ def test_a_short_exposure_of_which_nothing_is_stated_is_not_merged() -> None:
     assert with_short_exposures(plain, untold, Sensor()) is plain
 
 
+def notes(raw: RawCapture) -> tuple[str, ...]:
+    """What is said of a capture's ambient light."""
+    radiance = to_radiance(raw, Sensor())
+    return ambient_notes(radiance, raw, Sensor(), room_changes(radiance))
+
+
 def test_ambient_that_drifts_is_said_and_its_mean_taken() -> None:
     raw = draw(Scene(), calibration())
     drifted = replace(raw, ambient=np.concatenate([raw.ambient, raw.ambient * 1.6]), ambient_exposure_s=np.ones(2))
     steady = replace(raw, ambient=np.concatenate([raw.ambient, raw.ambient]), ambient_exposure_s=np.ones(2))
-    assert "changed by 46 %" in ambient_notes(to_radiance(drifted, Sensor()), drifted, Sensor())[0]
-    assert ambient_notes(to_radiance(steady, Sensor()), steady, Sensor()) == ()
+    assert "changed by 46 %" in notes(drifted)[0]
+    assert notes(steady) == ()
     taken = to_radiance(drifted, Sensor()).ambient
     assert taken.mean() == pytest.approx(1.3 * raw.ambient.mean(), rel=1e-3)
 
@@ -70,7 +76,7 @@ def test_ambient_that_drifts_is_said_and_its_mean_taken() -> None:
 def test_more_ambient_than_lamps_is_said() -> None:
     raw = draw(Scene(), calibration())
     bright = replace(raw, images=0.05 * raw.images + 0.7, ambient=0.05 * raw.ambient + 0.7)
-    assert "more ambient light" in ambient_notes(to_radiance(bright, Sensor()), bright, Sensor())[0]
+    assert "more ambient light" in notes(bright)[0]
 
 
 @pytest.mark.slow
