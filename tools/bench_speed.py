@@ -151,10 +151,10 @@ def broken_integration() -> Row:
     own = Own(np.full(pixels, 0.5), np.log(z[mask]) + 0.05 * rng.standard_normal(pixels))
 
     def whole() -> Array:
-        step, sigma = steps(grid, n, r, central=True)
-        u, weight = integrate(grid, step, sigma, own, np.full(pixels, np.log(0.35)), graduated=True)
+        step = steps(grid, n, r, central=True)
+        u, weight = integrate(grid, step, own, np.full(pixels, np.log(0.35)), graduated=True)
         weight = pieces.without_slivers(grid, weight, mask)
-        u = settle(grid, step, sigma, own, u, weight)
+        u = settle(grid, step, own, u, weight)
         label, towards = pieces.pieces(grid, weight, mask), -np.sum(n * r, axis=1) / np.linalg.norm(r, axis=1)
         uncertainty.depth_sigma(grid, np.full(pixels, 2.0), towards, r[:, :2], np.exp(u), label)
         return u

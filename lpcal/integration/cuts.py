@@ -9,9 +9,7 @@ from lpcal.integration.integrate import Grid
 from lpcal.kernels.library import kernel
 
 CENTS = 1e5
-"""What a unit of cost is in whole numbers, for a library that counts in these."""
-MOST = 2**31 - 1
-"""Largest of these numbers: the library counts in 32 bits."""
+"""Integer units of a unit of cost: the library's maximum flow takes 32-bit integers."""
 
 
 def cheapest_change(grid: Grid, taken: Array, neither: Array, only_a: Array, only_b: Array, both: Array) -> Mask:
@@ -47,7 +45,7 @@ def cheapest(grid: Grid, taken: Array, parted: Array) -> Mask:
     source, sink = np.full(pixels, pixels), np.full(pixels, pixels + 1)
     begin, end = np.concatenate([grid.a, grid.b, source, every]), np.concatenate([grid.b, grid.a, every, sink])
     cost = np.rint(CENTS * np.concatenate([parted, parted, np.maximum(-taken, 0), np.maximum(taken, 0)]))
-    room = sparse.csr_array((np.minimum(cost, MOST).astype(np.int32), (begin, end)), shape=(pixels + 2, pixels + 2))
+    room = sparse.csr_array((np.minimum(cost, np.iinfo(np.int32).max).astype(np.int32), (begin, end)), shape=(pixels + 2, pixels + 2))
     left_over = room - maximum_flow(room, pixels, pixels + 1).flow
     left_over.eliminate_zeros()
     taken_too = np.zeros(pixels + 2, bool)

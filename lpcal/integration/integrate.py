@@ -8,10 +8,11 @@ Symbols: u = log z (central) or z (parallel rays); neighbours a, b with the mean
 minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s_ab)^2  +  sum_p H_p (u_p - h_p)^2
 
 s_ab is the standard deviation of a step due to the normals' errors; H_p and h_p are the curvature and optimum of the pixel's own distance
-(surface.distance). The weights ``w = (C^2 / (C^2 + e^2))^2``, with e the step's residual in standard deviations, are those of the Geman and
-McClure loss. The own distances start with GRADUATION times their weight (graduated non-convexity), so that jumps appear before the steps
-smooth them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and Vision 60 (perspective, masks); Black and Rangarajan 1996, Int. J.
-Computer Vision 19 (weights, graduation).
+(surface.distance). The weights ``w = (B / (B + e^2))^2``, with e the step's residual in standard deviations, are those of the Geman and
+McClure loss, which charges B for a broken edge: C^2, by the scale C of all residuals, times the edge's own break cost, which is high where
+the images show no contrast (surface.contrast). The own distances start with GRADUATION times their weight (graduated non-convexity), so
+that jumps appear before the steps smooth them. Sources: Quéau, Durou and Aujol 2018, J. Math. Imaging and Vision 60 (perspective, masks);
+Black and Rangarajan 1996, Int. J. Computer Vision 19 (weights, graduation).
 """
 
 from __future__ import annotations
@@ -70,18 +71,37 @@ class Own:
     optimum: Array
 
 
-def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad: Array | None = None) -> tuple[Array, Array]:
-    """Steps g (edges,) and their sigma (edges,) from normals (P, 3) of standard deviation NORMAL_ERROR_RAD, plus `tilt_rad` (P,) if given.
+@dataclass(frozen=True)
+class Steps:
+    """Steps of u along the edges of a grid."""
+
+    value: Array
+    """g (edges,)."""
+    sigma: Array
+    """s (edges,), standard deviation of g."""
+    break_cost: Array
+    """(edges,) cost of a break, in C^2."""
+
+    def residual(self, grid: Grid, u: Array) -> Array:
+        """Differences (edges,) of u (P,) minus their steps."""
+        return np.asarray(u[grid.b] - u[grid.a] - self.value)
+
+
+def steps(
+    grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad: Array | None = None, break_cost: Array | None = None
+) -> Steps:
+    """Steps from normals (P, 3) of standard deviation NORMAL_ERROR_RAD, plus `tilt_rad` (P,) if given; breaks cost C^2 if not given.
 
     With a camera the sigma also contains UNEVEN times the difference of the two normals' steps: a step is uncertain where the surface
     bends, and at the rim of an occluding part.
     """
+    break_cost = np.ones(len(grid.a)) if break_cost is None else break_cost
     if central and (run := kernel("steps")):
         found = np.empty(len(grid.a)), np.empty(len(grid.a))
         tilt2 = np.zeros(len(normals)) if tilt_rad is None else np.ascontiguousarray(tilt_rad**2, float)
         given = (np.ascontiguousarray(one, float) for one in (normals, rays_C))
         run(len(grid.a), len(normals), grid.a, grid.b, *given, tilt2, NORMAL_ERROR_RAD, UNEVEN, LEAST_COSINE, *found)
-        return found
+        return Steps(*found, break_cost)
     mean = normals[grid.a] + normals[grid.b]
     mean /= np.maximum(lambert.length(mean)[..., None], 1e-12)
     error = np.full(len(grid.a), NORMAL_ERROR_RAD)
@@ -89,12 +109,13 @@ def steps(grid: Grid, normals: Array, rays_C: Array, *, central: bool, tilt_rad:
         error = np.sqrt(error**2 + (tilt_rad[grid.a] ** 2 + tilt_rad[grid.b] ** 2) / 2)
     if not central:
         slope = np.minimum(mean[:, 2], -LEAST_COSINE)
-        return -np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2
+        return Steps(-np.where(grid.horizontal, mean[:, 0], mean[:, 1]) / slope, error / slope**2, break_cost)
     r_a, r_b = rays_C[grid.a], rays_C[grid.b]
     off = UNEVEN * (_own_step(normals[grid.a], r_a, r_b) - _own_step(normals[grid.b], r_a, r_b))
     towards_a = np.minimum(np.einsum("ei,ei->e", mean, r_a), -LEAST_COSINE)
     towards_b = np.minimum(np.einsum("ei,ei->e", mean, r_b), -LEAST_COSINE)
-    return np.log(towards_a / towards_b), np.hypot(off, error * lambert.length(r_b - r_a) / (towards_a * towards_b))
+    sigma = np.hypot(off, error * lambert.length(r_b - r_a) / (towards_a * towards_b))
+    return Steps(np.log(towards_a / towards_b), sigma, break_cost)
 
 
 def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
@@ -102,26 +123,26 @@ def _own_step(n: Array, r_a: Array, r_b: Array) -> Array:
     return np.asarray(np.log(np.minimum(lambert.dot(n, r_a), -LEAST_COSINE) / np.minimum(lambert.dot(n, r_b), -LEAST_COSINE)))
 
 
-def integrate(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
+def integrate(grid: Grid, step: Steps, own: Own, start: Array, *, graduated: bool) -> tuple[Array, Array]:
     """Integrate: u (P,) and the final weights w (edges,); edges of low weight are depth discontinuities."""
     strengths = GRADUATION if graduated else AGAIN
     if run := kernel("integrated"):
-        return _integrated(run, grid, step, sigma, own, start, strengths, fresh=graduated)
+        return _integrated(run, grid, step, own, start, strengths, fresh=graduated)
     u = start
-    weight = np.ones(len(grid.a)) if graduated else weights_of(grid, u, step, sigma)
+    weight = np.ones(len(grid.a)) if graduated else weights_of(grid, u, step)
     for strength in strengths:
-        A, right = system(grid, weight / sigma**2, step, own.curvature * strength, own.optimum)
+        A, right = system(grid, weight / step.sigma**2, step.value, own.curvature * strength, own.optimum)
         u = multigrid.solve(A, right, u)
-        weight = weights_of(grid, u, step, sigma)
+        weight = weights_of(grid, u, step)
     return u, weight
 
 
 def _integrated(
-    run: Callable[..., None], grid: Grid, step: Array, sigma: Array, own: Own, start: Array, strengths: Sequence[float], *, fresh: bool
+    run: Callable[..., None], grid: Grid, step: Steps, own: Own, start: Array, strengths: Sequence[float], *, fresh: bool
 ) -> tuple[Array, Array]:
     """`integrate` by its kernel."""
     finest, (sizes, cells, stretches) = grid.pyramid.levels[0], grid.pyramid.laid_out
-    by_pixel = [np.stack(finest.by_pixel(one)) for one in (step, sigma)]
+    by_pixel = [np.stack(finest.by_pixel(one)) for one in (step.value, step.sigma, step.break_cost)]
     u, weight = np.array(start, float), np.empty_like(by_pixel[0])
     work_space = grid.pyramid.work_space(7)
     given = (np.ascontiguousarray(one, float) for one in (*by_pixel, own.curvature, own.optimum))
@@ -132,24 +153,24 @@ def _integrated(
     return u, np.concatenate([weight[0, grid.a[:first]], weight[1, grid.a[first:]]])
 
 
-def settle(grid: Grid, step: Array, sigma: Array, own: Own, start: Array, weight: Array) -> Array:
+def settle(grid: Grid, step: Steps, own: Own, start: Array, weight: Array) -> Array:
     """u (P,) for fixed weights (edges,).
 
     At the minimum ``sum_p H_p (u_p - h_p) = 0``, since steps do not constrain a common offset; where H is tiny the iterative solver meets
     this only within its precision, so it is enforced at the end.
     """
-    A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    A, right = system(grid, weight / step.sigma**2, step.value, own.curvature, own.optimum)
     u = multigrid.solve(A, right, start)
     if own.curvature.max() > REGULARISATION:
         return u
     return np.asarray(u + np.average(own.optimum - u, weights=own.curvature))
 
 
-def weights_of(grid: Grid, u: Array, step: Array, sigma: Array) -> Array:
+def weights_of(grid: Grid, u: Array, step: Steps) -> Array:
     """Weight (edges,) of each edge from the residual of its step."""
-    residual = (u[grid.b] - u[grid.a] - step) / sigma
-    square = scale_of(residual) ** 2
-    return np.asarray((square / (square + residual**2)) ** 2 + REGULARISATION)
+    residual = step.residual(grid, u) / step.sigma
+    most = scale_of(residual) ** 2 * step.break_cost
+    return np.asarray((most / (most + residual**2)) ** 2 + REGULARISATION)
 
 
 def scale_of(residual: Array) -> float:

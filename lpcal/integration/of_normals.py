@@ -120,7 +120,7 @@ PRECISION = 1e-3
 def integrate_normals(grid: Grid, normals: Array, rays_C: Array, *, central: bool) -> tuple[Array, Array]:
     """u (P,) about zero, and weights (edges,) from 0 at a jump to 1, of normals (P, 3) that face the camera along rays (P, 3)."""
     a, b, count = grid.a, grid.b, len(normals)
-    middle, _ = steps(grid, normals, rays_C, central=central)
+    middle = steps(grid, normals, rays_C, central=central).value
     step_a, step_b, pull_a, pull_b = _one_sided(grid, normals, rays_C, central=central)
     w_a, w_b = np.full(len(a), 0.5), np.full(len(a), 0.5)
     hold, origin, u = np.full(count, lambert.SINGULAR), np.zeros(count), np.zeros(count)

@@ -46,7 +46,7 @@ SIGNATURES = {
     "free": "i i f f b f s f i f f",
     "gathered": "i i i f f i f f f b i b f f f i i f f",
     "hidden": "i f f i i i f f d d b",
-    "integrated": "i n m m f f f f i i f d d d d f f f s m i f",
+    "integrated": "i n m m f f f f f i i f d d d d f f f s m i f",
     "joined": "i i i i i f f f f",
     "joined_singles": "i i i i i f f s s",
     "labelled": "i i b m m m",

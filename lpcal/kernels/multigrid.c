@@ -171,13 +171,15 @@ static double median(int64_t count, double *value) {
     return (below + value[middle]) / 2.0;
 }
 
-/* Edges to the right and downwards at their first pixels: their steps, the reciprocals of their sigmas (0: no edge), their weights. */
+/* Edges to the right and downwards at their first pixels: their steps, the costs of their breaks, the reciprocals of their sigmas (0: no edge),
+   their weights. */
 typedef struct {
-    const double *step[2];
+    const double *step[2], *break_cost[2];
     double *closeness[2], *weight[2], *residual;
 } Edges;
 
-/* Weights from the residuals of the steps: (C^2 / (C^2 + e^2))^2, C no less than `spread` medians of abs(e). */
+/* Weights from the residuals e of the steps: (B / (B + e^2))^2, where B is C^2 times the edge's break cost, C no less than `spread` medians
+   of abs(e). */
 static void weighed(const Edges *edges, Shape shape, const double *x, double robust, double spread, double least) {
     int64_t count = 0, close = 0;
     double narrow = robust / spread;
@@ -198,7 +200,8 @@ static void weighed(const Edges *edges, Shape shape, const double *x, double rob
     double square = scale * scale;
     for (int way = 0; way < 2; way++)
         for (int64_t i = 0; i < shape.pixels; i++) {
-            double share = square / (square + edges->weight[way][i] * edges->weight[way][i]);
+            double most = edges->closeness[way][i] > 0 ? square * edges->break_cost[way][i] : square;
+            double share = most / (most + edges->weight[way][i] * edges->weight[way][i]);
             edges->weight[way][i] = share * share + least;
         }
 }
@@ -207,12 +210,12 @@ static void weighed(const Edges *edges, Shape shape, const double *x, double rob
    strengths in turn; and the last weights of the edges, one where they are `fresh`, else by x. All edges are given at their first pixels, those
    to the right and those downwards (2, pixels). `work` is that of a solve and 7 (pixels + 2) more. Twin: integration/integrate.py (integrate). */
 KERNEL void lpcal_integrated(int64_t levels, const int64_t *sizes, const int32_t *cells, const int32_t *stretches, const double *step,
-                             const double *sigma, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
+                             const double *sigma, const double *break_cost, const double *curvature, const double *optimum, int64_t fresh, int64_t count,
                              const double *strength, double precision, double robust, double spread, double least, double *x,
                              double *weight, double *work, float *singles, int32_t *whole, int64_t most, const double *way) {
     Grid grid;
     int64_t n = sizes[0], room = n + 2;
-    Edges edges = {{step, step + n}, {work, work + room}, {weight, weight + n}, work + 2 * room};
+    Edges edges = {{step, step + n}, {break_cost, break_cost + n}, {work, work + room}, {weight, weight + n}, work + 2 * room};
     double *pull[2] = {work + 4 * room + 1, work + 5 * room + 1}, *right = work + 6 * room;
     laid_out(&grid, levels, sizes, cells, stretches, work + 7 * room, singles, whole, most, way);
     pull[0][-1] = 0.0;

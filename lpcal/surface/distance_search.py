@@ -296,14 +296,14 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _Minimu
         if not known.any():
             break
         n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
-        step, sigma = steps(grid, n, seen.rays_C, central=True)
-        of_pixels, edges = _costs(found), _Edges(grid, step, sigma)
+        step = steps(grid, n, seen.rays_C, central=True)
+        of_pixels, edges = _costs(found), _Edges(grid, step.value, step.sigma)
         if k == ROUNDS:
             break
         own = distance.own_distance(B, slope_of, np.exp(u), seen, found)
-        u, weight = integrate(grid, step, sigma, own, u, graduated=k < GRADUATED)
+        u, weight = integrate(grid, step, own, u, graduated=k < GRADUATED)
         weight = pieces.without_slivers(grid, weight, seen.mask)
-        u = settle(grid, step, sigma, own, u, weight)
+        u = settle(grid, step, own, u, weight)
     return _Minimum(u, of_pixels, edges)
 
 

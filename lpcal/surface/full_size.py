@@ -208,12 +208,12 @@ class Full:
         begin = self.ground.front(*tile.outer, rays_C)[inside]
         grid, central = Grid.of(inside), self.scene.seen.central
         n = found.normals[tile.outer][inside].astype(float)
-        step, sigma = steps(grid, n, rays_C[inside], central=central)
+        step = steps(grid, n, rays_C[inside], central=central)
         loose = self.ground.at(self.ground.loose, *tile.outer)[inside]
-        hold = 1 / (SCREEN * self.ground.factor * float(np.median(sigma))) ** 2
+        hold = 1 / (SCREEN * self.ground.factor * float(np.median(step.sigma))) ** 2
         own = Own(np.where(loose, REGULARISATION * hold, hold), begin)
-        u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
-        u = settle(grid, step, sigma, own, u, weight)
+        u, weight = integrate(grid, step, own, begin, graduated=False)
+        u = settle(grid, step, own, u, weight)
         holds = np.zeros((2, *inside.shape), bool)
         first = np.flatnonzero(inside.ravel())[grid.a]
         for axis, edges in enumerate((grid.horizontal, ~grid.horizontal)):

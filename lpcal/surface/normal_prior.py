@@ -104,10 +104,12 @@ def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
     n, sigma_rad = expected(scene, state)
     n = lambert.unit(state.normals + scene.of_object * (n - state.normals))[0]
     grid, seen = scene.grid, scene.seen
-    step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=sigma_rad)
-    _, before = steps(grid, state.normals, seen.rays_C, central=seen.central, tilt_rad=state.field.tilt_rad)
-    sigma = np.maximum(sigma, before)  # a step that steep normals left open is no surer for being turned: it may bridge a gap
-    u = settle(grid, step, sigma, state.own, state.u, state.weight)
+    step = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=sigma_rad)
+    before = steps(grid, state.normals, seen.rays_C, central=seen.central, tilt_rad=state.field.tilt_rad)
+    step = replace(
+        step, sigma=np.maximum(step.sigma, before.sigma)
+    )  # a step that steep normals left open is no surer for being turned: it may bridge a gap
+    u = settle(grid, step, state.own, state.u, state.weight)
     label = pieces.pieces(grid, state.weight, seen.mask)
     for one in np.unique(label):
         inside = label == one

@@ -6,7 +6,7 @@ From the third round on the depth is used for more: which lights the surface hid
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from lpcal.records.outcome import Progress
 from lpcal.shading import field, normals
 from lpcal.shading.field import Field
 from lpcal.shading.normals import Estimate
-from lpcal.surface import distance, distance_search, interreflection
+from lpcal.surface import contrast, distance, distance_search, interreflection
 from lpcal.surface.relief import Relief
 from lpcal.surface.scales import Blocks
 from lpcal.surface.surroundings import Around
@@ -37,11 +37,9 @@ SETTLED = 2e-4
 SETTLED_PIECE = 10 * SETTLED
 """The same of pieces that have broken off, whose distances are less sure."""
 SHAPE_ROUND = distance_search.GRADUATED
-"""From which on the depth is good enough to find gloss, which lights it hides and what its parts reflect onto each other."""
+"""From which on the depth is good enough to find gloss, occlusion and interreflection; only later rounds may be the last."""
 SHADED = 0.6
 """A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""
-SHAPED_ROUND = SHAPE_ROUND + 1
-"""The first that may be the last: what rests on the depth has been found once."""
 CARRIED_ROUNDS = 4
 """Rounds of the field at full size, from that of the blocks."""
 FULL_ROUNDS = 3
@@ -121,9 +119,15 @@ class Scene:
         """Whether the light determines the distance."""
         return self.focus_C is None
 
+    @cached_property
+    def break_cost(self) -> Array:
+        """(edges,) cost of a depth discontinuity at each edge, by the contrast of the images there."""
+        return contrast.break_costs(self.seen, self.grid)
+
     def closely(self) -> Scene:
         """The same with maps of the object's part of the picture alone: no round depends on what is empty about it."""
-        return replace(self, seen=replace(self.seen, mask=Crop.about(self.seen.mask).of(self.seen.mask)))
+        cut = Crop.about(self.seen.mask).of(self.seen.mask)
+        return self if cut.shape == self.seen.mask.shape else replace(self, seen=replace(self.seen, mask=cut))
 
     def lit_at(self, depth: Array, interreflected: Array | None = None) -> Illumination:
         """The light at depths (P,)."""
@@ -157,7 +161,7 @@ def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *
         progress(f"{scene.name}: normals and depth", k, rounds)
         before, state = state, once(scene, state.u, state, k, interreflection_known=interreflection_known)
         state = replace(state, moved=np.abs(state.u - before.u))
-        if k >= SHAPED_ROUND and _settled(scene, state):
+        if k > SHAPE_ROUND and _settled(scene, state):
             break
     progress(f"{scene.name}: normals and depth", rounds, rounds)
     return state
@@ -222,13 +226,13 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, inter
         CARRIED_ROUNDS if interreflection_known else None,
     )
     found, n = whole.estimate, lambert.unit(whole.b)[0]
-    step, sigma = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad)
+    step = steps(grid, n, seen.rays_C, central=seen.central, tilt_rad=whole.tilt_rad, break_cost=scene.break_cost)
     by_light, own = _own(scene, u, depth, lit, found)
-    u, weight = integrate(grid, step, sigma, own, u, graduated=scene.near and shaped is None)
+    u, weight = integrate(grid, step, own, u, graduated=scene.near and shaped is None)
     if scene.near and shaped is not None and not interreflection_known:
-        u, weight = jumps.jumped(grid, step, sigma, own, u)
+        u, weight = jumps.jumped(grid, step, own, u)
     weight = pieces.without_slivers(grid, weight, seen.mask)
-    u = settle(grid, step, sigma, own, u, weight)
+    u = settle(grid, step, own, u, weight)
     if scene.near:
         u = distance.levelled(by_light, u, pieces.connected(grid, weight > pieces.BREAK_WEIGHT))
         u = np.clip(u, *(np.median(u) + np.log(SPAN)))  # only wrong slopes lead further

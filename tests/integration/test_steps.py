@@ -18,8 +18,8 @@ def rays() -> np.ndarray:
 def test_sigma_grows_with_what_the_normals_leave_open() -> None:
     grid, rays_C = Grid.of(MASK), rays()
     n = np.tile([0.0, 0.0, -1.0], (len(rays_C), 1))
-    _, plain = steps(grid, n, rays_C, central=True)
-    _, open_ = steps(grid, n, rays_C, central=True, tilt_rad=np.full(len(n), 0.3))
+    plain = steps(grid, n, rays_C, central=True).sigma
+    open_ = steps(grid, n, rays_C, central=True, tilt_rad=np.full(len(n), 0.3)).sigma
     assert np.allclose(open_ / plain, np.hypot(1, 0.3 / NORMAL_ERROR_RAD), rtol=1e-9)
 
 
@@ -33,9 +33,9 @@ def test_wrong_normals_that_are_known_to_be_unsure_do_not_break_the_surface() ->
     own = Own(np.where(dark, 1e-6, 20.0), np.zeros(len(rays_C)))
 
     def solved(tilt: np.ndarray | None) -> tuple[float, int]:
-        step, sigma = steps(grid, n, rays_C, central=True, tilt_rad=tilt)
-        u, weight = integrate(grid, step, sigma, own, np.zeros(len(rays_C)), graduated=True)
-        u = settle(grid, step, sigma, own, u, weight)
+        step = steps(grid, n, rays_C, central=True, tilt_rad=tilt)
+        u, weight = integrate(grid, step, own, np.zeros(len(rays_C)), graduated=True)
+        u = settle(grid, step, own, u, weight)
         return float(np.std(u[~dark])), int(np.sum(weight < BREAK_WEIGHT))
 
     _, broken = solved(None)
@@ -53,10 +53,10 @@ def test_a_large_front_without_distances_of_its_own_stays_where_it_began() -> No
     rough = 0.02 * np.random.default_rng(1).standard_normal(x.shape)
     n = np.stack([0.3 * np.sin(9 * x) + rough, 0.3 * np.cos(7 * y), -np.ones_like(x)], axis=-1).reshape(-1, 3)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
-    step, sigma = steps(grid, n, rays_C, central=True)
+    step = steps(grid, n, rays_C, central=True)
     begin = np.full(len(n), -1.0)
     own = Own(np.full(len(n), REGULARISATION), begin)
-    u, weight = integrate(grid, step, sigma, own, begin, graduated=False)
-    u = settle(grid, step, sigma, own, u, weight)
+    u, weight = integrate(grid, step, own, begin, graduated=False)
+    u = settle(grid, step, own, u, weight)
     assert abs(u.mean() - begin.mean()) < 1e-6
     assert 0.01 < u.std() < 1.0

@@ -327,12 +327,14 @@ def integrated(rng: np.random.Generator) -> Array:
     grid = Grid.of((x - 35) ** 2 + (y - 30) ** 2 < 27**2 + 200 * np.sin(x / 3))
     rays = np.stack([(grid.columns - 35) / 300, (grid.rows - 30) / 300, np.ones(len(grid.rows))], axis=1)
     n = lambert.unit(np.stack([*rng.normal(scale=0.3, size=(2, len(rays))), np.full(len(rays), -1.0)], axis=1))[0]
-    step, sigma = integrate.steps(grid, n, rays, central=True, tilt_rad=0.1 * rng.random(len(rays)))
+    step = integrate.steps(grid, n, rays, central=True, tilt_rad=0.1 * rng.random(len(rays)))
     behind = 0.1 * (grid.columns > 40)
     own = integrate.Own(1e4 * (1 + rng.random(len(rays))), behind + rng.normal(scale=0.01, size=len(rays)))
     start = rng.normal(scale=0.02, size=len(rays))
-    found = [integrate.integrate(grid, step, few * sigma, own, start, graduated=fresh) for fresh, few in ((True, 1.0), (False, 1e-3))]
-    return np.concatenate([step, np.log(sigma), *(each for pair in found for each in pair)])
+    step = replace(step, break_cost=1 + 20 * rng.random(len(grid.a)))
+    sure = replace(step, sigma=1e-3 * step.sigma)
+    found = [integrate.integrate(grid, one, own, start, graduated=fresh) for fresh, one in ((True, step), (False, sure))]
+    return np.concatenate([step.value, np.log(step.sigma), *(each for pair in found for each in pair)])
 
 
 def coupled(rng: np.random.Generator) -> Array:

@@ -88,9 +88,9 @@ def test_integration_of_a_spheres_normals_in_a_mask_with_a_hole() -> None:
     mask = disc(100)
     rays, depth, n = sphere_cap(mask, 260.0)
     grid = Grid.of(mask)
-    step, sigma = steps(grid, n, rays, central=True)
+    step = steps(grid, n, rays, central=True)
     hold = Own(np.full(len(depth), 1e-6), np.log(depth))
-    u, weight = integrate(grid, step, sigma, hold, np.full(len(depth), np.log(0.35)), graduated=False)
+    u, weight = integrate(grid, step, hold, np.full(len(depth), np.log(0.35)), graduated=False)
     error = np.exp(u) - depth
     assert np.abs(error - np.median(error)).max() < 1e-4  # of depths from 0.30 to 0.39 m
     assert weight.min() > 0.3
@@ -102,8 +102,8 @@ def test_parallel_rays_give_depth_in_pixels() -> None:
     slope_x, slope_y = 0.3, -0.2  # z = 0.3 x - 0.2 y
     n = np.tile(np.array([slope_x, slope_y, -1.0]) / np.sqrt(1 + slope_x**2 + slope_y**2), (len(row), 1))
     grid = Grid.of(mask)
-    step, sigma = steps(grid, n, np.tile([0.0, 0, 1], (len(row), 1)), central=False)
-    u, _ = integrate(grid, step, sigma, Own(np.full(len(row), 1e-6), np.zeros(len(row))), np.zeros(len(row)), graduated=False)
+    step = steps(grid, n, np.tile([0.0, 0, 1], (len(row), 1)), central=False)
+    u, _ = integrate(grid, step, Own(np.full(len(row), 1e-6), np.zeros(len(row))), np.zeros(len(row)), graduated=False)
     plane = slope_x * column + slope_y * row
     assert np.abs((u - u.mean()) - (plane - plane.mean())).max() < 1e-3
 
@@ -118,11 +118,11 @@ def test_a_jump_is_kept_and_parts_the_pieces(seed: int) -> None:
     rng = np.random.default_rng(seed)
     own = Own(np.full(len(row), 1 / 0.1**2), np.log(depth) + rng.normal(0, 0.1, len(row)))  # a tenth a pixel
     grid = Grid.of(mask)
-    step, sigma = steps(grid, n, rays, central=True)
-    u, weight = integrate(grid, step, sigma, own, np.full(len(row), np.log(0.345)), graduated=True)
+    step = steps(grid, n, rays, central=True)
+    u, weight = integrate(grid, step, own, np.full(len(row), np.log(0.345)), graduated=True)
     assert np.median(np.abs(np.exp(u) - depth)) < 0.0015
     weight = pieces.without_slivers(grid, weight, mask)
-    u = settle(grid, step, sigma, own, u, weight)
+    u = settle(grid, step, own, u, weight)
     assert np.mean(np.abs(np.exp(u) - depth) > 0.003) < 0.05
     label = pieces.pieces(grid, weight, mask)
     assert set(label) == {1, 2}
@@ -212,12 +212,12 @@ def test_depths_of_much_that_is_broken_do_not_hang_on_rounding(seed: int) -> Non
     n = lambert.unit(np.array([0.0, 0.0, -1.0]) + rng.normal(0, 0.05, (len(row), 3)))[0]
     own = Own(np.where(rng.uniform(size=len(row)) < 0.3, 2500.0, 1e-6), true + rng.normal(0, 0.02, len(row)))
     grid = Grid.of(mask)
-    step, sigma = steps(grid, n, rays, central=True)
+    step = steps(grid, n, rays, central=True)
     begin, found = np.full(len(row), np.log(0.36)), []
     for off in (0.0, 1e-12):
-        u, weight = integrate(grid, step, sigma, own, begin + off * rng.standard_normal(len(row)), graduated=True)
-        found.append(settle(grid, step, sigma, own, u, weight))
+        u, weight = integrate(grid, step, own, begin + off * rng.standard_normal(len(row)), graduated=True)
+        found.append(settle(grid, step, own, u, weight))
     assert np.mean(weight < pieces.BREAK_WEIGHT) > 0.01
     assert np.abs(found[1] - found[0]).max() < 1e-6
-    A, right = system(grid, weight / sigma**2, step, own.curvature, own.optimum)
+    A, right = system(grid, weight / step.sigma**2, step.value, own.curvature, own.optimum)
     assert np.abs(found[1] - spsolve(A.sparse().tocsc(), right)).max() < 1e-6
