@@ -30,6 +30,7 @@ from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_u
 from lpcal.detect.ambient import RoomChanges, ambient_notes, refuse_bright_ambient, refuse_foreign_ambient, room_changes
 from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
+from lpcal.detect.image_shifts import shifted_said
 from lpcal.detect.radiometry import to_radiance
 from lpcal.errors import InputError
 from lpcal.formats.full_size import made_coarse
@@ -227,10 +228,13 @@ def _reconstructed(
     radiance = _linear(raw, used, said, part, use_mask=automatic)
     shown = radiance.mask if options.mask is None else options.mask
     fits = refuse_rearranged(radiance, calibration, shown, stated=asked.arrangement_stated or raw.arrangement_stated)
-    surface = solver.reconstruct(radiance, calibration, options, progress, kept)
+    solved = [] if kept is None else kept
+    surface = solver.reconstruct(radiance, calibration, options, progress, solved)
+    scene, state = solved[-1].scene, solved[-1].state
     notes = (
         *notes_of(radiance.notes, surface),
         *fits,
+        *shifted_said(scene.seen, state.lit, state.found, radiance.lights),
         *contradicting(surface, radiance, calibration),
         *far_stated(options.distance_m if options.near else None, calibration),
     )

@@ -226,9 +226,8 @@ def _kind(shape: tuple[int, ...]) -> str:
 
 def _need_folder(folder: Path, needed: str) -> None:
     if not exists(folder) or not folder.is_dir():
-        raise InputError(
-            "not a folder" if exists(folder) else "no such folder", where=str(folder), needed=needed, todo=did_you_mean(folder)
-        )
+        found = (kind_of_other([folder]) or "not a folder") if exists(folder) else "no such folder"
+        raise InputError(found, where=str(folder), needed=needed, todo=did_you_mean(folder))
     try:
         next(folder.iterdir(), None)
     except OSError as error:
@@ -299,7 +298,7 @@ def _chosen(folder: Path, lights: Sequence[str], use: Sequence[str] | None, file
     _spelled_otherwise(chosen, files)
     lacking = [light for light in chosen if light not in files]
     if lacking:
-        other = kind_of_other(path for path in folder.iterdir() if path.stem in lacking)
+        other = kind_of_other(path for path in folder.iterdir() if path.stem in lacking or not files)
         if other:
             raise InputError(other, where=str(folder), needed=f"an image for each light, for example {lacking[0]}.png")
         others = sorted(stem for stem in files if stem not in lights and not stem.startswith(("ambient", SHORT)) and stem != "mask")

@@ -29,6 +29,8 @@ MOSTLY = 0.5
 """Share of vectors of length 1 from which the others are damaged directions, not positions."""
 STATED = ("directions", "positions")
 """What a user may state the vectors to be."""
+LEAST_OF_ANGLES = 4
+"""Number of lights from which columns can be told to be angles: of three places two columns are often positive by chance."""
 SAME_RAD = 1e-3
 """Radians within which two lights are of one direction: a line that is there twice, not two lamps."""
 NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
@@ -168,8 +170,28 @@ def read_table(path: Path, stated: str | None = None) -> tuple[Calibration, list
     return distant(path.stem, names, vectors * C_FROM_UP), [*notes, *_of_one_direction(names, vectors)]
 
 
+def _refuse_angles(vectors: Array, path: Path) -> None:
+    """Stop where two columns range as azimuths and elevations do and the third is constant: as places they would lie in one quadrant."""
+    constant = np.flatnonzero(np.ptp(vectors, axis=0) == 0)
+    if len(constant) != 1 or len(vectors) < LEAST_OF_ANGLES:
+        return
+    angles = np.delete(vectors, constant[0], axis=1)
+    least, most = angles.min(axis=0), angles.max(axis=0)
+    for unit, quarter in (("degrees", 90.0), ("radians", np.pi / 2)):
+        if np.all(least >= 0) and most.min() <= quarter < most.max() <= 4 * quarter:
+            ranges = " and ".join(f"{low:.4g} to {high:.4g}" for low, high in zip(least, most, strict=True))
+            raise DisagreementError(
+                f"two columns look like azimuth and elevation in {unit} ({ranges}), the other is {vectors[0, constant[0]]:.4g} throughout",
+                where=str(path),
+                needed="x y z of each light: x right, y up, z to the camera",
+                todo="write cos(el) cos(az), cos(el) sin(az), sin(el), or state --vectors positions",
+            )
+
+
 def _directions(vectors: Array, path: Path, stated: str | None) -> tuple[Array, list[str]]:
     """Unit vectors (N, 3) to the lights, x right, y up, z to the camera; notes on how they came about."""
+    if stated is None:
+        _refuse_angles(vectors, path)
     unit = unit_rows(vectors, str(path))
     length = np.linalg.norm(vectors, axis=1)
     mean, notes = float(length.mean()), []

@@ -39,6 +39,9 @@ PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".
 RESERVED = {"mask", "ambient", "short", "dark", "gt"}
 """Words of a name, apart by _ - or blanks, that say that an image is no light's: `photometric_sample_mask_raw`, `Normal_gt`."""
 OTHERS = (".heic", ".heif", ".gif", ".psd", ".exr", ".hdr", ".svg", ".pdf")
+RELIGHTABLE = (".ptm", ".rti")
+"""What names of relightable images end in: polynomials or harmonics that were fitted to photographs."""
+INTO_PICTURES = "turn it into PNG or TIFF first"
 
 
 @cache
@@ -117,10 +120,14 @@ def hidden(path: Path) -> bool:
 def kind_of_other(paths: Iterable[Path]) -> str:
     """What files are that cannot be read as pictures, in words; empty where there is nothing to say of them."""
     endings = {path.suffix.lower() for path in paths}
-    raws = () if raw_is_read() else RAWS
-    for known, what in ((VIDEOS, "a video"), (raws, "a camera's raw file"), (OTHERS, "of a kind that is not read")):
+    kinds = (
+        (VIDEOS, "a video", INTO_PICTURES),
+        (() if raw_is_read() else RAWS, "a camera's raw file", f"install lpcal[raw], or {INTO_PICTURES}"),
+        (RELIGHTABLE, "a relightable image, which holds no photographs", "give the photographs that it was made of"),
+        (OTHERS, "of a kind that is not read", INTO_PICTURES),
+    )
+    for known, what, todo in kinds:
         found = sorted(endings & set(known))
         if found:
-            first = "install lpcal[raw], or " if known is raws else ""
-            return f"{found[0]} is {what}: {first}turn it into PNG or TIFF first"
+            return f"{found[0]} is {what}: {todo}"
     return ""

@@ -115,11 +115,22 @@ def test_two_spellings_of_one_light_are_not_chosen_between(tmp_path: Path) -> No
         read_capture(tmp_path, ["img0"])
 
 
-@pytest.mark.parametrize(("ending", "said"), [("CR2", "raw file"), ("NEF", "raw file"), ("mp4", "a video"), ("HEIC", "not read")])
+@pytest.mark.parametrize(
+    ("ending", "said"), [("CR2", "raw file"), ("NEF", "raw file"), ("mp4", "a video"), ("HEIC", "not read"), ("ptm", "relightable")]
+)
 def test_a_capture_of_what_is_no_picture_yet(tmp_path: Path, ending: str, said: str) -> None:
     (tmp_path / f"L0.{ending}").write_bytes(b"x")
     with pytest.raises(InputError, match=said):
         read_capture(tmp_path, ["L0"])
+
+
+def test_a_relightable_image_in_place_of_its_photographs(tmp_path: Path) -> None:
+    """Alone in the folder under a name of its own, or given as the folder itself."""
+    file = tmp_path / "vase.rti"
+    file.write_bytes(b"#HSH1.2\n")
+    for given in (tmp_path, file):
+        with pytest.raises(InputError, match="the photographs that it was made of"):
+            read_capture(given, ["L0"])
 
 
 @pytest.mark.parametrize("key", ["exposures: {LO: 20 ms}", "gains: {short_L7: 2}", "exposures: {ambient_1: 20 ms}"])

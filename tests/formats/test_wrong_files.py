@@ -12,7 +12,7 @@ from scipy.io import savemat
 import lpcal as library
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats.calibration_yaml import read_calibration
-from lpcal.formats.import_lights import read_lights
+from lpcal.formats.import_lights import import_lights, read_lights
 from lpcal.formats.normal_map import read_normals
 from lpcal.records.calibration import Wing
 
@@ -138,3 +138,24 @@ def test_lights_that_look_away_are_warned_of(tmp_path: Path, lpcal: Run, joint: 
     code, _, err = lpcal("wings", cwd=tmp_path)
     assert code == 0, err
     assert ("mm behind the disc: they look away" in err) == behind
+
+
+@pytest.mark.parametrize("unit", ["degrees", "radians"])
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (1, 0, 2)])
+def test_angles_in_place_of_vectors(tmp_path: Path, unit: str, order: tuple[int, ...]) -> None:
+    """Azimuth, elevation and a constant radius, in any order; the same lights as vectors, or as places in one plane, are taken."""
+    azimuth, elevation = np.radians(15.0 * np.arange(24)), np.radians(np.tile([35.0, 60.0], 12))
+    u = np.stack([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)], axis=1)
+    scale = 1.0 if unit == "radians" else 180 / np.pi
+    angles = np.stack([scale * azimuth, scale * elevation, np.ones(24)], axis=1)[:, order]
+
+    def file(vectors: np.ndarray) -> Path:
+        path = tmp_path / "dome.lp"
+        path.write_text("\n".join(["24", *(f"i{k}.png {x} {y} {z}" for k, (x, y, z) in enumerate(vectors))]))
+        return path
+
+    with pytest.raises(DisagreementError, match=f"azimuth and elevation in {unit}"):
+        read_lights(file(angles))
+    assert import_lights(file(angles), "positions").notes
+    for vectors in (u, 150 * u / u[:, 2:]):
+        assert len(read_lights(file(vectors))[1].lights) == 24
