@@ -152,24 +152,33 @@ def check_handeye(
     >>> len(found.wrong), found.figures.carries
     (0, 'camera')
     """
-    boards, findings = boards_of(H_CB, t_camera_s), _Findings()
+    boards, options = boards_of(H_CB, t_camera_s), HandEyeOptions(inverted=inverted, carries=carries)
     stream = stream_of(H_OP, t_mocap_s)
     if stream is not None:
-        if boards.t_camera_s is None:
-            raise InputError("none are given", where="t_camera_s", needed="the views' times: the body's poses have times")
-        pairs = _of_recording(stream, boards, clock_offset_s, findings)
+        findings = _of_stream(stream, boards, clock_offset_s, options)
     else:
         assert not isinstance(H_OP, PoseStream | MarkerStream)
-        poses = given.transforms(H_OP, "H_OP")
+        findings, poses = _Findings(), given.transforms(H_OP, "H_OP")
         refuse_unpaired(poses, boards)
         findings.say("poses", f"{len(poses)}, one a view, no clock")
-        pairs = poses, np.ones(len(poses), dtype=bool)
-    if pairs is not None:
-        _motion(boards, *pairs, findings, HandEyeOptions(inverted=inverted, carries=carries))
-    if findings.wrong and stream is not None and boards.t_camera_s is not None:
-        misread = clock.misread_rate(track_of(stream), boards.t_camera_s, boards.H_CB)
-        findings.wrong = findings.wrong if misread is None else [misread]
+        _motion(boards, poses, np.ones(len(poses), dtype=bool), findings, options)
     return HandEyeCheck(tuple(findings.notes), tuple(findings.wrong), tuple(findings.warnings), findings.figures)
+
+
+def _of_stream(stream: PoseStream, boards: BoardPoses, clock_offset_s: float | None, options: HandEyeOptions) -> _Findings:
+    """The findings on a recording; where its rate is misread that is said first, and the others are those of the corrected times."""
+    if boards.t_camera_s is None:
+        raise InputError("none are given", where="t_camera_s", needed="the views' times: the body's poses have times")
+    findings = _Findings()
+    pairs = _of_recording(stream, boards, clock_offset_s, findings)
+    if pairs is not None:
+        _motion(boards, *pairs, findings, options)
+    misread = clock.misread_rate(track_of(stream), boards.t_camera_s, boards.H_CB) if findings.wrong else None
+    if misread is None:
+        return findings
+    corrected = _of_stream(replace(stream, t_s=misread.factor * stream.t_s), boards, clock_offset_s, options)
+    corrected.wrong.insert(0, misread.error)
+    return corrected
 
 
 @screens.screen_of.register

@@ -257,7 +257,7 @@ def _by_the_clock(
 ) -> DisagreementError:
     """The error of a motion that is not rigid; that of a rate, or of the stated clock offset, where the angles fit at another one only."""
     if stated_s is None and (misread := clocks.misread_rate(track, t_camera_s, boards.H_CB)) is not None:
-        return misread
+        return misread.error
     candidates = [] if stated_s is None else clocks.offset_candidates(track, t_camera_s - stated_s, boards.H_CB)
     if stated_s is None or not candidates:
         return error

@@ -183,8 +183,18 @@ def without_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> tuple[Arra
     return t_camera_s - best * (t_camera_s - middle), best
 
 
-def misread_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> DisagreementError | None:
-    """What to say where the angles fit only if the recording's times are those of another rate, as of a header that misstates it.
+@dataclass(frozen=True)
+class MisreadRate:
+    """A recording whose times are those of another rate, as of a header that misstates it."""
+
+    factor: float
+    """What its times have to be multiplied by."""
+    error: DisagreementError
+    """The same in words."""
+
+
+def misread_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> MisreadRate | None:
+    """The rate that a recording has, where the angles fit at that one only; None where they fit as it states, or at no other.
 
     Any mistake of axes, order or direction leaves the angles of relative turns as they are; a rate that is misread does not.
     """
@@ -197,11 +207,12 @@ def misread_rate(track: PoseTrack, t_camera_s: Array, H_CB: Array) -> Disagreeme
     if not costs[best] < stated - MISREAD_GAIN * RATE_GAIN:
         return None
     hz = 1 / float(np.median(np.diff(track.t_s)))
-    return DisagreementError(
+    error = DisagreementError(
         f"the turns of body and camera fit only if the recording runs {best:.4g} times as long: at {hz / best:.4g} Hz, not {hz:.4g}",
         needed="times of both clocks in true seconds",
         todo="correct the recording's rate (its header's, or that of the export), or the images' times",
     )
+    return MisreadRate(best, error)
 
 
 def epochs(track: PoseTrack, t_camera_s: Array) -> str:

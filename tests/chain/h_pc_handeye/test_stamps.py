@@ -56,6 +56,17 @@ def test_a_recording_whose_rate_is_misread_is_named(factor: float, words: str) -
     assert [words in one.found for one in found.wrong] == [True]
 
 
+def test_a_misread_rate_hides_no_other_mistake() -> None:
+    """A recording at half its times whose poses are those of a mirrored room, too: both are named, and figures are those at true times."""
+    session = moving_session(np.random.default_rng(0), 48)
+    mirrored = np.diag([1.0, -1.0, 1.0, 1.0])
+    stream = replace(session.stream, t_s=2 * session.stream.t_s, H_OP=mirrored @ session.stream.H_OP @ mirrored)
+    found = lpcal.check_handeye(stream, session.boards)
+    alone = lpcal.check_handeye(replace(stream, t_s=session.stream.t_s), session.boards)
+    assert "times as long" in found.wrong[0].found
+    assert [one.found for one in found.wrong[1:]] == [one.found for one in alone.wrong] != []
+
+
 def test_other_mistakes_are_no_misread_rate() -> None:
     session = moving_session(np.random.default_rng(1), 48)
     mirrored = np.diag([1.0, -1.0, 1.0, 1.0])
