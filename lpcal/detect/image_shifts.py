@@ -8,8 +8,8 @@ image k in pixels, so that it shows ``I_k - d_k . grad I_k``::
 whose mean over the images is not determined (all moved alike is no shift). It is set to 0, and shifts are counted from their median, which
 one image that moved does not move. Noise in the gradients shrinks them a little. Gradients are those of texture and shading within the
 object, away from its rim and from shadows. The standard deviation of d is that of a cluster-robust (sandwich) estimator, blocks of the
-picture being the clusters, since errors of the model are common to neighbouring pixels. A shift is the same all over the picture, an error
-of the model is not: the quarters of the picture have to agree. Sources: Lucas and Kanade 1981, IJCAI (shifts from gradients); Liang and
+picture being the clusters, since errors of the model are common to neighbouring pixels. A shift is the same all over the picture and gone
+once the image is put back, an error of the model is not. Sources: Lucas and Kanade 1981, IJCAI (shifts from gradients); Liang and
 Zeger 1986, Biometrika 73 (the standard deviation).
 """
 
@@ -80,7 +80,7 @@ def shifted_said(seen: PixelList, lit: Illumination, found: Estimate, names: Seq
 
 
 def shifted(seen: PixelList, lit: Illumination, found: Estimate, names: Sequence[str]) -> tuple[Shift, ...]:
-    """The images that are surely shifted, the furthest first."""
+    """The images that are surely shifted, the furthest first; not those of less than half its shift, which may be its effect on them."""
     groups = -(-len(names) // MOST_LIGHTS)
     shifts: list[tuple[float, Shift]] = []
     for first in range(groups):
@@ -88,44 +88,58 @@ def shifted(seen: PixelList, lit: Illumination, found: Estimate, names: Sequence
         of = _shifts(seen, lit, found, some)
         if of is None:
             continue
-        d, quarters = of.d - np.median(of.d, axis=0), of.quarters - np.median(of.quarters, axis=1, keepdims=True)
-        for k, image in enumerate(some):
-            size = float(np.hypot(*d[k]))
-            t = float(np.sqrt(d[k] @ np.linalg.solve(of.covariance[k], d[k])))
-            along = quarters[:, k] @ d[k] / max(size, LEAST_PX) ** 2
-            if size > LEAST_PX and t > CERTAIN and AGREES[0] < along.min() and along.max() < AGREES[1]:
-                shifts.append((size, Shift(names[int(image)], (float(d[k, 0]), float(d[k, 1])))))
-    return tuple(shift for _, shift in sorted(shifts, key=lambda one: -one[0]))
+        for k in np.flatnonzero(of.sure()):
+            x, y = map(float, of.d[k])
+            shifts.append((float(np.hypot(x, y)), Shift(names[int(some[k])], (x, y))))
+    least = max((size for size, _ in shifts), default=0.0) / 2
+    return tuple(shift for size, shift in sorted(shifts, key=lambda one: -one[0]) if size > least)
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Shifts of L images, counted from their median, as far as gradients say them at once."""
+
+    d: Array
+    """(L, 2)."""
+    t: Array
+    """(L,) size in standard deviations."""
+    along: Array
+    """(4, L) what each quarter of the picture says along d, as a share of it."""
 
 
 @dataclass(frozen=True)
 class _Shifts:
-    """Shifts of L images."""
+    """Shifts of L images, found in steps."""
 
     d: Array
     """(L, 2)."""
-    covariance: Array
-    """(L, 2, 2)."""
-    quarters: Array
-    """(4, L, 2) what each quarter of the picture says."""
+    first: _Step
+    last: _Step
+
+    def sure(self) -> Mask:
+        """(L,) which images are shifted for sure: by enough, the same in all quarters, in steps that become smaller."""
+        size = np.hypot(*self.d.T)
+        agree = (self.first.along.min(axis=0) > AGREES[0]) & (self.first.along.max(axis=0) < AGREES[1])
+        return np.asarray((size > LEAST_PX) & (self.first.t > CERTAIN) & agree & (np.hypot(*self.last.d.T) < size / 2))
 
 
 def _shifts(seen: PixelList, lit: Illumination, found: Estimate, some: Indices) -> _Shifts | None:
-    """The shifts of some images, found again from images that are put back by them; None where too few pixels can contradict each other."""
+    """The shifts of some images, each step from images put back by those before; None where too few pixels can contradict each other."""
     signal = seen.signal[some] if found.gloss is None else seen.signal[some] - found.gloss[some]
-    good, total = found.inliers[some] & seen.usable[some], np.zeros((len(some), 2))
-    sigma = np.sqrt(normals.variances(seen)[some])
-    shifts = None
-    for _ in range(ROUNDS):
-        back = np.stack([_moved(seen.mask, values, -d) for values, d in zip(signal, total, strict=True)]) if total.any() else signal
-        shifts = _step(seen.mask, back, sigma, good, lit.B[some])
-        if shifts is None:
+    good, sigma, B = found.inliers[some] & seen.usable[some], np.sqrt(normals.variances(seen)[some]), lit.B[some]
+    first = last = _step(seen.mask, signal, sigma, good, B)
+    if first is None or last is None:
+        return None
+    d = first.d
+    for _ in range(1, ROUNDS):
+        if np.hypot(*d.T).max() < LEAST_PX:
             return None
-        shifts = _Shifts(total + shifts.d, shifts.covariance, total + shifts.quarters)
-        total = shifts.d
-        if np.hypot(*total.T).max() < LEAST_PX:
-            break
-    return shifts
+        back = np.stack([_moved(seen.mask, values, -by) for values, by in zip(signal, d, strict=True)])
+        last = _step(seen.mask, back, sigma, good, B)
+        if last is None:
+            return None
+        d = d + last.d
+    return _Shifts(d, first, last)
 
 
 def _moved(mask: Mask, values: Array, d: Array) -> Array:
@@ -139,7 +153,7 @@ def _moved(mask: Mask, values: Array, d: Array) -> Array:
     return np.asarray(cv2.warpAffine(image, by, mask.shape[::-1], flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)[mask])
 
 
-def _step(mask: Mask, signal: Array, sigma: Array, good: Mask, B: Array) -> _Shifts | None:
+def _step(mask: Mask, signal: Array, sigma: Array, good: Mask, B: Array) -> _Step | None:
     """The shifts from gradients of the `good` signals (L, P) with standard deviations `sigma`, under light vectors B (L, P, 3)."""
     gradient, counted = _gradients(mask, signal, good)
     at = np.flatnonzero(counted.sum(axis=0) >= LIGHTS_NEEDED)
@@ -171,7 +185,9 @@ def _step(mask: Mask, signal: Array, sigma: Array, good: Mask, B: Array) -> _Shi
     quarter = (np.arange(BLOCKS**2) // BLOCKS >= BLOCKS // 2) * 2 + (np.arange(BLOCKS**2) % BLOCKS >= BLOCKS // 2)
     quarters = np.stack([_solved(H[quarter == k].sum(axis=0), g[quarter == k].sum(axis=0))[0] for k in range(4)])
     own = np.arange(2 * count).reshape(count, 2)
-    return _Shifts(d.reshape(count, 2), covariance[own[:, :, None], own[:, None]], quarters.reshape(4, count, 2))
+    d, quarters = (one - np.median(one, axis=-2, keepdims=True) for one in (d.reshape(count, 2), quarters.reshape(4, count, 2)))
+    t = np.sqrt(np.einsum("ki,kij,kj->k", d, np.linalg.inv(covariance[own[:, :, None], own[:, None]]), d))
+    return _Step(d, t, np.einsum("qki,ki->qk", quarters, d) / np.maximum(np.sum(d**2, axis=1), lambert.SINGULAR))
 
 
 def _solved(H: Array, g: Array) -> tuple[Array, Array]:

@@ -50,14 +50,14 @@ def test_images_that_lie_on_each_other_are_not_spoken_of(lights: int) -> None:
 
 
 def test_the_shift_of_one_image_is_found() -> None:
-    """To a third of itself: noise in the gradients shrinks it along the directions that the lights hardly determine."""
+    """To two fifths of itself: noise in the gradients shrinks it along directions that the lights hardly determine."""
     for seed in range(6):
         d = np.zeros((LIGHTS, 2))
         d[seed % LIGHTS] = (0.6, -0.4)
         shift = found(seed, d)[0]
         assert shift.image == f"L{seed % LIGHTS}"
         true = d[seed % LIGHTS]
-        assert np.hypot(*(shift.px - true)) < 0.35 * np.hypot(*true)
+        assert np.hypot(*(shift.px - true)) < 0.4 * np.hypot(*true)
 
 
 def test_a_drift_over_all_images_is_found() -> None:
