@@ -25,7 +25,7 @@ from lpcal.segmentation import cut
 from lpcal.segmentation.mask import Hints, Keep
 from lpcal.surface import full_size as solver
 from lpcal.surface import uncertainty
-from lpcal.surface.ground import Ground, between
+from lpcal.surface.coarse_solution import CoarseSolution, between
 from lpcal.surface.reconstruct import AGREE_DEG, Solved
 from lpcal.view import pixel_list
 from lpcal.view.parallel import run_all
@@ -135,11 +135,11 @@ def enlarged(
 ) -> Surface:
     """The surface in full size upon the coarse one; `mask` (H, W) is the user's, None where it was found."""
     sensor = Sensor() if coarse.sensor is None else coarse.sensor.sensor
-    ground = Ground.of(solved.scene, solved.state, coarse.rays_C, coarse.normals, full.factor)
+    solution = CoarseSolution.of(solved.scene, solved.state, coarse.rays_C, coarse.normals, full.factor)
     radiance_of = _parts(raw, full, sensor, solved)
     inside = _outlined(full, coarse, radiance_of, solved) if mask is None else mask
     colours = None if solved.radiance.signal.ndim == 3 else pixel_list.colour_weight(solved.radiance, solved.scene.lights)
-    whole = solver.Full(radiance_of, inside, calibration.camera, solved.scene, solved.state.field.gloss, ground, colours)
+    whole = solver.Full(radiance_of, inside, calibration.camera, solved.scene, solved.state.field.gloss, solution, colours)
     found = whole.solve(progress)
     solver.finished(whole, found, AGREE_DEG, uncertainty.calibration_deg(solved.scene.lights))
     return _surface(whole, found, coarse)
@@ -204,20 +204,20 @@ def _outlined(full: FullImages, coarse: Surface, radiance_of: Callable[[slice, s
 
 def _surface(whole: solver.Full, found: solver.Maps, coarse: Surface) -> Surface:
     """The coarse surface with the maps in full size in place of its own."""
-    inside, ground = whole.mask, whole.ground
+    inside, solution = whole.mask, whole.coarse
     component, layer = np.zeros(inside.shape, np.uint8), np.zeros(inside.shape, np.uint8)
     depth_std = np.full(inside.shape, np.nan, np.float32)
     columns = slice(0, inside.shape[1])
     rays_C: Any = np.broadcast_to(np.array([0.0, 0.0, 1.0]), (*inside.shape, 3))
     if whole.camera is not None:
         rays_C = np.empty((*inside.shape, 3), np.float32)
-    scale = np.float32(1.0 if whole.scene.seen.central else ground.factor)
+    scale = np.float32(1.0 if whole.scene.seen.central else solution.factor)
 
     def fill(rows: slice) -> Indices:
         here = inside[rows]
-        component[rows] = np.where(here, ground.at(coarse.component, rows, columns), 0)
-        layer[rows] = np.where(here, ground.at(coarse.layer, rows, columns), 0)
-        depth_std[rows] = np.where(here, scale * ground.at(coarse.depth_std, rows, columns), np.nan)
+        component[rows] = np.where(here, solution.at(coarse.component, rows, columns), 0)
+        layer[rows] = np.where(here, solution.at(coarse.layer, rows, columns), 0)
+        depth_std[rows] = np.where(here, scale * solution.at(coarse.depth_std, rows, columns), np.nan)
         if whole.camera is not None:
             rays_C[rows] = whole.rays_C(rows, columns)
         return np.bincount(component[rows].ravel(), minlength=256)

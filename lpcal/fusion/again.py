@@ -40,7 +40,7 @@ from lpcal.segmentation import mask
 from lpcal.segmentation.mask import NO_HINTS
 from lpcal.surface import interreflection, rounds, surroundings
 from lpcal.surface import reconstruct as solver
-from lpcal.surface.rounds import Held, Scene
+from lpcal.surface.rounds import OtherViews, Scene
 from lpcal.view import pixel_list
 
 TRIED = np.arange(0.0, 0.97, 0.16)
@@ -217,14 +217,14 @@ def solved(one: Placed, body: Body, thrown: Array, reflectance: float, known: tu
     inside[view.at][row, column] = True
     scale[row, column] = by_piece
     try:
-        surface = reconstructed(radiance, calibration, inside, Held(np.log(depth), light, reflectance))
+        surface = reconstructed(radiance, calibration, inside, OtherViews(np.log(depth), light, reflectance))
     except LpcalError:
         return view
     return renewed(view, surface, scale)
 
 
-def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mask, held: Held) -> Surface:
-    """The surface of a capture by near lights, of the pixels of a mask (H, W) at which `held` is given.
+def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mask, other_views: OtherViews) -> Surface:
+    """The surface of a capture by near lights, of the pixels of a mask (H, W) at which `other_views` are given.
 
     Raises
     ------
@@ -236,8 +236,8 @@ def reconstructed(radiance: Radiance, calibration: Calibration, object_mask: Mas
     pixel_list.agree_on_size(radiance.name, radiance.signal.shape[1:3], calibration.camera)
     lights = pixel_list.lights_of(calibration, radiance)
     maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
-    found = mask.automatic(maps, rays_C, lights, held.distance_m, NO_HINTS, pixel_list.room(radiance), drawn=False)
+    found = mask.automatic(maps, rays_C, lights, other_views.distance_m, NO_HINTS, pixel_list.room(radiance), drawn=False)
     around = surroundings.found_beside(maps, rays_C, object_mask, found, lights)
     seen = pixel_list.list_pixels(maps, rays_C, object_mask, central=True)
-    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, held, solver.room_of(radiance, object_mask))
-    return solver.surface_of(radiance, scene, rounds.run(scene, held.u, silent), rays_C, None)
+    scene = Scene(radiance.name, seen, Grid.of(object_mask), lights, None, None, around, other_views, solver.room_of(radiance, object_mask))
+    return solver.surface_of(radiance, scene, rounds.run(scene, other_views.u, silent), rays_C, None)

@@ -1,9 +1,9 @@
-"""H_AB at any time: the tracked body's stream, freed of what tracking got wrong, and interpolated.
+"""H_AB at any time: the stream of a tracked body without its outliers, interpolated.
 
-Symbols: samples (t_n, H_AB,n); a run is samples that follow one another without a gap or a jump; angular speed
-``w_n = angle(R_n+1 R_n^T) / (t_n+1 - t_n)``. A body whose markers are swapped flips: at its edge the angular speed is beyond any hand's,
-and one flipped neighbour corrupts an interpolation. A flip that lasts shows in the system's own marker error, and in the hand-eye
-solve, not in the speed. Source: measured on real and rendered streams (30 ms of guard were too few, 50 ms are enough).
+Symbols: samples (t_n, H_AB,n); a run is a sequence of samples without a gap or a jump; angular speed
+``w_n = angle(R_n+1 R_n^T) / (t_n+1 - t_n)``. A body whose markers are swapped flips: at the transition the angular speed is beyond that of
+any handheld or robot motion, and one flipped neighbour corrupts an interpolation. A lasting flip shows in the tracking system's marker
+error and in the hand-eye solve, not in the speed. Thresholds were measured on real and rendered streams.
 """
 
 from __future__ import annotations
@@ -18,63 +18,62 @@ from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Mask
 
 JUMP_RAD_S = 10.0
-"""Angular speed beyond which two neighbours are not of one motion."""
+"""Angular speed, rad/s, above which the step between two samples is a jump."""
 JUMP_M_S, JUMP_RATIO = 20.0, 50.0
-"""A speed beyond this, and beyond so many times the fast ones of the recording (its unit may be misstated), is a jump."""
+"""Speed, m/s, above which a step is a jump, if it is also this many times the recording's fast steps (its unit may be misstated)."""
 SHORTEST_RUN_S = 0.3
 CHAIN_S = 0.5
-"""A run goes on with an earlier one across a flip or a gap of up to this."""
+"""Longest flip or gap, seconds, across which a run is joined to an earlier one."""
 GUARD_S = 0.05
-"""Kept clear at either end of a run."""
+"""Time, seconds, at either end of a run that is not interpolated: 30 ms were too short, 50 ms are enough."""
 GAP_SAMPLES = 3.5
-"""Sampling intervals without a sample that end a run."""
+"""Gap, in sampling intervals, that ends a run."""
 ERROR_RATIO, ERROR_FLOOR_M = 5.0, 1e-3
-"""A marker error over this many medians plus this is a swap."""
+"""A marker error above this many medians plus this many metres is a swap of markers."""
 DWELL_S = 0.2
-"""To either side of a time; a body that stands still so long is averaged."""
+"""Time, seconds, to either side of an asked time over which the poses of a body at rest are averaged."""
 DWELL_SAMPLES = 6
-"""The least in each half of a dwell."""
+"""Smallest number of samples in each half of a dwell."""
 DRIFT_SIGMAS = 1.0
-"""The most that the means of a dwell's halves, or of its inner and outer quarters, may differ, in standard deviations of one sample.
-
-Even motion gives 3.5, a turning point 1.7."""
+"""Largest difference of the means of a dwell's halves, or of its inner and outer quarters, in standard deviations of one sample: uniform
+motion gives 3.5, a turning point 1.7."""
 VELOCITY_SAMPLES = 3
-"""Sampling intervals to either side over which a velocity is taken."""
+"""Sampling intervals to either side over which a velocity is computed."""
 MOVED_SIGMAS = 6.0
-"""A difference of two samples up to so many times what noise makes of one coordinate is rest: the noise is no speed."""
+"""A difference of two samples below this many standard deviations of a coordinate counts as rest, so that noise makes no velocity."""
 
 
 @dataclass(frozen=True)
 class PoseTrack:
-    """Trusted samples of a track. Row n of all arrays is one sample."""
+    """Inlying samples of a track. Row n of all arrays is one sample."""
 
     t_s: Array
     H: Array
     run: npt.NDArray[np.intp]
-    """(N,) number of the run that a sample belongs to; samples of one run follow one another."""
+    """(N,) index of the run that a sample belongs to; the samples of a run are consecutive."""
     starts_s: Array
-    """(R,) trusted from here, a run each."""
+    """(R,) start of the trusted interval of each run."""
     ends_s: Array
     dropped: dict[str, int]
-    """Samples left out, by why."""
+    """Numbers of rejected samples, by reason."""
     variance: Array | None = None
-    """(N, 6) of the rotation's and the origin's errors along the axes of A, over what is usual; None: all alike."""
+    """(N, 6) variances of rotation and origin along the axes of A, relative to the usual ones; None: all equal."""
     inverse: bool = False
-    """Whether `poses_at` gives H_BA for H_AB."""
+    """Whether `poses_at` returns H_BA instead of H_AB."""
 
     @cached_property
     def rows(self) -> Array:
-        """(N, 12) origin and rotation of each sample, less their mean over the track."""
+        """(N, 12) origin and rotation of each sample minus their mean over the track."""
         return np.concatenate([self.H[:, :3, 3], self.H[:, :3, :3].reshape(-1, 9)], axis=1) - self.centre
 
     @cached_property
     def centre(self) -> Array:
-        """(12,) the mean of origin and rotation."""
+        """(12,) mean of origin and rotation."""
         return np.concatenate([self.H[:, :3, 3].mean(axis=0), self.H[:, :3, :3].mean(axis=0).ravel()])
 
     @cached_property
     def sample_noise(self) -> tuple[float, float]:
-        """Standard deviation of a coordinate of the origin (m) and of the rotation (rad), by the second differences of the samples."""
+        """Standard deviations of a coordinate of the origin (m) and of the rotation (rad), from second differences of the samples."""
         second = self.rows[2:] - 2 * self.rows[1:-1] + self.rows[:-2]
         if not len(second):
             return 0.0, 0.0
@@ -90,27 +89,27 @@ class PoseTrack:
 
 @dataclass(frozen=True)
 class TrackPoses:
-    """H_AB at asked times. Row k is one time."""
+    """H_AB at given times. Row k is one time."""
 
     t_mocap_s: Array
     H: Array
-    """(N, 4, 4); the nearest sample's where there is none to trust."""
+    """(N, 4, 4); the nearest sample's where none can be trusted."""
     velocity: Array
-    """(N, 6) of the rotation (rad/s, in O) and of the origin of P (m/s), by which the pose changes with time."""
+    """(N, 6) velocity of the rotation (rad/s) and of the origin of B (m/s), along the axes of A."""
     why: tuple[str | None, ...]
-    """None where the pose is to be trusted."""
+    """(N,) reasons not to trust a pose; None where it is trusted."""
     steady: Mask
-    """(N,) where the body stood still around the time, so that the pose is a mean over the dwell."""
+    """(N,) where the body was at rest, so that the pose is a mean over the dwell."""
     variance: Array | None = None
-    """(N, 6) as that of the track."""
+    """(N, 6) as `PoseTrack.variance`."""
 
     @property
     def trusted(self) -> Mask:
-        """(N,) where there is a pose to trust."""
+        """Mask (N,) of trusted poses."""
         return np.array([why is None for why in self.why], dtype=bool)
 
     def inverse(self) -> TrackPoses:
-        """H_BA for H_AB, with its velocity; the variance is that of H_AB still."""
+        """The inverse poses H_BA with their velocities; the variances remain those of H_AB."""
         R_BA, x_A = np.swapaxes(self.H[:, :3, :3], 1, 2), self.H[:, :3, 3]
         w, v = self.velocity[:, :3], self.velocity[:, 3:]
         turned = np.stack([-w, np.cross(w, x_A) - v], axis=1) @ np.swapaxes(R_BA, 1, 2)
@@ -118,7 +117,7 @@ class TrackPoses:
 
 
 def clean(t_s: Array, H_AB: Array, error_m: Array, variance: Array | None = None) -> PoseTrack:
-    """Samples H_AB (N, 4, 4) at increasing times (N,), without swapped markers, jumps, short runs; cut into runs.
+    """A track from samples H_AB (N, 4, 4) at increasing times (N,): swapped markers, jumps and short runs are rejected.
 
     `error_m` (N,) is the tracking system's own marker error, NaN where it gives none; `variance` (N, 6) as `PoseTrack`'s.
     """
@@ -152,9 +151,9 @@ def clean(t_s: Array, H_AB: Array, error_m: Array, variance: Array | None = None
 
 
 def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
-    """Interpolated poses (N, 4, 4) at times (N,) on the mocap's clock, their velocity, and why one is not to be trusted.
+    """Interpolated poses at times (N,) on the mocap's clock, their velocities, and reasons not to trust them.
 
-    Rotation along the geodesic, origin along the chord, between the two samples of a run around the time; where the body stands still,
+    Rotations are interpolated along the geodesic and origins linearly between the two neighbouring samples of a run; at rest the pose is
     the mean over the dwell.
     """
     t = np.asarray(t_mocap_s, dtype=float)
@@ -173,7 +172,7 @@ def poses_at(track: PoseTrack, t_mocap_s: Array) -> TrackPoses:
 
 
 def _swapped(error_m: Array) -> Mask:
-    """Samples whose marker error is far over the usual."""
+    """Mask (N,) of samples whose marker error is far above the median."""
     known = error_m[np.isfinite(error_m)]
     if not known.size:
         return np.zeros(len(error_m), dtype=bool)
@@ -181,9 +180,9 @@ def _swapped(error_m: Array) -> Mask:
 
 
 def _chains(t_s: Array, H_AB: Array, first: npt.NDArray[np.intp], last: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
-    """Chain (R,) of each run: a run goes on with the latest earlier one from which a plausible motion leads to it.
+    """Index (R,) of the chain of each run: a run is joined to the latest earlier one from which a plausible motion leads to it.
 
-    A flip and its return so become two chains, the body's own and the flipped one's.
+    A flip and its return thus become two chains, that of the true poses and that of the flipped ones.
     """
     chain = np.zeros(len(first), dtype=np.intp)
     ends: list[int] = []
@@ -203,7 +202,7 @@ def _chains(t_s: Array, H_AB: Array, first: npt.NDArray[np.intp], last: npt.NDAr
 
 
 def _stretches(chain: npt.NDArray[np.intp], start_s: Array, end_s: Array, reach_s: float) -> npt.NDArray[np.intp]:
-    """The first run (R,) of the stretch that each run belongs to: runs of a chain with a few samples between them are one stretch."""
+    """First run (R,) of the stretch of each run: runs of a chain that are few samples apart form one stretch."""
     stretch = np.arange(len(chain))
     latest: dict[int, int] = {}
     for run, of in enumerate(chain.tolist()):
@@ -219,7 +218,7 @@ def _shift(H_AB: Array, i: int, j: int) -> float:
 
 
 def _lasting(chain: npt.NDArray[np.intp], start_s: Array, end_s: Array) -> Mask:
-    """Runs (R,) of chains that last 0.3 s in all, less those that a longer chain of the same time contradicts."""
+    """Mask (R,) of runs in chains of 0.3 s and more in total that no longer chain contradicts at the same time."""
     length = np.bincount(chain, end_s - start_s)
     begin, end = (np.array([find(of[chain == n]) for n in range(len(length))]) for find, of in ((np.min, start_s), (np.max, end_s)))
     whole = float(end_s[-1] - start_s[0])
@@ -232,13 +231,13 @@ def _lasting(chain: npt.NDArray[np.intp], start_s: Array, end_s: Array) -> Mask:
 
 
 def _neighbour_angle(R: Array) -> Array:
-    """Angle (N-1,) between neighbours: 2 asin of half the chord, fast and exact enough for speeds."""
+    """Angles (N-1,) between neighbouring rotations: 2 asin of half the chord, accurate enough for speeds."""
     chord = np.linalg.norm((R[1:] - R[:-1]).reshape(-1, 9), axis=1)
     return np.asarray(2 * np.arcsin(np.clip(chord / np.sqrt(8), 0, 1)))
 
 
 def _velocity(track: PoseTrack, t: Array) -> Array:
-    """Velocity (N, 6) over some sampling intervals to either side, never across a run's edge; zero where it is within the noise."""
+    """Velocities (N, 6) over VELOCITY_SAMPLES intervals to either side within the run; zero where the motion is within the noise."""
     at = np.clip(np.searchsorted(track.t_s, t), 1, len(track.t_s) - 1)
     low, high = np.maximum(at - VELOCITY_SAMPLES, 0), np.minimum(at + VELOCITY_SAMPLES - 1, len(track.t_s) - 1)
     for _ in range(VELOCITY_SAMPLES):
@@ -256,17 +255,17 @@ def _velocity(track: PoseTrack, t: Array) -> Array:
 
 
 def _variance(track: PoseTrack, t: Array) -> Array | None:
-    """Variance (N, 6) between that of the samples around times (N,)."""
+    """Variances (N, 6) at times (N,), interpolated between the samples."""
     if track.variance is None:
         return None
     return np.stack([np.interp(t, track.t_s, column) for column in track.variance.T], axis=1)
 
 
 def _dwells(track: PoseTrack, t: Array, run: npt.NDArray[np.intp]) -> tuple[Array, Mask]:
-    """Mean poses (M, 4, 4) over the dwells around times (M,) in runs (M,), and (M,) whether the body stood still there.
+    """Mean poses (M, 4, 4) over the dwells around times (M,) in runs (M,), and a mask (M,) of those at rest.
 
-    It did where the means of the halves before and after the time differ by no more than one sample scatters, and so do those of the
-    inner and the outer quarters: a body that turns back has halves alike.
+    At rest the means of the halves before and after the time agree within DRIFT_SIGMAS, and so do those of the inner and outer quarters,
+    which tell a turning point from rest.
     """
     inside = run >= 0
     low, high = np.maximum(t - DWELL_S, track.starts_s[run]), np.minimum(t + DWELL_S, track.ends_s[run])

@@ -1,8 +1,8 @@
 r"""A capture in full size, tile by tile, based on the solution in coarse pixels.
 
-The coarse capture is solved as any other: object, distance, gloss, what surfaces throw on each other and hide. Here each tile takes its
-light from that, finds its own normals (shading.field, from the coarse normals and each pixel's own albedo), and integrates them to a depth
-that the coarse one holds over SCREEN coarse pixels: with steps g_ab of neighbours a, b and the coarse log depth h,
+The coarse capture is solved as any other: object, distance, gloss, interreflection and occlusion. Here each tile takes its light from that
+solution, estimates its own normals (shading.field, starting from the coarse normals and each pixel's own albedo), and integrates them to a
+depth that is tied to the coarse one (screened integration): with steps g_ab of neighbours a, b and the coarse log depth h,
 
     minimise  sum_ab w_ab ((u_b - u_a - g_ab) / s)^2  +  sum_p ((u_p - h_p) / (s SCREEN factor))^2
 
@@ -30,7 +30,7 @@ from lpcal.shading.field import Field
 from lpcal.shading.gloss import Gloss
 from lpcal.shading.normals import Estimate, albedo_of
 from lpcal.surface import uncertainty
-from lpcal.surface.ground import Ground
+from lpcal.surface.coarse_solution import CoarseSolution
 from lpcal.surface.rounds import FULL_ROUNDS, Scene
 from lpcal.view import parallel, pixel_list
 from lpcal.view.constants import LEAST_COSINE, OUTLIER2, REGULARISATION
@@ -40,20 +40,20 @@ from lpcal.view.pixel_list import Illumination
 SAMPLES = 1_500_000
 """Samples, lights times pixels, of a tile: its lists of vectors then take some 200 MB a core."""
 SCREEN = 3.0
-"""Coarse pixels over which a fine depth is held to the coarse one."""
+"""Coarse pixels over which the influence of the coarse depth on the fine one falls to 1/e."""
 INTEGRATED_SIDE = 768
 """Pixels of a tile's side where depths are integrated."""
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A tile of a picture."""
+    """A tile of an image."""
 
     rows: slice
-    """With its margin, where there is one in the picture."""
+    """Rows with the margin, as far as the image reaches."""
     columns: slice
     core: tuple[slice, slice]
-    """Its rows and columns without margin, in the picture."""
+    """Rows and columns without the margin, in the image."""
 
     @property
     def within(self) -> tuple[slice, slice]:
@@ -65,12 +65,12 @@ class Tile:
 
     @property
     def outer(self) -> tuple[slice, slice]:
-        """Its rows and columns with the margin, in the picture."""
+        """Rows and columns with the margin, in the image."""
         return self.rows, self.columns
 
 
 def tiles(size: tuple[int, int], side: int, margin: int) -> list[list[Tile]]:
-    """Tiles of a picture (H, W), row by row."""
+    """Tiles of an image (H, W), row by row."""
 
     def cuts(length: int) -> list[tuple[slice, slice]]:
         count = max(1, round(length / side))
@@ -82,7 +82,7 @@ def tiles(size: tuple[int, int], side: int, margin: int) -> list[list[Tile]]:
 
 @dataclass(frozen=True)
 class Maps:
-    """What is found in full size: (H, W) each, NaN or 0 outside the mask."""
+    """Maps in full size: (H, W) each, NaN or 0 outside the mask."""
 
     normals: Image
     """(H, W, 3)."""
@@ -99,20 +99,20 @@ class Full:
     """A capture in full size."""
 
     radiance_of: Callable[[slice, slice], Radiance]
-    """The radiance of a part of the picture."""
+    """The radiance of a part of the image, by its rows and columns."""
     mask: Mask
     """(H, W)."""
     camera: Camera | None
     scene: Scene
-    """The coarse one."""
+    """The scene in coarse pixels."""
     gloss: Gloss | None
-    ground: Ground
+    coarse: CoarseSolution
     weight: Array | None
     """Weights of the colours in the grey signal, as in coarse pixels."""
 
     @property
     def side(self) -> int:
-        """Pixels of a tile's side, its margin apart."""
+        """Side of a tile, pixels, without its margin."""
         return int(np.sqrt(SAMPLES / len(self.scene.lights)))
 
     def rays_C(self, rows: slice, columns: slice) -> Array:
@@ -149,25 +149,25 @@ class Full:
         maps = pixel_list.grey(radiance, self.scene.lights, self.weight)
         seen = pixel_list.list_pixels(maps, rays_C, inside, central=self.scene.seen.central)
         del maps
-        ground, near = self.ground, self.scene.near
-        u = ground.front(*tile.outer, rays_C)[inside]
+        coarse, near = self.coarse, self.scene.near
+        u = coarse.starting_depth(*tile.outer, rays_C)[inside]
         depth = np.exp(u) if near else np.ones(seen.pixels)
         interreflected = unseen = hidden = None
-        if ground.interreflected is not None:
-            interreflected = np.ascontiguousarray(np.moveaxis(ground.between(ground.interreflected, *tile.outer)[inside], 1, 0), float)
-        if ground.unseen is not None:
-            unseen = ground.between(ground.unseen, *tile.outer)[inside].astype(float)
-        if ground.hidden is not None:
-            hidden = np.ascontiguousarray(ground.at(ground.hidden, *tile.outer)[inside].T)
+        if coarse.interreflected is not None:
+            interreflected = np.ascontiguousarray(np.moveaxis(coarse.between(coarse.interreflected, *tile.outer)[inside], 1, 0), float)
+        if coarse.unseen is not None:
+            unseen = coarse.between(coarse.unseen, *tile.outer)[inside].astype(float)
+        if coarse.hidden is not None:
+            hidden = np.ascontiguousarray(coarse.at(coarse.hidden, *tile.outer)[inside].T)
         lit = Illumination(*pixel_list.light_vectors(self.scene.lights, seen.points_C(depth), self.scene.focus_C), interreflected, unseen)
-        n = ground.between(ground.n, *tile.outer)[inside].astype(float)
-        turn: Array = np.zeros(3)
-        if ground.turn is not None:
-            turn = ground.between(ground.turn[..., :3], *tile.outer)[inside].astype(float)
-        n = lambert.unit(n - turn)[0]
+        n = coarse.between(coarse.n, *tile.outer)[inside].astype(float)
+        correction: Array = np.zeros(3)
+        if coarse.correction is not None:
+            correction = coarse.between(coarse.correction[..., :3], *tile.outer)[inside].astype(float)
+        n = lambert.unit(n - correction)[0]
         start = Field(_albedo_by(n, seen, lit, hidden)[:, None] * n, Estimate.nothing(), self.gloss)
         whole = field.solve(seen, Grid.of(inside), lit, hidden, start, rounds=FULL_ROUNDS)
-        n = lambert.unit(lambert.unit(whole.b)[0] + turn)[0]
+        n = lambert.unit(lambert.unit(whole.b)[0] + correction)[0]
         signal = radiance.signal[:, inside].reshape(len(seen.signal), seen.pixels, -1)
         intensity = np.stack([light.intensity if signal.shape[2] > 1 else light.intensity[:1] for light in self.scene.lights])
         intensity = np.broadcast_to(intensity, (len(intensity), signal.shape[2]))
@@ -183,7 +183,7 @@ class Full:
 
     def _integrated(self, found: Maps, progress: Progress) -> None:
         """Depth, breaks, and the normals and their standard deviations by both."""
-        reach = int(np.ceil(SCREEN * self.ground.factor))
+        reach = int(np.ceil(SCREEN * self.coarse.factor))
         margin, size = 3 * reach, self.mask.shape
         total = np.zeros(size, np.float32)
         found.depth[...] = 0.0
@@ -205,13 +205,13 @@ class Full:
     def _front(self, tile: Tile, found: Maps) -> Image:
         """u (h, w) of a tile; where its core breaks is noted."""
         inside, rays_C = self.mask[tile.outer], self.rays_C(*tile.outer)
-        begin = self.ground.front(*tile.outer, rays_C)[inside]
+        begin = self.coarse.starting_depth(*tile.outer, rays_C)[inside]
         grid, central = Grid.of(inside), self.scene.seen.central
         n = found.normals[tile.outer][inside].astype(float)
         step = steps(grid, n, rays_C[inside], central=central)
-        loose = self.ground.at(self.ground.loose, *tile.outer)[inside]
-        hold = 1 / (SCREEN * self.ground.factor * float(np.median(step.sigma))) ** 2
-        own = Own(np.where(loose, REGULARISATION * hold, hold), begin)
+        near_break = self.coarse.at(self.coarse.near_break, *tile.outer)[inside]
+        tie = 1 / (SCREEN * self.coarse.factor * float(np.median(step.sigma))) ** 2
+        own = Own(np.where(near_break, REGULARISATION * tie, tie), begin)
         u, weight = integrate(grid, step, own, begin, graduated=False)
         u = settle(grid, step, own, u, weight)
         holds = np.zeros((2, *inside.shape), bool)
@@ -260,12 +260,12 @@ def _drawn(full: Full, found: Maps, tile: Tile, measured: Image, agree_deg: floa
         of_depth = normals_of(grid, points, whole)
         of_depth = np.where(np.isfinite(of_depth), of_depth, own)
         noise, used = (one[tile.outer][inside].astype(float) for one in (found.normal_std_deg, found.lights_used))
-        share = full.ground.at(full.ground.share, *tile.outer)[inside].astype(float)
-        around = full.ground.unseen
-        unseen = np.zeros(len(own)) if around is None else full.ground.at(around, *tile.outer)[inside].astype(float)
+        share = full.coarse.at(full.coarse.share, *tile.outer)[inside].astype(float)
+        around = full.coarse.unseen
+        unseen = np.zeros(len(own)) if around is None else full.coarse.at(around, *tile.outer)[inside].astype(float)
         expected = None
-        if full.ground.turn is not None:
-            expected = np.degrees(full.ground.between(full.ground.turn[..., 3], *tile.outer)[inside].astype(float))
+        if full.coarse.correction is not None:
+            expected = np.degrees(full.coarse.between(full.coarse.correction[..., 3], *tile.outer)[inside].astype(float))
         features = uncertainty.indicators_of(grid, inside, own, of_depth, whole, noise, np.ones(len(own)), used, share, unseen, expected)
         drawn = np.exp(-((features.bend_deg / agree_deg) ** 2))[:, None]
         n[inside] = lambert.unit(own + drawn * of_depth)[0]

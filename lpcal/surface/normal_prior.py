@@ -1,8 +1,9 @@
-"""Which way a surface faces, beside what the samples of each pixel say: a network's answer (view.network), and its channels.
+"""Learned prior of normals: a network (view.network) predicts a correction of each normal and its standard deviation from local channels.
 
-The rounds (surface.rounds) leave normals open where one light or two reach, and can be mistaken where most light is interreflected. How
-objects are shaped, how shading goes on and where an outline is say more than a smooth field does. Vectors are given about each pixel's ray:
-turned the shortest way that takes the direction to the viewer to (0, 0, -1). No channel has a scale of length or brightness.
+The rounds (surface.rounds) do not determine normals where only one or two lights reach, and may err where most light is interreflected.
+There shape, shading and outline of the surroundings carry more information than a smoothness prior. Vectors are expressed in a frame about
+each pixel's ray: turned by the shortest rotation that takes the direction to the viewer to (0, 0, -1). All channels are invariant to the
+scales of length and brightness.
 """
 
 from __future__ import annotations
@@ -29,30 +30,30 @@ if TYPE_CHECKING:
     from lpcal.surface.rounds import Scene, State
 
 FITTED = Path(__file__).with_name("normal_network.npz")
-"""Where the network's weights are that tools/fit_normal_prior.py has fitted."""
+"""File of the network's weights, written by tools/fit_normal_prior.py."""
 LOG_SIGMA = (-5.0, 0.5)
-"""Bounds of the natural logarithm of a standard deviation, in radians: a third of a degree, and any direction."""
+"""Bounds of the natural logarithm of a standard deviation in radians: a third of a degree, and any direction."""
 VECTORS = ("normal", "own normal", "depth normal", "lit from", "dark from", "thrown from", "bright from")
-"""Channels that have an x, y and z."""
+"""Channels with components x, y and z."""
 DARKEST, BRIGHTEST = 1e-3, 20.0
-"""Bounds of the image without lights, over its median, and of a sample's shading, over the albedo: wild pixels are like others."""
+"""Bounds of the ambient image relative to its median, and of a sample's shading relative to the albedo, which limit outliers."""
 MOST_SHARE = 3.0
-"""Light of other surfaces, or gloss, over the lights' own, at most."""
+"""Upper bound of interreflected light, or gloss, relative to direct light."""
 FEW = 6.0
-"""Samples from which it makes no difference how many there are."""
+"""Number of samples above which the channel of their number saturates."""
 WAVES = {"shading": (2, 3), "left": (1, 2)}
-"""Waves round a pixel's ray whose strength in the samples' shading, and in what the state leaves of it, are channels."""
+"""Orders of the azimuthal harmonics about a pixel's ray, in the samples' shading and in its residual, that are channels."""
 MIRRORED = (*(f"{name} x" for name in VECTORS), "open xy", "open xz", *(f"{name} sin {m}" for name, some in WAVES.items() for m in some))
-"""Those that change their sign in a mirror."""
+"""Channels that change their sign under reflection."""
 
 
 def factor_of(pixels: int) -> int:
-    """Side of the blocks of pixels that are joined."""
+    """Side of the blocks of pixels on which the network works, pixels."""
     return max(1, round(np.sqrt(pixels / MANY_PIXELS)))
 
 
 def about_rays(rays_C: Array, x: Array, *, back: bool = False) -> Array:
-    """Vectors x (..., P, 3) of the camera's frame turned into that of each pixel's ray (P, 3), or back."""
+    """Vectors x (..., P, 3) from the camera's frame to that of each pixel's ray (P, 3), or back."""
     half = -lambert.unit(rays_C)[0] + np.array([0.0, 0.0, -1.0])
     turned, flip = lambert.unit(half)[0], np.array([-1.0, -1.0, 1.0])  # two half turns make a turn of twice the angle between their axes
 
@@ -63,10 +64,9 @@ def about_rays(rays_C: Array, x: Array, *, back: bool = False) -> Array:
 
 
 def expected(scene: Scene, state: State) -> tuple[Array, Array]:
-    """What is expected of each pixel's normal (P, 3), by a state that the rounds have settled, and its sigma (P,), radians.
+    """Corrected normals (P, 3) of a settled state, and their standard deviation (P,), radians.
 
-    Of a turn t that the network states with a standard deviation s the share ``t^2 / (t^2 + s^2)`` is taken (Wiener's): where samples leave
-    nothing open, they know better than it does.
+    A predicted turn t of standard deviation s is shrunk by the Wiener factor ``t^2 / (t^2 + s^2)``.
     """
     scene = scene.closely()
     seen, side = scene.seen, factor_of(scene.seen.pixels)
@@ -81,9 +81,9 @@ def expected(scene: Scene, state: State) -> tuple[Array, Array]:
 
 
 def answer(network: Network, channels: dict[str, Array], begin: Array) -> tuple[Array, Array]:
-    """Normals (3, rows, columns) that are expected in place of others, and the logarithm of their sigma (rows, columns), radians.
+    """The network's normals (3, rows, columns), and the logarithm of their standard deviation (rows, columns), radians.
 
-    The mean of the network's answers on the picture and on its mirror image.
+    Mean of its outputs for the maps and for their mirror image.
     """
     found = []
     for said, mirror in zip(network.answers(channels, channels["share"] > 0), (1, -1), strict=True):
@@ -94,10 +94,10 @@ def answer(network: Network, channels: dict[str, Array], begin: Array) -> tuple[
 
 
 def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
-    """A settled state with its normals turned to what is expected of them and the depth that they make, and their sigma (P,), radians.
+    """A settled state with corrected normals and the depth integrated from them, and the standard deviation of the normals (P,), radians.
 
-    Each piece stays at its distance, by its median. The network knows objects alone: where the pixels are likely to show walls, too, the
-    turn is less by these odds; where they surely do, or the light is distant, the state stays as it is and no sigma is stated.
+    Each piece keeps its median depth. The network was fitted to objects only, so the correction is multiplied by the probability that the
+    pixels show one; where that is 0, or lights are distant, the state is returned unchanged with None.
     """
     if not scene.near or scene.of_object <= 0:
         return state, None
@@ -119,7 +119,7 @@ def turned(scene: Scene, state: State) -> tuple[State, Array | None]:
 
 
 def between(picture: Array, inside: Mask, mask: Mask, side: int) -> Array:
-    """Values (P, C) at the pixels of a mask (H, W), linear between those (C, rows, columns) of its blocks."""
+    """Values (P, C) at the pixels of a mask (H, W), interpolated linearly between those (C, rows, columns) of its blocks."""
     rows, columns = np.nonzero(mask)
     row, column = ((at - (side - 1) / 2) / side for at in (rows, columns))
     total, weight = np.zeros((len(rows), len(picture))), np.zeros(len(rows))
@@ -141,7 +141,7 @@ def unit(x: Array) -> Array:
 
 
 def normals_of_depth(scene: Scene, state: State) -> Array:
-    """Normals (P, 3) of a state's depth, its own where that breaks."""
+    """Normals (P, 3) of a state's depth; the state's own at depth discontinuities."""
     depth = np.exp(state.u) if scene.seen.central else state.u
     n = normals_of(scene.grid, scene.seen.shape_C(depth), state.weight > BREAK_WEIGHT)
     return np.where(np.isfinite(n), n, state.normals)
@@ -149,22 +149,22 @@ def normals_of_depth(scene: Scene, state: State) -> Array:
 
 @dataclass(frozen=True)
 class _Whole:
-    """What the channels take of all pixels together."""
+    """Quantities that the channels need from all pixels together."""
 
     of_depth: Array
     """(P, 3) normals of the depth."""
     breaks: Array
-    """(P,) share of a pixel's four sides where the surface breaks or ends."""
+    """(P,) fraction of a pixel's four edges that are depth discontinuities or lie on the outline."""
     level: Array
     """(P,) logarithm of the albedo."""
     room: Array | None
-    """(P,) logarithm of the image without lights."""
+    """(P,) logarithm of the ambient image; None without one."""
     middle: dict[str, float]
-    """Medians of what has a scale."""
+    """Medians of the quantities that have a scale, by which they are divided."""
 
     @staticmethod
     def of(scene: Scene, state: State) -> _Whole:
-        """By a state of the rounds."""
+        """From a state of the rounds."""
         level = np.log(np.maximum(lambert.length(state.field.b), 1e-12))
         middle, room = {"level": float(np.median(level)), "u": float(np.median(state.u))}, None
         if scene.room is not None:
@@ -174,9 +174,9 @@ class _Whole:
 
 
 def features(scene: Scene, state: State) -> dict[str, Array]:
-    """The channels, maps (rows, columns) of blocks of pixels, by a state of the rounds and a scene that is cut to its object.
+    """The channels as maps (rows, columns) of blocks of pixels, for a state of the rounds and a scene cropped to its object.
 
-    Besides those of `channels` they are the share of each block that is the object, and how far it is from the outline.
+    Those of `channels`, the fraction of each block that is the object, and its distance from the outline.
     """
     seen, side, whole = scene.seen, factor_of(scene.seen.pixels), _Whole.of(scene, state)
     shape = tuple(-(-length // side) for length in seen.mask.shape)
@@ -236,7 +236,7 @@ def channels(scene: Scene, state: State, whole: _Whole, at: slice) -> dict[str, 
 
 
 def _vectors(seen: PixelList, lit: Illumination, found: Estimate, n: Array, of_depth: Array, shading: Array) -> dict[str, Array]:
-    """Normals, and where lights and shadows, light of other surfaces and the brightest samples lie, about the rays."""
+    """Vector channels in the frames of the rays: normals, directions of lights, shadows, interreflection and brightest samples."""
     agreed, known, bright = found.inliers.astype(float), np.isfinite(found.b[:, :1]), np.maximum(shading, 0.0)
     interreflected = np.zeros_like(n) if lit.interreflected is None else lit.interreflected.sum(axis=0) / lit.E.sum(axis=0)[:, None]
     vectors = {
@@ -253,7 +253,7 @@ def _vectors(seen: PixelList, lit: Illumination, found: Estimate, n: Array, of_d
 
 
 def _open(seen: PixelList, lit: Illumination, found: Estimate, b: Array) -> dict[str, Array]:
-    """Covariance of the normals by the samples that agree, as a share of what is expected of one without any, about the rays."""
+    """Covariance of the normals given the inlying samples, relative to the prior covariance, in the frames of the rays."""
     variance = seen.sigma**2 + (field.SHARED * seen.signal) ** 2 + (field.SHARED * seen.signal.max(axis=0)) ** 2
     weight = found.inliers / variance * (lambert.dot(b, b) * field.ANY_RAD**2)
     covariance = lambert.inverse_3x3(lambert.normal_matrix(lit.B, weight) + np.eye(3), singular=0.0)
@@ -262,7 +262,7 @@ def _open(seen: PixelList, lit: Illumination, found: Estimate, b: Array) -> dict
 
 
 def _round_the_ray(seen: PixelList, lit: Illumination, found: Estimate, b: Array) -> dict[str, Array]:
-    """Waves of the samples' shading round each ray, and of what the state leaves of it, over the pixel's albedo."""
+    """Azimuthal harmonics of the samples' shading about each ray, and of its residual, relative to the pixel's albedo."""
     scale = np.maximum(lit.E * lambert.length(b), 1e-300)
     left = seen.signal - np.maximum(lambert.dot(lit.direct, b), 0.0)
     if lit.interreflected is not None:
@@ -282,14 +282,14 @@ def _round_the_ray(seen: PixelList, lit: Illumination, found: Estimate, b: Array
 
 
 def _breaks(scene: Scene, state: State) -> Array:
-    """Share (P,) of a pixel's four sides where the surface breaks or ends."""
+    """Fraction (P,) of a pixel's four edges that are depth discontinuities or lie on the outline."""
     grid, whole = scene.grid, state.weight > BREAK_WEIGHT
     holds = np.bincount(grid.a[whole], minlength=scene.seen.pixels) + np.bincount(grid.b[whole], minlength=scene.seen.pixels)
     return np.asarray(1 - holds / 4)
 
 
 def maps(found: dict[str, Array], mask: Mask, side: int) -> dict[str, Array]:
-    """Means of values (P,) as maps (rows, columns) of blocks of a mask (H, W), 0 where there is no pixel, and the mask's share of each."""
+    """Block means of values (P,) as maps (rows, columns), 0 in blocks without pixels, and the fraction of each block inside the mask."""
     rows, columns = (-length % side for length in mask.shape)
 
     def joined(values: Array) -> Array:

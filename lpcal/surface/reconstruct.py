@@ -1,11 +1,10 @@
-"""A surface from the linear images of a capture and the calibrated lights: what is seen, the rounds, what is computed from them.
+"""A surface from the linear images of a capture and the calibrated lights: mask, distance search, rounds, and the maps of the result.
 
-Without a camera, or with distant lights, the light does not determine the distance: parallel rays give a depth in pixels about zero, a
-camera one about the distance that is given or designed.
+Distant lights, or pixels without a camera, do not determine the distance: parallel rays give a depth in pixels about zero, a camera one
+about the stated or working distance.
 
-Where to begin when nothing says how far away the object is: the distance of a flat front at which near light explains the images best.
-
-At each distance of a sweep every pixel has a normal and an albedo of its own; the residual shows how well the distance fits.
+Where nothing states the working distance, a sweep over distances starts from a flat front: at each distance every pixel has its own normal
+and albedo, and the distance of the smallest residual is taken.
 """
 
 from __future__ import annotations
@@ -51,57 +50,57 @@ from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS
 from lpcal.view.pixel_list import PixelList
 
 AGREE_DEG = float(np.degrees(NORMAL_ERROR_RAD))
-"""A measured normal and that of the depth are averaged where they agree as well as the steps of the depth take them to."""
+"""Angle, degrees, on which the averaging of measured normals with those of the depth decays: the error that the steps assume."""
 DISTANCE_M = uncertainty.WORKING_M
-"""Where nothing else says how far away the object is."""
+"""Distance, metres, that is assumed where nothing states or determines it."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """What the user may ask for."""
+    """What the user asks for."""
 
     near: bool = True
-    """Whether lights act from where they are, where that is known; else all as distant lights."""
+    """Whether lights act from their positions, where these are known; else all as distant lights."""
     distance_m: float | None = None
     """Median depth of the largest piece, where the user knows it."""
     reading: Reading | None = None
-    """What the panel's distance sensor reads, where the user states no distance."""
+    """Reading of the panel's distance sensor; it counts where the user states no distance."""
     mask: Mask | None = None
     automatic_mask: bool = True
     """Whether the object is to be found where no mask is given; else every pixel counts."""
     hints: Hints = NO_HINTS
-    """Where the user says that the object is."""
+    """Box and points by which the user says where the object is."""
     keep: Keep = "object"
-    """What of the layers found is reconstructed: the object; with it what carries it; all that is lit."""
+    """Which layers are reconstructed: the object; the object and its support; everything that is lit."""
     ambient_known: bool = True
-    """Whether the ambient light has been taken away; else it is estimated."""
+    """Whether the ambient light has been subtracted; else it is estimated."""
     ambient_seen: bool = True
-    """Whether what was taken away is an image, which shows shapes of its own; else it is an estimate."""
+    """Whether the subtracted light is an image, which shows shapes itself; else it is an estimate."""
     linear: bool = True
-    """Whether the signals may be taken as linear; else powers of lights that were not measured are held, not estimated."""
+    """Whether the signals may be taken as linear; else unmeasured intensities of lights stay as stated."""
     most_samples: int | None = None
-    """Samples, lights times pixels of the object, that are solved at once; None: any number."""
+    """Largest number of samples (lights times pixels of the object) that are solved at once; None: any number."""
 
 
 class TooManySamplesError(Exception):
-    """An object of more samples than are solved at once: it is to be solved in coarse pixels first (api.full_size); nobody sees it."""
+    """The object has more samples than are solved at once; api.full_size catches it and solves in coarse pixels first."""
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A surface and all that it was made from."""
+    """A surface, with the scene, state and radiance that it was computed from."""
 
     surface: Surface
     scene: Scene
     state: State
     radiance: Radiance
-    """Without the room's light."""
+    """Radiance without ambient light."""
 
 
 def reconstruct(
     radiance: Radiance, calibration: Calibration, options: Options, progress: Progress = silent, kept: list[Solved] | None = None
 ) -> Surface:
-    """The surface of a capture; what it was made from is added to `kept`.
+    """The surface of a capture; the solution it was computed from is appended to `kept`.
 
     Raises
     ------
@@ -154,7 +153,7 @@ def reconstruct(
     del maps, beside  # what the rounds need of them is in the scene
     state = rounds.run(scene, u, progress)
     surface = surface_of(radiance, scene, state, rays_C, minima)
-    state, surface = _read(radiance, scene, state, surface, minima, options, calibration.camera)
+    state, surface = _with_sensor_reading(radiance, scene, state, surface, minima, options, calibration.camera)
     layer = _layer(background if wanted or not options.automatic_mask else None, object_mask)
     figures = _with_mask(surface.figures, background if wanted else None, radiance, options)
     intensities = None if gain is None else dict(zip(radiance.lights, gain.round(4).tolist(), strict=True))
@@ -168,7 +167,7 @@ def reconstruct(
 def _background(
     radiance: Radiance, maps: pixel_list.SignalMaps, rays_C: Array, lights: Sequence[Light], about_m: float | None, options: Options
 ) -> mask.Found | None:
-    """What is found of the object and of the planes about it, where lights are near `about_m`; None where neither is asked for."""
+    """Automatic mask and planes, for near lights with working distance `about_m`; None where neither is needed."""
     if not (wanted := _is_wanted(radiance, options)) and about_m is None:
         return None
     room, drawn = pixel_list.room(radiance) if options.ambient_seen else None, wanted or not options.automatic_mask
@@ -176,27 +175,27 @@ def _background(
 
 
 def _of_object(found_by: mask.Found | None, radiance: Radiance, options: Options) -> float:
-    """Odds that the mask is that of an object: those of the automatic one, unless all else is wanted, too."""
+    """Probability that the mask shows an object only: that of the automatic mask, 0 where support or wall are kept too."""
     if found_by is not None:
         return 1 - (found_by.doubt or 0.0) if options.keep == "object" else 0.0
     return 0.0 if _given(radiance, options) is None else 1.0
 
 
 def room_of(radiance: Radiance, object_mask: Mask) -> Array | None:
-    """The signal (P,) of a mask's pixels without lights; None where there is no such image."""
+    """The ambient signal (P,) of a mask's pixels; None without an ambient image."""
     room = pixel_list.room(radiance)
     return None if room is None else np.asarray(room[object_mask], float)
 
 
 def _exchanged(state: State, seen: PixelList, names: Sequence[str]) -> dict[str, str]:
-    """The images that fit another light than theirs, and which."""
+    """Map from the names of images to the lights that they fit better than their own."""
     matte = seen.signal if state.found.gloss is None else seen.signal - state.found.gloss
     found = exchanged(matte, state.lit, state.found.b, seen.usable)
     return {names[image]: names[light] for image, light in found.items()}
 
 
 def _with_mask(figures: SurfaceFigures, found_by: mask.Found | None, radiance: Radiance, options: Options) -> SurfaceFigures:
-    """The figures with how the mask was found and how far that is in doubt."""
+    """The figures with the mask's origin and doubt."""
     figures = replace(figures, mask=_how(found_by, radiance, options))
     if found_by is None or found_by.doubt is None:
         return figures
@@ -204,15 +203,15 @@ def _with_mask(figures: SurfaceFigures, found_by: mask.Found | None, radiance: R
 
 
 def _how(background: mask.Found | None, radiance: Radiance, options: Options) -> str:
-    """How the mask was found, in words."""
+    """The mask's origin, in words."""
     given = "given" if _given(radiance, options) is not None else "every pixel"
     return given if background is None else background.how
 
 
-def _read(
+def _with_sensor_reading(
     radiance: Radiance, scene: Scene, state: State, surface: Surface, found: DistanceMinima | None, options: Options, camera: Camera | None
 ) -> tuple[State, Surface]:
-    """The state and its surface with the piece that the distance sensor's beam meets put at the distance of light and reading together."""
+    """The state and surface after fusion with the distance sensor's reading, which scales the piece that the beam meets."""
     if options.reading is None or options.distance_m is not None or camera is None:
         return state, surface
     said = sensor_reading.of_surface(surface, camera, options.reading)
@@ -227,17 +226,17 @@ def _read(
 
 
 def _is_wanted(radiance: Radiance, options: Options) -> bool:
-    """Whether the mask is to be found."""
+    """Whether an automatic mask is needed."""
     return _given(radiance, options) is None and options.automatic_mask
 
 
 def _given(radiance: Radiance, options: Options) -> Mask | None:
-    """The mask that the user or the capture gives."""
+    """The mask that the user or the capture gives; None without one."""
     return options.mask if options.mask is not None else radiance.mask
 
 
 def _object(background: mask.Found | None, radiance: Radiance, options: Options) -> Mask:
-    """The object's pixels (H, W), refused where they are too few, or too many to be solved at once."""
+    """The object's mask (H, W). Raises DegenerateError for too few pixels, TooManySamplesError for too many samples."""
     given = _given(radiance, options)
     if given is None:
         given = background.kept(options.keep) if background is not None else np.ones(radiance.signal.shape[1:3], bool)
@@ -255,13 +254,13 @@ def _object(background: mask.Found | None, radiance: Radiance, options: Options)
 
 
 def _layer(background: mask.Found | None, object_mask: Mask) -> Labels:
-    """What each pixel of the surface is (H, W), by the layers found; all the object where none were."""
+    """Layer of each pixel of the surface (H, W); all are the object where none were found."""
     found = np.full(object_mask.shape, Layer.OBJECT, np.uint8) if background is None or background.layer is None else background.layer
     return np.asarray(np.where(object_mask, found, Layer.NOTHING), np.uint8)
 
 
 def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, found: DistanceMinima | None) -> Surface:
-    """The maps of a surface by the state that its rounds ended in, and by the basins of its distance that were found."""
+    """The surface of a scene from the final state of its rounds and the minima of the distance search."""
     seen, grid = scene.seen, scene.grid
     state, expected_rad = normal_prior.turned(scene, state)
     depth = np.exp(state.u) if seen.central else state.u
@@ -298,7 +297,7 @@ def surface_of(radiance: Radiance, scene: Scene, state: State, rays_C: Array, fo
 
 
 def _albedo(radiance: Radiance, scene: Scene, state: State) -> Array:
-    """Albedo (P,) or (P, 3): the least-squares factor of the shading, a channel at a time, over the samples that agree."""
+    """Albedo (P,) or (P, 3): per channel, the least-squares factor of the shading over the inlying samples."""
     seen, lights = scene.seen, scene.lights
     inside = np.flatnonzero(seen.mask.ravel())
     signal = radiance.signal.reshape(len(lights), seen.mask.size, -1)
@@ -328,15 +327,15 @@ def _figures(state: State) -> SurfaceFigures:
 
 
 SPAN = (0.5, 40.0)
-"""Nearest and furthest object that is tried, as shares of the lights' spread: nearer, lights graze it; farther, they are all alike."""
+"""Range of the sweep, as multiples of the lights' spread: nearer, lights graze the object; farther, all are alike."""
 STEPS = 27
-"""Distances of the sweep, each 18 per cent beyond the last: the rounds find the rest from there."""
+"""Number of distances in the sweep, 18 per cent apart: closer than the basins of attraction of the rounds."""
 BRIGHT = 0.2
-"""Share of the image's 99th percentile above which a pixel under some light takes part where no mask is given."""
+"""Without a mask, pixels count whose brightest sample exceeds this share of the image's 99th percentile."""
 
 
 def distance_m(maps: pixel_list.SignalMaps, rays_C: Array, lights: Sequence[Light], mask: Mask | None) -> float:
-    """The distance along the camera's axis at which the signals fit best, by pixels of the mask, else by bright ones."""
+    """The distance along the camera's axis at which the signals fit best, from pixels of the mask, else from bright ones."""
     sweep = pixel_list.fronts_m(lights, SPAN, STEPS)
     brightest = maps.signal.max(axis=0)
     asked = brightest > BRIGHT * np.percentile(brightest, 99) if mask is None or not mask.any() else mask

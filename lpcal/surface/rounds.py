@@ -1,6 +1,6 @@
-"""The rounds of a reconstruction: light at the depth so far -> normals -> steps of depth and each pixel's own distance -> depth.
+"""The alternating rounds of a reconstruction: light at the present depth -> normals -> steps and own distances of the pixels -> depth.
 
-From the third round on the depth is used for more: which lights the surface hides from a pixel, what its parts reflect onto each other.
+From round SHAPE_ROUND on the depth also gives occlusion (which lights the surface hides from a pixel) and interreflection.
 """
 
 from __future__ import annotations
@@ -31,54 +31,57 @@ from lpcal.view.crop import Crop
 from lpcal.view.pixel_list import Illumination, PixelList
 
 ROUNDS = 9
-"""Rounds at most: two settle the depth, the others what depends on it."""
+"""Largest number of rounds: two settle the depth, the others what depends on it."""
 SETTLED = 2e-4
-"""Median change of log depth under which a round is the last: a thirtieth of the least relative standard deviation of a distance."""
+"""Median change of log depth below which a round is the last: a thirtieth of the smallest relative standard deviation of a distance."""
 SETTLED_PIECE = 10 * SETTLED
-"""The same of pieces that have broken off, whose distances are less sure."""
+"""The same for the smaller pieces, whose distances are less certain."""
 SHAPE_ROUND = distance_search.GRADUATED
 """From which on the depth is good enough to find gloss, occlusion and interreflection; only later rounds may be the last."""
 SHADED = 0.6
-"""A sample of a light that the depth hides is left out where it is darker than this share of what the light would give unoccluded."""
+"""A sample whose light the depth occludes is left out where it is darker than this share of the unoccluded prediction."""
 CARRIED_ROUNDS = 4
-"""Rounds of the field at full size, from that of the blocks."""
+"""Rounds of the field (shading.field) at full size, starting from that of the blocks."""
 FULL_ROUNDS = 3
-"""Most rounds at full size after those of the blocks."""
+"""Largest number of rounds at full size after those of the blocks."""
 
 
 @dataclass(frozen=True)
 class State:
-    """Where the rounds are: P pixels."""
+    """The estimates after a round: P pixels."""
 
     u: Array
-    """log depth, or depth in pixels without a camera."""
+    """(P,) log depth, or depth in pixels without a camera."""
     weight: Array
-    """Weights of the edges."""
+    """(edges,) weights of the edges (integration.integrate)."""
     normals: Array
+    """(P, 3)."""
     found: Estimate
+    """Which samples agree with the normals, and their residuals."""
     own: Own
+    """Each pixel's own distance."""
     lit: Illumination
-    """The light that the normals were found in."""
+    """The light under which the normals were estimated."""
     field: Field
     """The field of the normals, with the gloss of the object."""
     reflects: interreflection.Reflectance | None = None
-    """The reflectance that interreflection shows, and the shares of what is guessed of it; None before it is looked for."""
+    """The reflectance that interreflection shows, and the shares of its modelled parts; None before it is estimated."""
     moved: Array | None = None
-    """(P,) by how much the last round changed u; None before there are two."""
+    """(P,) absolute change of u in the last round; None after the first."""
 
 
 @dataclass(frozen=True)
-class Held:
-    """What other views say of a surface: P pixels."""
+class OtherViews:
+    """What a model fused from several views says of this view's surface: P pixels."""
 
     u: Array
     """log depth."""
     interreflected: Array
-    """(L, P, 3) light vectors of what the object's parts throw on each other, those among them that this view does not see."""
+    """(L, P, 3) light vectors of the interreflected light, parts that this view does not see included."""
     reflectance: float
-    """That of the object's median pixel."""
+    """Reflectance of the object's median pixel."""
 
-    def in_blocks(self, blocks: Blocks) -> Held:
+    def in_blocks(self, blocks: Blocks) -> OtherViews:
         """The same for blocks of pixels."""
         interreflected = np.stack([np.stack([blocks.means(column) for column in one.T], axis=1) for one in self.interreflected])
         return replace(self, u=blocks.means(self.u), interreflected=interreflected)
@@ -89,34 +92,34 @@ class Held:
         return float(np.exp(np.median(self.u)))
 
     def own(self) -> Own:
-        """Each pixel's distance: the steps between pixels make the shape, which normals measure to a tenth of its standard deviation."""
+        """Each pixel's own distance, with standard deviation STATED_STD: far less certain than the steps, which determine the shape."""
         return Own(np.full(len(self.u), STATED_STD**-2.0), self.u)
 
 
 @dataclass(frozen=True)
 class Scene:
-    """What stays as it is through the rounds."""
+    """What does not change through the rounds."""
 
     name: str
     seen: PixelList
     grid: Grid
     lights: tuple[Light, ...]
     focus_C: Array | None
-    """Where lights act as they do there; None: they are near."""
+    """(3,) point at which the lights' directions and irradiance are taken, where they count as distant; None: they are near."""
     distance_m: float | None = None
-    """Median depth of the largest piece, where it is known."""
+    """Median depth of the largest piece, where it is stated."""
     around: Around | None = None
-    """What stands round the object and reflects light onto it."""
-    held: Held | None = None
-    """What other views say of it; None: nothing."""
+    """Planes around the object that reflect light onto it."""
+    other_views: OtherViews | None = None
+    """What a model of several views says; None for a single view."""
     room: Array | None = None
-    """(P,) signal of the image without lights; None where there is none."""
+    """(P,) signal of the ambient image; None without one."""
     of_object: float = 1.0
-    """Odds that the pixels are an object and not what it stands on or before: by these its normals are turned (surface.normal_prior)."""
+    """Probability that the pixels show an object and not its support or wall: the weight of the prior of normals (surface.normal_prior)."""
 
     @property
     def near(self) -> bool:
-        """Whether the light determines the distance."""
+        """Whether the lights are near, so that they determine the distance."""
         return self.focus_C is None
 
     @cached_property
@@ -125,7 +128,7 @@ class Scene:
         return contrast.break_costs(self.seen, self.grid)
 
     def closely(self) -> Scene:
-        """The same with maps of the object's part of the picture alone: no round depends on what is empty about it."""
+        """The same with maps cropped to the object."""
         cut = Crop.about(self.seen.mask).of(self.seen.mask)
         return self if cut.shape == self.seen.mask.shape else replace(self, seen=replace(self.seen, mask=cut))
 
@@ -139,13 +142,13 @@ class Scene:
 
 
 def run(scene: Scene, begin: Array, progress: Progress) -> State:
-    """All rounds, from log depths `begin` (P,); of many pixels by blocks of them first, which settle what pixels have in common."""
+    """All rounds, from log depths `begin` (P,); large objects first in blocks of pixels (surface.scales), then at full size."""
     scene = scene.closely()
     blocks = Blocks.of(scene.seen, scene.grid) if scene.near else None
     if blocks is None:
         return _until_settled(scene, once(scene, begin, None, 0), 1, progress)
-    held = None if scene.held is None else scene.held.in_blocks(blocks)
-    coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, held=held)
+    other_views = None if scene.other_views is None else scene.other_views.in_blocks(blocks)
+    coarse = replace(scene, seen=blocks.coarse, grid=blocks.coarse_grid, other_views=other_views)
 
     def in_blocks(what: str, done: int, total: int) -> None:
         progress(f"{what} in coarse pixels", done, total)
@@ -155,7 +158,7 @@ def run(scene: Scene, begin: Array, progress: Progress) -> State:
 
 
 def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *, interreflection_known: bool = False) -> State:
-    """The state after rounds from the one of number `first` on, until one changes next to nothing."""
+    """The state after rounds `first`, `first` + 1, ..., until one changes next to nothing."""
     rounds = ROUNDS if scene.near else 1
     for k in range(first, rounds):
         progress(f"{scene.name}: normals and depth", k, rounds)
@@ -168,7 +171,7 @@ def _until_settled(scene: Scene, state: State, first: int, progress: Progress, *
 
 
 def _carried(scene: Scene, blocks: Blocks, state: State) -> State:
-    """The state of the blocks at their pixels."""
+    """The state of the blocks, interpolated to the pixels."""
     tilt_rad = None if state.field.tilt_rad is None else state.field.tilt_rad[blocks.of_pixel]
     whole = Field(blocks.between(state.field.b), blocks.estimate(state.field.estimate), state.field.gloss, tilt_rad)
     u = blocks.front(state.u, state.normals)
@@ -193,7 +196,7 @@ def _settled(scene: Scene, state: State) -> bool:
 
 
 def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, interreflection_known: bool = False) -> State:
-    """One round from u (P,) and the state before, whose reflected light and gloss stay where they are known.
+    """Round k from u (P,) and the state before; with `interreflection_known` its interreflection and gloss are kept.
 
     Raises
     ------
@@ -208,8 +211,8 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, inter
     reflects = hidden = None
     if shaped is not None:
         by_object, hidden = hidden_lights(scene, depth, shaped, lit)
-        if scene.held is not None:
-            lit, reflects = _held(scene, depth, shaped, lit)
+        if scene.other_views is not None:
+            lit, reflects = _by_other_views(scene, depth, shaped, lit)
         elif interreflection_known:
             lit, reflects = replace(lit, interreflected=shaped.lit.interreflected, unseen=shaped.lit.unseen), shaped.reflects
         else:
@@ -243,9 +246,9 @@ def once(scene: Scene, u: Array, before: State | None, k: int = ROUNDS, *, inter
 
 
 def _own(scene: Scene, u: Array, depth: Array, lit: Illumination, found: Estimate) -> tuple[Own, Own]:
-    """What each pixel says of its own distance by light, or what is known of it; and the same as far as the light is known."""
-    if scene.held is not None:
-        own = scene.held.own()
+    """Own distances of the pixels, by light or by other views; and the same downweighted where interreflection is poorly known."""
+    if scene.other_views is not None:
+        own = scene.other_views.own()
         return own, own
     if not scene.near:
         own = Own(np.full(scene.seen.pixels, REGULARISATION), u)
@@ -255,9 +258,9 @@ def _own(scene: Scene, u: Array, depth: Array, lit: Illumination, found: Estimat
 
 
 def hidden_lights(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Mask, Mask]:
-    """Samples (L, P) whose light the object hides, by its depths (P,), and those that it or what it stands on hides.
+    """Samples (L, P) whose light the object occludes, by its depths (P,), and those occluded by it or by the planes around it.
 
-    The picture must agree: they are darker than with that light.
+    Only samples darker than SHADED of the unoccluded prediction count.
     """
     seen = scene.seen
     relief, x_C = Relief.of(seen, depth), seen.points_C(depth)
@@ -283,7 +286,7 @@ def hidden_lights(scene: Scene, depth: Array, before: State, lit: Illumination) 
 def _interreflected(
     scene: Scene, depth: Array, before: State, lit: Illumination, by_object: Mask, hidden: Mask
 ) -> tuple[Illumination, interreflection.Reflectance]:
-    """The light with what surfaces reflect at depths (P,), and their reflectance."""
+    """The light including interreflection at depths (P,), and the reflectance."""
     seen = scene.seen
     by = interreflection.interreflected(seen, depth, replace(before.found, b=before.field.b), before.normals, scene.lights, scene.around)
     dark = interreflection.in_shadow(seen, lit, before.normals, by_object)
@@ -294,10 +297,10 @@ def _interreflected(
     return replace(lit, interreflected=found.per_unit * by.J(found.sides, found.beyond), unseen=by.unseen), found
 
 
-def _held(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Illumination, interreflection.Reflectance]:
-    """The light with what other views say that surfaces reflect, and what the planes about the object do."""
-    assert scene.held is not None
-    interreflected, reflectance = scene.held.interreflected, scene.held.reflectance
+def _by_other_views(scene: Scene, depth: Array, before: State, lit: Illumination) -> tuple[Illumination, interreflection.Reflectance]:
+    """The light including the interreflection by the model of several views, and that of the planes around the object."""
+    assert scene.other_views is not None
+    interreflected, reflectance = scene.other_views.interreflected, scene.other_views.reflectance
     per_unit = reflectance / float(np.median(lambert.length(before.field.b)))
     if scene.around is not None:
         interreflected = interreflected + per_unit * interreflection.from_around(

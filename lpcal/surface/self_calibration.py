@@ -1,30 +1,26 @@
-r"""What an object says of its lights itself: relative powers that were not measured, and images that are of another light.
+r"""Checks of the lights by the object's own images: relative intensities that were not measured, and images of another light.
 
-How far the signals of matte pixels lie from what their lights can make of any normal, and factors of the lights that bring them there:
-symbols: signals I (L, P), light vectors B (L, P, n), weights w (0 where a sample is in shadow), factors h (L,) of the lights. The misfit
-of a pixel p is what is left of ``h I_p`` beside all ``B_p b``, as a share of it. With the b eliminated the squares of all pixels are
-h' M h, of h' D h in all::
+**Intensities.** Symbols: signals I (L, P), light vectors B (L, P, n), weights w (0 for samples in shadow), relative intensities h (L,).
+The misfit of pixel p is the residual of ``h I_p`` after projection on the column space of B_p, relative to ``h I_p``. With the b
+eliminated, the sum over all pixels of the squared residuals is h' M h, relative to h' D h::
 
-    M = D - sum_p (w I B)_p (B' w B)_p^-1 (w I B)_p'        D = diag(sum_p w I^2), each pixel at length 1
+    M = D - sum_p (w I B)_p (B' w B)_p^-1 (w I B)_p'        D = diag(sum_p w I^2), each pixel normalised to length 1
 
-so the factors that suit best are the generalised eigenvector of the least eigenvalue. Source: the linear subspace of Lambertian images
-(Shashua 1997), with the lights' directions known.
+so the best h is the generalised eigenvector of the smallest eigenvalue. Source: the linear subspace of Lambertian images (Shashua 1997),
+with known light directions.
 
-Whatever the model lacks (gloss, shadows, a tone curve) bends such factors too, but otherwise on one side of the object than on the other,
-while lamps have one power for all. So factors are tried on the half of the object that they were not found from: halves to the left and
-right, above and below, facing and slanting.
+Model errors (gloss, shadows, a tone curve) bias h as well, but differently on different sides of the object, while lamps have the same
+intensity everywhere. So the estimate is cross-validated: h from one half of the object (left and right, upper and lower, facing and
+slanting) is applied to the other half, and it is accepted where it explains that half clearly better than equal intensities do.
 
-Powers of distant lights that nobody measured are what brings the signals into those spaces, and believed where those that one half of the
-object gives explain the other half clearly better than equal ones.
-
-Which light each image is of, by the surface that most of the images agree on (two cables, files or lines of a list exchanged):
-signal I_i of image i, light vectors B_j of light j, the surface's b. What image i misses by, taken for light j, is::
+**Exchanged images** (two cables, files or lines of a list). Signal I_i of image i, light vectors B_j of light j, the surface's b. The
+residual of image i, if it were of light j, is::
 
     m_ij = median over the pixels of |I_i - B_j b / h|, over that of I_i        h = median of B_j b / I_i
 
-with h for a lamp's power, which is not of its place; the images' lights are the assignment of least ``sum log m``, the likeliest where
-each image has noise of its own size. The robust solve leaves the samples of two exchanged lights of a dozen out, so that b is right and
-nothing else shows it.
+where h allows for the lamp's intensity. The assignment of images to lights minimises ``sum log m``, the maximum likelihood where each
+image has its own noise level. Where two of a dozen lights are exchanged the robust solve rejects their samples, so that b is right and
+no other figure shows the mistake.
 """
 
 from __future__ import annotations
@@ -42,33 +38,33 @@ from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER_RATE
 from lpcal.view.pixel_list import Illumination, PixelList, vectors
 
 CONDITION = 1e5
-"""Condition of a pixel's normal matrix over which its lights determine no normal."""
+"""Condition number of a pixel's normal matrix above which its lights do not determine a normal."""
 LIGHTS_NEEDED = 5
-"""Lights, and samples of a pixel, from which powers are looked for."""
+"""Smallest number of lights, and of samples of a pixel, for estimating intensities."""
 NEEDED_GAIN = 1.2
 """A half's misfit must fall by this factor under the intensities of the other half, in the geometric mean over the halves.
 
 Simulated equal lights give 1.003 at most, whatever the gloss and the shadows; unequal ones 1.1 or more wherever what is found is nearer
 than equal ones."""
 TRIMS = 4
-"""Rounds in which the worse half of the pixels is left out: gloss then biases two to four times less, and no less in further rounds."""
+"""Rounds in which the worse half of the pixels is left out: the bias by gloss falls two- to fourfold, and no further in more rounds."""
 NEEDED_FALL = 2.0
-"""By what factor the misses of images that change places must fall at least, in the geometric mean and in every half of the object: what
-the model lacks of a light's own image (gloss, shadows, interreflection) makes another light fit it as well, never twice as well."""
+"""Smallest factor by which the residuals of exchanged images must fall, in the geometric mean and in every half of the object: model errors
+of an image (gloss, shadows, interreflection) can make another light fit as well as its own, but not twice as well."""
 
 
 @dataclass(frozen=True)
 class LightSpace:
-    """The spaces of pixels' light vectors."""
+    """The column spaces of the pixels' light vectors."""
 
     weight: Array
     """(L, P)."""
     spanned: Array
-    """(L, P, n) an orthonormal base of each pixel's weighted light vectors, times the weights."""
+    """(L, P, n) orthonormal basis of each pixel's weighted light vectors, times the weights."""
 
     @staticmethod
     def of(weight: Array, B: Array) -> LightSpace:
-        """From weights (L, P), each pixel's good for n light vectors, and light vectors (L, P, n)."""
+        """From weights (L, P), each pixel with at least n independent samples, and light vectors (L, P, n)."""
         inverse = np.linalg.inv(np.einsum("lpi,lpj->pij", weight[..., None] * B, B))
         root = np.linalg.cholesky((inverse + inverse.swapaxes(1, 2)) / 2)
         return LightSpace(weight, weight[..., None] * np.einsum("lpi,pij->lpj", B, root))
@@ -82,7 +78,7 @@ class LightSpace:
         return float(np.median(self.misfits(signal)))
 
     def misfits(self, signal: Array) -> Array:
-        """Misfit (P,) of signals (L, P), the lost freedom counted."""
+        """Misfit (P,) of signals (L, P), per degree of freedom."""
         whole = np.maximum(np.sum(self.weight * signal**2, axis=0), 1e-300)
         inside = np.sum(np.einsum("lpi,lp->pi", self.spanned, signal) ** 2, axis=1)
         count = self.weight.sum(axis=0)
@@ -90,7 +86,7 @@ class LightSpace:
         return np.asarray(np.sqrt(np.maximum(1 - inside / whole, 0) * count / spare))
 
     def factors(self, signal: Array) -> Array:
-        """Factors h (L,) of mean 1 that suit the signals (L, P) best."""
+        """Relative intensities h (L,) of mean 1 that fit the signals (L, P) best."""
         unit = signal / np.sqrt(np.maximum(np.sum(self.weight * signal**2, axis=0), 1e-300))
         total = np.maximum(np.sum(self.weight * unit**2, axis=1), 1e-12)
         scale = 1 / np.sqrt(total)
@@ -100,7 +96,7 @@ class LightSpace:
         return np.asarray(h / h.mean())
 
     def misfit_by_halves(self, signal: Array, upper: list[Mask]) -> float:
-        """Misfit of signals (L, P) under the factors of the other half, geometric mean over the halves: `upper` (P,) each, and the rest."""
+        """Cross-validated misfit of signals (L, P): each half (`upper` (P,) and the rest) with the other half's h; geometric mean."""
         found = []
         for half in upper:
             for own, other in ((half, ~half), (~half, half)):
@@ -110,25 +106,25 @@ class LightSpace:
 
 
 def spans(weight: Array, B: Array) -> Mask:
-    """Pixels (P,) whose light vectors B (L, P, n) of weights (L, P) span their space."""
+    """Mask (P,) of pixels whose light vectors B (L, P, n) with weights (L, P) have full rank."""
     return np.asarray(np.linalg.cond(np.einsum("lpi,lpj->pij", weight[..., None] * B, B)) < CONDITION)
 
 
 def halves(signal: Array, weight: Array, B: Array) -> list[Mask]:
-    """The object's pixels (P,) in halves by their normals: rightward, upward, slanting."""
+    """Halves (P,) of the object's pixels by their normals: rightward, upward, slanting."""
     n = lambert.unit(lambert.weighted(B[..., :3], signal, weight)[0])[0]
     sides = (n[:, 0], n[:, 1], np.hypot(n[:, 0], n[:, 1]))
     return [np.nan_to_num(side) > np.nanmedian(side) for side in sides]
 
 
 def unmeasured(lights: Sequence[Light]) -> bool:
-    """Whether lights are distant, of one intensity, with no statement of how well that is known."""
+    """Whether the lights are distant and have equal intensities of unknown uncertainty."""
     same = np.ptp(np.concatenate([light.intensity for light in lights])) == 0
     return bool(same and all(light.source_C is None and not np.isfinite(light.intensity_std) for light in lights))
 
 
 def intensities(seen: PixelList, lights: Sequence[Light]) -> Array | None:
-    """Intensities (L,) of mean 1; None where too few lights or pixels show them, or the halves of the object disagree."""
+    """Relative intensities (L,) of mean 1; None with too few lights or pixels, or where cross-validation fails."""
     if len(lights) < LIGHTS_NEEDED:
         return None
     shown = _shown(seen, np.stack([light.direction_C for light in lights]))
@@ -149,7 +145,7 @@ def intensities(seen: PixelList, lights: Sequence[Light]) -> Array | None:
 
 
 def _shown(seen: PixelList, S: Array) -> tuple[Array, Array, Array] | None:
-    """Signals, weights and light vectors (L, P, ...) of pixels that enough lights reach."""
+    """Signals, weights and light vectors (L, P, ...) of pixels that enough lights reach; None of too few pixels."""
     some = seen.at(np.unique(np.linspace(0, seen.pixels - 1, min(MANY_PIXELS, seen.pixels)).astype(int)))
     count = len(S)
     usable = normals.candidates(some, np.ones(some.signal.shape))
@@ -164,14 +160,14 @@ def _shown(seen: PixelList, S: Array) -> tuple[Array, Array, Array] | None:
 
 
 def exchanged(signal: Array, light: Illumination | Array, b: Array, usable: Mask) -> dict[int, int]:
-    """The light that each image fits, of those that fit another one than their own; empty where all fit their own, or it is not clear.
+    """Map from image to light, for images that clearly fit another light than their own; empty where none does.
 
     Parameters
     ----------
-    signal : (L, P), the gloss taken off
+    signal : (L, P), without gloss
     light : the light, or its vectors (L, P, 3)
-    b : (P, 3), NaN where it is not known
-    usable : (L, P) where the signal is not saturated
+    b : (P, 3), NaN where it is unknown
+    usable : (L, P) mask of unsaturated samples
     """
     if len(signal) <= LIGHTS_NEEDED:  # two that are exchanged leave four that agree on a surface
         return {}
@@ -203,7 +199,7 @@ def exchanged(signal: Array, light: Illumination | Array, b: Array, usable: Mask
 
 
 def _misses(signal: Array, B: Array, b: Array, usable: Mask, half: Mask) -> Array:
-    """(L, L) log m_ij over half of the pixels."""
+    """log m_ij (L, L) over half of the pixels."""
     predicted = np.maximum(np.einsum("lpi,pi->lp", B[:, half], b[half]), 0.0)
     found = np.ones((len(signal), len(signal)))
     for k, (own, ok) in enumerate(zip(signal[:, half], usable[:, half] & (signal[:, half] > 0), strict=True)):

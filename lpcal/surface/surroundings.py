@@ -1,9 +1,8 @@
-"""What stands round the object and reflects light onto it: the wall behind, the support below, as patches on the planes found there.
+"""Patches of the planes around the object (wall, support), which reflect light onto it.
 
-A plane's pixels show its radiance under every light, shadows and all, so nothing of the planes' own reflectance has to be known. What the
-object hides of a plane, and what of it lies outside the image, is taken for the plane's common matter, lit by the lights that the object
-leaves to it: a table reflects most of its light from where the camera does not see it, under the object and before the picture's lower
-edge.
+The pixels of a plane show its radiance under every light, shadows included, so its reflectance need not be known there. Parts of a plane
+that the object hides, or that lie outside the image, are given the plane's median albedo and the lights that the object does not occlude:
+a table reflects most of its light from parts that the camera does not see, under the object and in front of the image's lower edge.
 """
 
 from __future__ import annotations
@@ -22,20 +21,20 @@ from lpcal.view.constants import RIM_PX, SHADOW_STEPS
 from lpcal.view.pixel_list import Indices, PixelList, SignalMaps, light_vectors, list_pixels
 
 BEYOND = 0.6
-"""How far beyond the image a plane is taken to go on, as a share of the image's longer side."""
+"""Margin around the image into which planes are extended, as a share of the image's longer side."""
 PATCHES = 600
-"""Patches of the seen planes, at most: each of the object's patches asks all of them for light."""
+"""Largest number of patches of the visible planes: each patch of the object receives light from all of them."""
 SIDE = 4
-"""Rays along a side of a patch that nobody sees: by them its place and area are right to a hundredth."""
+"""Rays along each side of a patch outside the image: its centroid and area are then accurate to one per cent."""
 FURTHEST = 2.0
-"""Times the median depth of what is seen of a plane that it goes on, and towards the camera as a divisor of it."""
+"""Limits of a plane's extension: its median visible depth times this factor, and divided by it."""
 SLAB = 0.05
-"""Depth of a patch along the line of sight at most, as a share: a table at a grazing angle goes far back within a few pixels."""
+"""Largest relative depth range of a patch: a table seen at a grazing angle covers a long range within a few pixels."""
 
 
 @dataclass(frozen=True)
 class Patches:
-    """Flat pieces that throw light: Q of them."""
+    """Flat patches that emit reflected light: Q of them."""
 
     x_C: Array
     """(Q, 3)."""
@@ -44,11 +43,11 @@ class Patches:
     area: Array
     """(Q,) m^2."""
     signal: Array
-    """(L, Q) what they show the camera, a unit of light."""
+    """(L, Q) signal that the camera sees of them, or would see."""
 
     @staticmethod
     def together(some: Sequence[Patches]) -> Patches:
-        """All patches of several."""
+        """The patches of several sets as one."""
         return Patches(
             np.concatenate([one.x_C for one in some]),
             np.concatenate([one.n for one in some]),
@@ -59,15 +58,15 @@ class Patches:
 
 @dataclass(frozen=True)
 class Around:
-    """The planes' patches: those that the camera sees, and those of which it sees nothing, with the signals of full light."""
+    """The patches of the planes: those that the camera sees, and those that it does not see, with the signals of unoccluded light."""
 
     seen: Patches
     unseen: Patches | None
     front: Relief
-    """What of them stands before a light: lights below a table's top do not reach what stands on it."""
+    """The planes as occluders: lights below a table's top do not reach an object that stands on it."""
 
     def beyond(self, relief: Relief, lights: Sequence[Light]) -> Patches | None:
-        """The unseen ones in the shadow of the object."""
+        """The unseen patches with the object's shadows."""
         if self.unseen is None:
             return None
         signal = self.unseen.signal.copy()
@@ -79,13 +78,13 @@ class Around:
 
 @dataclass(frozen=True)
 class Whole:
-    """The whole image in coarse pixels, for what stands behind the object."""
+    """The whole image in coarse pixels, including what lies behind the object."""
 
     seen: PixelList
     hidden: Mask
-    """(H, W) where the object hides it."""
+    """(H, W) where the object covers it."""
     factor: int
-    """Pixels a coarse pixel."""
+    """Side of a coarse pixel, pixels."""
 
 
 def whole(maps: SignalMaps, rays_C: Array, object_mask: Mask) -> Whole:
@@ -106,7 +105,7 @@ def found_beside(maps: SignalMaps, rays_C: Array, object_mask: Mask, found: mask
 
 
 def shown_by(found: mask.Found, image: Whole) -> Indices | None:
-    """The plane (P,) that each pixel shows by the layers of coarser ones, -1 where it shows none; None where there are no layers."""
+    """Index of the plane (P,) that each pixel shows according to the coarse layers, -1 where none; None without layers."""
     if found.of_plane is None:
         return None
     sides = zip(image.seen.mask.shape, found.of_plane.shape, strict=True)
@@ -115,11 +114,10 @@ def shown_by(found: mask.Found, image: Whole) -> Indices | None:
 
 
 def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light], labelled: Indices | None = None) -> Around | None:
-    """Patches of the planes `found`; None where nothing is seen of them.
+    """Patches of the planes `found`; None where none of them is visible.
 
-    `labelled` (P,) is the plane that each pixel belongs to by its layer, -1 where it has none; others belong to the plane that their
-    samples fit. Where light from elsewhere or shadows keep the samples from the plane's prediction, or they are saturated, a plane's light
-    is there all the same.
+    `labelled` (P,) is the plane of each pixel according to its layer, -1 where it has none; such pixels are assigned to the plane that
+    their samples fit. By their layer, pixels count also where shadows, other light or saturation contradict the plane's prediction.
     """
     seen, free = image.seen, ~raster.dilated(image.hidden, RIM_PX).ravel()
     least, of_plane = np.full(seen.pixels, planes.TRUSTED**2), np.full(seen.pixels, -1)
@@ -161,9 +159,9 @@ def patches(image: Whole, found: Sequence[planes.Plane], lights: Sequence[Light]
 
 
 def _unclipped(seen: PixelList, m: Array, albedo: float) -> Array:
-    """Signals (L, P) of pixels of a plane, by its m of albedo 1: saturated ones as the pixel's others, or the common albedo, say.
+    """Signals (L, P) of pixels of a plane; saturated ones are predicted from the pixel's other samples, or from the median albedo.
 
-    A support in full light is often brighter than the object that the exposure was set for.
+    `m` is the prediction for albedo 1. A fully lit support is often brighter than the object that the exposure was set for.
     """
     signal, m, usable = seen.signal, np.maximum(m, 0.0), seen.usable
     lit = usable & (m > planes.WEAK * m.max(axis=0))
@@ -173,9 +171,9 @@ def _unclipped(seen: PixelList, m: Array, albedo: float) -> Array:
 
 
 def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array:
-    """The signals (L, P), in the margin about the object those of the nearest pixel of a plane; `of_plane` (P,) gains them.
+    """The signals (L, P), in the margin around the object replaced by those of the nearest pixel of a plane; `of_plane` (P,) is updated.
 
-    What stands nearest to the object reflects most onto it.
+    Patches nearest to the object reflect the most light onto it.
     """
     pixel = raster.nearest((of_plane >= 0).reshape(image.seen.mask.shape)).ravel()
     margin = ~free & ~image.hidden.ravel() & np.any(of_plane >= 0)
@@ -186,7 +184,7 @@ def _beside(image: Whole, signal: Array, of_plane: Indices, free: Mask) -> Array
 
 
 def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
-    """The plane (H, W) that goes on at each pixel of the image with a margin of `pad`, the nearest of those seen; -1 where it is shown."""
+    """Index (H, W) of the plane that is extended to each pixel of the image with a margin `pad`; -1 where a plane is visible."""
     here = np.pad(of_plane.reshape(image.seen.mask.shape), pad, constant_values=-1)
     plane = np.where(here < 0, here.ravel()[raster.nearest(here >= 0)], -1)
     plane[np.pad(~image.hidden, pad)] = -1
@@ -194,14 +192,14 @@ def _goes_on(image: Whole, of_plane: Indices, pad: int) -> Indices:
 
 
 def _leave_out_of_reach(of_plane: Indices, found: Sequence[planes.Plane], rays_C: Array) -> None:
-    """Set the plane (P,) of those pixels to -1 whose rays (P, 3) miss it, or meet it far from what is seen of it."""
+    """Set the plane (P,) to -1 at pixels whose rays (P, 3) miss it, or meet it far from its visible part."""
     for k, plane in enumerate(found):
         mine = of_plane == k
         of_plane[mine & ~_within_reach(rays_C @ plane.q, rays_C[mine] @ plane.q)] = -1
 
 
 def _within_reach(slope: Array, seen: Array) -> Mask:
-    """Where (N,) rays meet a plane at depths about those seen of it, by q . r of all rays and of those that show the plane."""
+    """Mask (N,) of rays that meet a plane within FURTHEST of its visible depths, from q . r of all rays and of the visible ones."""
     if not seen.size:
         return np.zeros(len(slope), bool)
     depth, middle = 1 / np.maximum(slope, planes.BEHIND), np.median(1 / np.maximum(seen, planes.BEHIND))
@@ -209,20 +207,20 @@ def _within_reach(slope: Array, seen: Array) -> Mask:
 
 
 def _albedo(signal: Array, m: Array) -> float:
-    """The common albedo of pixels of a plane, in the signals' units: the median over those of each pixel's most lit sample."""
+    """Median albedo of the pixels of a plane, in the signals' units, from the brightest-lit sample of each pixel."""
     return float(np.median(np.max(np.where(m > planes.WEAK * m.max(axis=0), signal / np.maximum(m, 1e-12), 0.0), axis=0)))
 
 
 def _blocks(shape: tuple[int, ...], size: int) -> Indices:
-    """The number (N,) of the block of `size` x `size` pixels that each pixel lies in."""
+    """Index (N,) of the block of `size` x `size` pixels that each pixel lies in."""
     row, column = np.indices(shape).reshape(2, -1)
     return np.asarray(row // size * (shape[1] // size + 1) + column // size)
 
 
 def _rays_beyond(seen: PixelList, pad: int, every: int) -> Array:
-    """Rays (N, 3) of the image with a margin of `pad` pixels, one of `every` so many along its sides.
+    """Rays (N, 3) of the image with a margin of `pad` pixels, every `every`-th along both sides.
 
-    They are those of a camera without distortion that is like it on the whole.
+    They are those of the pinhole camera that fits the rays of the image best.
     """
     height, width = seen.mask.shape
     row, column = np.indices((height, width)).reshape(2, -1)

@@ -1,17 +1,17 @@
-r"""A capture without an ambient image: the room's light is estimated, taken away, and counted as doubt.
+r"""A capture without an ambient image: the ambient light is estimated, subtracted, and its uncertainty propagated.
 
-That of all that is seen first (see segmentation.room_light), so that the mask can be found; then the object's, at the working distance and
-again at the depth that this gave. A last time with more of it shows how far normals, depth and distance depend on it: that is added to
-their standard deviations.
+First that of the whole image (segmentation.room_light), so that the mask can be found; then the object's, at the working distance and again
+at the depth of that first solve. A last solve with more ambient light shows how normals, depth and distance depend on it: the changes are
+added to their standard deviations.
 
 Symbols: signal ``I_k = B_k . b + A / h_k`` where light k (of intensity h_k, which signals are divided by) reaches a pixel, ``A / h_k``
-where it does not; ``b = rho n``. Light that comes from all over a room acts on a matte surface as its first harmonics::
+where it does not; ``b = rho n``. On a matte surface, light from all over a room acts through its spherical harmonics of order 0 and 1::
 
-    A = c_0 |b| + c . b            c_0 >= |c|: nowhere is there less than none
+    A = c_0 |b| + c . b            c_0 >= |c|, so that it is nowhere negative
 
-So four numbers give the ambient light of a whole object to some per cent (parts that the object hides from the room are darker). Samples
-in shadow show it alone; near light separates it from the lamps' by how these change from place to place. A plane behind the object has one
-normal and so one ratio a of room light to albedo, which its fit gives within 2 %: it holds c_0 + c . n there.
+So four coefficients give the ambient light on a whole object to some per cent (parts that the object shields from the room are darker).
+Samples in shadow show it alone; near light separates it from the lamps' light, which changes from place to place. A plane behind the object
+has one normal and so one ratio a of ambient light to albedo, which its fit gives within 2 %: a constraint on c_0 + c . n.
 Source: Basri and Jacobs 2003, IEEE Trans. PAMI 25 (harmonics); Ramamoorthi and Hanrahan 2001, J. Opt. Soc. Am. A 18.
 """
 
@@ -38,8 +38,9 @@ from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER, OUTLIER2, 
 from lpcal.view.pixel_list import PixelList, SignalMaps, light_vectors, list_pixels
 
 type Solve = Callable[[Radiance, Mask | None], Surface]
-"""The surface of images without room light; a mask is kept, None leaves it to be found."""
+"""Solves images without ambient light for a surface, within a mask, or within an automatic one (None)."""
 ROUNDS = 2
+"""Solves: at the working distance, and at the depth that the first one gave."""
 UNDECIDED = "no ambient image, and the images show no light beside that of the lamps: none is taken away"
 
 
@@ -52,9 +53,9 @@ def reconstruct(
     solve: Solve,
     hints: mask.Hints = mask.NO_HINTS,
 ) -> Surface:
-    """The surface of a capture whose images hold an unknown room light.
+    """The surface of a capture whose images contain unknown ambient light.
 
-    `given` is the user's mask; where `focus_C` is given all lights act as they do there; `begin_m` is where the object may be.
+    `given` is the user's mask; with `focus_C` lights count as distant, acting everywhere as they do there; `begin_m` is the first distance.
     """
     lights, near = pixel_list.lights_of(calibration, radiance), focus_C is None
     maps, rays_C = pixel_list.grey(radiance, lights), pixel_list.ray_map(radiance.signal.shape[1:3], calibration.camera)
@@ -89,7 +90,7 @@ def reconstruct(
 
 
 def without(radiance: Radiance, room_map: Image, lights: tuple[Light, ...]) -> Radiance:
-    """The radiance with room light (H, W) taken away; of colours each in proportion to what the lamps bring back."""
+    """The radiance minus ambient light (H, W); of colour images in proportion to the median signal of each channel."""
     if radiance.signal.ndim == 3:
         ambient = np.asarray(room_map, np.float32)
     else:
@@ -100,9 +101,10 @@ def without(radiance: Radiance, room_map: Image, lights: tuple[Light, ...]) -> R
 
 
 def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surface:
-    """The surface with what PATCHY more of room light changes (`other`) added to its standard deviations, as much as it is in doubt.
+    """The surface with standard deviations enlarged by its sensitivity to ambient light.
 
-    A pixel's room light is off as all of the object's is, and patchy about that; a piece's distance rests on the whole.
+    `other` is the surface with the share PATCHY more of ambient light: its changes, scaled to the standard deviation of that light,
+    are added in quadrature. Each pixel's normal and depth have the common error and a local one, a piece's distance the common one.
     """
     both = surface.mask & other.mask
     doubt = float(np.hypot(room.std, PATCHY)) / PATCHY
@@ -133,56 +135,57 @@ def doubted(surface: Surface, other: Surface, room: Room, share: float) -> Surfa
 
 
 def _share(radiance: Radiance, room_map: Image, inside: Mask) -> float:
-    """Median share of the room's light in the images."""
+    """Median fraction of the signal that is ambient light."""
     signal = radiance.signal if radiance.signal.ndim == 3 else radiance.signal.mean(axis=-1)
     return float(np.median(room_map[inside] / np.maximum(signal.mean(axis=0)[inside], 1e-12)))
 
 
 LEVELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.14, 0.18, 0.23, 0.3, 0.4, 0.55, 0.75, 1.0])
-"""c_0 tried first, in units of what a pixel facing the lights sends back of one of them."""
+"""Initial values of c_0, in units of the signal of a pixel that faces one of the lights."""
 TILT = 0.35
-"""Prior standard deviation of c / c_0, each part."""
+"""Prior standard deviation of each component of c / c_0."""
 NEEDED_GAIN = 0.05
-"""The misfit must fall by this share, or there is no room light to be seen."""
+"""Relative fall of the misfit from which ambient light counts as detected."""
 STEPS = 100
+"""Largest number of evaluations of the simplex search."""
 LAW_ROUNDS = 10
-"""Solves of the law, pixels weighed by how well they follow it: it then stands still."""
+"""Reweighted solves for the coefficients, after which they no longer change."""
 LAW_STD, BLIND_STD = 0.06, 0.25
-"""Relative standard deviation of A over an object: of the law besides that of its level; of both where lights are distant."""
+"""Relative standard deviations of A over an object: of the model besides that of its level; of both where lights are distant."""
 PATCHY = 0.12
-"""Relative standard deviation of A about the law, from part to part of an object."""
+"""Relative standard deviation of A about the model, between parts of an object."""
 WALL_STEPS = 25
-"""Times that the fit of the wall asks for its equations at most."""
+"""Largest number of iterations of the fit of the wall."""
 
 
 @dataclass(frozen=True)
 class Wall:
-    """The plane behind the object and its room light."""
+    """The plane behind the object and the ambient light on it."""
 
     q: Array
-    """See segmentation.planes."""
+    """(3,) plane parameters (segmentation.planes)."""
     ratio: float
-    """a: room light on it over its albedo."""
+    """a: ambient light on it over its albedo."""
     std: float
-    """Relative standard deviation of the ratio, by how its samples hold it."""
+    """Relative standard deviation of the ratio."""
     n_C: Array
 
 
 @dataclass(frozen=True)
 class Room:
-    """The room's light on an object."""
+    """The ambient light on an object."""
 
     c: Array
     """(4,) c_0 and c."""
     std: float
-    """Relative, of the object's A as a whole."""
+    """Relative standard deviation of the object's mean A."""
 
 
 def wall_of(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], found: mask.Found, outside: Mask, light: RoomLight) -> Wall | None:
-    """The largest plane behind the object with one room light for all of it, from its pixels.
+    """The largest plane behind the object, fitted together with its ambient light.
 
-    None where it says no more of the room's light than is known of rooms beforehand. `outside` (H, W) is what is not the object, `light` is
-    the room's as the whole picture says it.
+    None where the fit is less certain than the prior. `outside` (H, W) is the mask of pixels outside the object, `light` the ambient light
+    estimated from the whole image.
     """
     if not found.planes or found.layer is None:
         return None
@@ -212,9 +215,9 @@ def wall_of(maps: SignalMaps, rays_C: Array, lights: Sequence[Light], found: mas
 def on_object(
     seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | None, focus_C: Array | None, light: RoomLight | None = None
 ) -> tuple[Room, Array] | None:
-    """The room's light on an object at depths (P,), and A (P,) of its pixels; None where none shows.
+    """The ambient light on an object at depths (P,), and A (P,) of its pixels; None where none is detected.
 
-    `light` is that of the whole picture, where lights are near.
+    `light` is that of the whole image, where lights are near.
     """
     if light is not None:
         return _near(seen, lights, depth, wall, light)
@@ -232,11 +235,11 @@ def on_object(
 
 
 def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | None, light: RoomLight) -> tuple[Room, Array]:
-    """The law that the pixels' own A follow, and A (P,) by it.
+    """The model of ambient light fitted to the pixels' own A, and A (P,) by it.
 
-    Each A is found under a prior about the level of the whole picture. What its samples say by themselves is further from it, by one over
-    their information, and the less sure; the law is fitted to that under the prior of the whole picture. Pixels lack the same far about
-    themselves, as parts of the picture do: how sure the law is counts such parts, not pixels.
+    Each pixel's A is a posterior mean under the prior level of the whole image; dividing its deviation from the prior by the samples'
+    information recovers what the samples alone say. The coefficients are fitted to these values under the prior of the whole image. Errors
+    are correlated over parts of the image, so the standard deviation counts parts, not pixels.
     """
     d, E = light_vectors(lights, seen.points_C(depth))
     found = ambient_sample_costs.free(seen.signal, seen.sigma, seen.usable, d * E[..., None], np.zeros(E.shape), light.room)
@@ -262,13 +265,13 @@ def _near(seen: PixelList, lights: Sequence[Light], depth: Array, wall: Wall | N
 
 
 def intensities(lights: Sequence[Light]) -> Array:
-    """h (L, 1)."""
+    """Intensities h (L, 1)."""
     return np.array([light.intensity.mean() for light in lights])[:, None]
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """Pixels, their light vectors (L, P, 3), irradiance (L, P) and intensities (L, 1), on which the law is tried."""
+    """Pixels, their light vectors (L, P, 3), irradiance (L, P) and intensities (L, 1), on which coefficients are evaluated."""
 
     seen: PixelList
     B: Array
@@ -276,18 +279,18 @@ class _Trial:
     h: Array
 
     def begin(self) -> Array:
-        """b (P, 3) with half of the least sample taken for room light; facing the camera where that gives nothing."""
+        """Initial b (P, 3), half of the smallest sample being ambient light; facing the camera where that has no solution."""
         dim = replace(self.seen, signal=self.seen.signal - (self.seen.signal * self.h).min(axis=0) / 2 / self.h)
         b = normals.estimate(dim, self.B, normals.candidates(dim, self.E), normals.variances(self.seen)).b
         facing = -self.seen.rays_C * (np.median(self.seen.signal, axis=0) / np.median(self.E, axis=0))[:, None]
         return np.where(np.isfinite(b), b, facing)
 
     def room(self, c: Array, b: Array) -> Array:
-        """A (P,)."""
+        """A (P,) of coefficients c (4,) and b (P, 3)."""
         return np.asarray(np.maximum(c[0] * lambert.length(b) + b @ c[1:], 0.0))
 
     def settled(self, c: Array, b: Array | None = None, rounds: int = 3) -> tuple[Array, Mask]:
-        """b (P, 3) that goes with c, found in rounds from b or from the beginning, and where there is an answer."""
+        """b (P, 3) given c, in rounds from b or from the initial one, and the mask (P,) of pixels with a solution."""
         variance = normals.variances(self.seen)
         b = self.begin() if b is None else b
         known = np.zeros(len(b), bool)
@@ -299,7 +302,7 @@ class _Trial:
         return b, known
 
     def misfit(self, c: Array, b: Array) -> float:
-        """Sum over the samples of the square residuals, lit or in shadow, whichever is less, outliers bounded."""
+        """Sum over the samples of the squared residuals, as lit or as in shadow, whichever is smaller, bounded for outliers."""
         b, known = self.settled(c, b)
         variance = normals.variances(self.seen)
         lamps = self.seen.signal - self.room(c, b) / self.h
@@ -308,7 +311,7 @@ class _Trial:
 
 
 def _fit(trial: _Trial) -> Array | None:
-    """c (4,) of the least misfit; None where the images are as well explained without."""
+    """c (4,) of the smallest misfit; None where the images are explained as well without ambient light."""
     from scipy import optimize
 
     begin = trial.begin()

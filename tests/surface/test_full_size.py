@@ -17,8 +17,8 @@ from lpcal.formats import full_size
 from lpcal.formats.capture import read_capture
 from lpcal.formats.full_size import Scratch
 from lpcal.records.full_images import PART
+from lpcal.surface.coarse_solution import between
 from lpcal.surface.full_size import _ramp, tiles
-from lpcal.surface.ground import between
 from lpcal.view.parallel import cores
 
 S = np.array([[0.5, 0, -1], [-0.25, 0.45, -1], [-0.25, -0.45, -1], [0.0, 0.0, -1], [0.3, 0.3, -1]])

@@ -1,4 +1,4 @@
-"""What a capture in coarse pixels says about each pixel in full size: where it lies, what light reaches it, what it is part of."""
+"""The solution of a capture in coarse pixels, interpolated to pixels in full size: depth, normals, indirect light, occlusion, breaks."""
 
 from __future__ import annotations
 
@@ -18,35 +18,34 @@ from lpcal.view.pixel_list import Illumination, Indices
 
 
 @dataclass(frozen=True)
-class Ground:
-    """Maps (h, w) of coarse pixels, filled beyond the object from what is nearest."""
+class CoarseSolution:
+    """Maps (h, w) of coarse pixels, extended beyond the object by nearest neighbours."""
 
     factor: int
+    """Side of a coarse pixel, pixels in full size."""
     rays_C: Array
     u: Array
     """log depth; without a camera depth in coarse pixels."""
     n: Array
     """(h, w, 3)."""
     interreflected: Image | None
-    """(h, w, L, 3) light vectors of what surfaces throw there."""
+    """(h, w, L, 3) light vectors of the interreflected light; None where it was not solved for."""
     unseen: Image | None
+    """Share of the light that comes from sides the camera does not see (shading.Illumination.unseen)."""
     share: Image
-    """Light that is reflected there, as a share of the direct light."""
+    """Interreflected light, as a share of the direct light."""
     hidden: Mask | None
-    """(h, w, L) which lights the surface hides."""
-    loose: Mask
-    """Where the surface breaks, or next to it: there the coarse depth does not hold the fine one."""
-    turn: Image | None
-    """(h, w, 4) what is added to normals for what is expected of them (surface.normal_prior), and their standard deviation, radians.
-
-    None where they are not asked.
-    """
+    """(h, w, L) which lights the surface occludes; None where lights are distant."""
+    near_break: Mask
+    """Coarse pixels at a depth discontinuity or next to one, where the fine depth is not tied to the coarse one."""
+    correction: Image | None
+    """(h, w, 4) correction of the normals by their prior (surface.normal_prior), and its standard deviation, radians; None without it."""
     nearest: Indices
     """(2, h, w) row and column of the nearest pixel of the object."""
 
     @staticmethod
-    def of(scene: Scene, state: State, rays_C: Array, normals_C: Image, factor: int) -> Ground:
-        """From a solved scene in coarse pixels, the normals (h, w, 3) as they came out."""
+    def of(scene: Scene, state: State, rays_C: Array, normals_C: Image, factor: int) -> CoarseSolution:
+        """From a scene and its state in coarse pixels, and the normals (h, w, 3) of the coarse surface."""
         mask = scene.seen.mask
         nearest = np.stack(np.divmod(raster.nearest(mask), mask.shape[1]))
 
@@ -65,14 +64,16 @@ class Ground:
         broken = state.weight <= BREAK_WEIGHT
         at = np.zeros(scene.seen.pixels, bool)
         at[scene.grid.a[broken]] = at[scene.grid.b[broken]] = True
-        loose = raster.dilated(np.asarray(scene.seen.map(at, 0), bool))
+        near_break = raster.dilated(np.asarray(scene.seen.map(at, 0), bool))
         share = np.asarray(filled(interreflected_share(lit, state.found).astype(np.float32)), np.float32)
         other, sigma_rad = normal_prior.turned(scene, state)
-        turn = None
+        correction = None
         if sigma_rad is not None:
-            turn = np.asarray(filled(np.column_stack([other.normals - state.normals, sigma_rad]).astype(np.float32)), np.float32)
+            correction = np.asarray(filled(np.column_stack([other.normals - state.normals, sigma_rad]).astype(np.float32)), np.float32)
         u, n = np.asarray(filled(other.u)), np.asarray(filled(normals_C[mask].astype(float)))
-        return Ground(factor, rays_C[tuple(nearest)], u, n, interreflected, unseen, share, hidden, np.asarray(loose), turn, nearest)
+        return CoarseSolution(
+            factor, rays_C[tuple(nearest)], u, n, interreflected, unseen, share, hidden, np.asarray(near_break), correction, nearest
+        )
 
     def place(self, rows: slice, columns: slice) -> tuple[Indices, Indices]:
         """Rows (h,) and columns (w,) of the coarse pixels that pixels in full size lie in."""
@@ -81,15 +82,15 @@ class Ground:
         return row, column
 
     def at[T: np.generic](self, values: npt.NDArray[T], rows: slice, columns: slice) -> npt.NDArray[T]:
-        """Values (h, w, ...) of the object's nearest coarse pixel, at pixels in full size."""
+        """Values (h, w, ...) at pixels in full size, those of the object's nearest coarse pixel."""
         return values[tuple(self.nearest[:, *np.ix_(*self.place(rows, columns))])]
 
     def between(self, values: Image | Array, rows: slice, columns: slice) -> Image:
-        """Values (h, w, ...), linear between the coarse pixels, at pixels in full size."""
+        """Values (h, w, ...) at pixels in full size, interpolated linearly between the coarse pixels."""
         return between(values, self.factor, rows, columns)
 
-    def front(self, rows: slice, columns: slice, rays_C: Array) -> Array:
-        """u (h, w) of pixels in full size with their rays (h, w, 3), each coarse pixel taken for a flat piece of its normal.
+    def starting_depth(self, rows: slice, columns: slice, rays_C: Array) -> Array:
+        """Starting depth u (h, w) of pixels in full size with rays (h, w, 3): each coarse pixel is a plane with its depth and normal.
 
         Without a camera u is in pixels of full size.
         """
@@ -106,7 +107,7 @@ class Ground:
 
 
 def between(values: Image | Array, factor: int, rows: slice, columns: slice) -> Image:
-    """Values (h, w, ...) of coarse pixels of `factor` pixels a side, linear between them, at pixels in full size."""
+    """Values (h, w, ...) at pixels in full size, interpolated linearly between coarse pixels of `factor` pixels a side."""
     found = np.asarray(values)
     for axis, some in enumerate((rows, columns)):
         t = np.clip((np.arange(some.start, some.stop) - (factor - 1) / 2) / factor, 0, values.shape[axis] - 1)
