@@ -16,7 +16,7 @@ import numpy as np
 
 from lpcal.errors import DisagreementError, InputError
 from lpcal.formats import full_size
-from lpcal.formats.exif import TakenAt, exposures
+from lpcal.formats.exif import UPRIGHT, TakenAt, exposures, turned_notes
 from lpcal.formats.full_scale import FullScale, full_scale, negatives, refuse_odd_floats
 from lpcal.formats.images import Numbers, read_numbers, stacked
 from lpcal.formats.marks import named_by_capture
@@ -77,6 +77,7 @@ def read_capture(folder: Path, lights: Sequence[str], *, name: str | None = None
     sources = {light: files[light] for light in (*chosen, *ambient_names)}
     stated = {path: _exposure(section, name) for name, path in sources.items()}
     exposure, more = exposures({path: reader.taken[path] for path in sources.values()}, stated)
+    more += turned_notes({path: reader.turns[path] for path in sources.values()})
     known = {*lights, *ambient_names, "mask", *(SHORT + light for light in lights), *([flat.stem] if flat else [])}
     mask = read_mask(files["mask"], reader.shape) if "mask" in files else None
     raw = RawCapture(
@@ -201,6 +202,7 @@ class _SameSize:
         self.claims: dict[Path, ToneClaim | None] = {}
         self.least: dict[Path, float] = {}
         self.taken: dict[Path, TakenAt | None] = {}
+        self.turns: dict[Path, int] = {}
 
     def read(self, path: Path) -> Numbers:
         image = read_numbers(path)
@@ -211,12 +213,12 @@ class _SameSize:
                 f"{_kind(image.stored.shape)}, but {self.first.name} is {_kind(self.shape)}",
                 where=str(path),
                 needed="all images of a capture alike",
-                todo="take the capture again, or remove the odd image",
+                todo=UPRIGHT if image.stored.shape[:2] == self.shape[1::-1] else "take the capture again, or remove the odd image",
             )
         refuse_odd_floats(image.stored, path)
         self.claims[path] = image.claim
         self.least[path] = float(image.stored.min()) / image.full_scale
-        self.taken[path] = image.taken
+        self.taken[path], self.turns[path] = image.taken, image.turn
         return image
 
 

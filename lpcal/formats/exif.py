@@ -131,3 +131,20 @@ def exposures(taken: Mapping[Path, TakenAt | None], stated: Mapping[Path, float 
 def _apertures(known: Mapping[Path, TakenAt]) -> list[str]:
     found = sorted({one.f_number for one in known.values() if one.f_number is not None})
     return [f"f/{found[0]:g} to f/{found[-1]:g}; its rings of light and its vignetting change with it"] if len(found) > 1 else []
+
+
+UPRIGHT = "one of them was turned after it was taken: copy all from the camera anew, with a program that turns none"
+"""What to do about pictures of which some are turned."""
+
+
+def turned_notes(turns: Mapping[Path, int]) -> list[str]:
+    """A note where the orientation (tag 274, 1 to 8) of a capture's images is not one: the pixels are taken as they are stored."""
+    common = max(set(turns.values()), key=list(turns.values()).count, default=1)
+    odd = [path for path, turn in turns.items() if turn != common]
+    if not odd:
+        return []
+    names = ", ".join(f"{path.name} {turns[path]}" for path in odd[:4]) + (", ..." if len(odd) > 4 else "")
+    return [
+        f"the EXIF orientation is not that of the other images, {common}: {names}; pixels are taken as stored, whatever the tag says: was "
+        "the camera turned between the images, or some of them by a program?"
+    ]

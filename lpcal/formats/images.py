@@ -88,6 +88,8 @@ class Numbers:
     taken: TakenAt | None = None
     alpha: npt.NDArray[Any] | None = None
     """(H, W) how opaque each pixel is, where the file says it."""
+    turn: int = 1
+    """Orientation that a JPEG's or TIFF's tag states, 1 to 8: how a viewer turns the pixels, which stand here as the file stores them."""
 
     @property
     def image(self) -> StoredImage:
@@ -128,15 +130,16 @@ def read_numbers(path: Path) -> Numbers:
         stored = None
     if stored is None:
         raise InputError("cannot be read as an image", where=str(path), needed=f"one of {', '.join(PICTURES)}, whole", todo="copy it again")
+    turn = orientation(data)
     if data[:2] in {b"II", b"MM"}:
-        stored = as_stored(stored, orientation(data))
+        stored = as_stored(stored, turn)
     alpha = stored[..., 3] if stored.ndim == 3 and stored.shape[2] == 4 else None
     if stored.ndim == 3:
         stored = stored[:, :, 2::-1] if stored.shape[2] >= 3 else stored[:, :, 0]
     full_scale = {"uint8": 255.0, "uint16": 65535.0}.get(stored.dtype.name, 1.0)
     if full_scale == 1.0 and stored.dtype.kind != "f":
         raise InputError(f"stores {stored.dtype.name}", where=str(path), needed="8 or 16 bit, or float", todo="convert it to a 16 bit PNG")
-    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data), alpha)
+    return Numbers(stored, full_scale, 1.0 / full_scale if full_scale > 1 else FLOAT_STEP, tone_claim(data), taken_at(data), alpha, turn)
 
 
 def stacked(paths: Sequence[Path], read: Callable[[Path], Numbers], shape: tuple[int, ...]) -> Image:

@@ -260,3 +260,29 @@ def test_a_camera_from_images_and_two_words(tmp_path: Path, lpcal: Callable[...,
     assert "written     calib/camera.yaml" in out
     assert read_camera(tmp_path / "calib" / "camera.yaml").image_size == read_image(boards[0]).size
     assert not (tmp_path / "panel.yaml").exists()
+
+
+@pytest.mark.parametrize("ending", ["jpg", "tif"])
+@pytest.mark.parametrize(("turns", "named"), [((1, 1, 1), None), ((6, 6, 6), None), ((1, 3, 1), "L1"), ((6, 6, 8), "L2")])
+def test_orientations_that_differ_within_a_capture_are_named(
+    tmp_path: Path, ending: str, turns: tuple[int, ...], named: str | None
+) -> None:
+    for light, turn in zip(LIGHTS, turns, strict=True):
+        tags = Image.Exif()
+        tags[274] = turn
+        picture = Image.new("L", (30, 20), 100)
+        picture.paste(200, (0, 0, 10, 10))
+        picture.save(tmp_path / f"{light}.{ending}", exif=tags)
+    found = read_capture(tmp_path, LIGHTS)
+    said = [note for note in found.notes if "orientation" in note]
+    assert len(said) == (named is not None)
+    assert all(f"{named}.{ending}" in note for note in said)
+    assert found.images[:, :8, :8].min() > 0.7, "pixels as stored"
+
+
+def test_an_image_turned_by_a_program_is_called_so(tmp_path: Path) -> None:
+    for light, size in zip(LIGHTS, ((30, 20), (20, 30), (30, 20)), strict=True):
+        Image.new("L", size, 100).save(tmp_path / f"{light}.jpg")
+    with pytest.raises(DisagreementError, match=r"20x30 grey, but L0\.jpg is 30x20") as caught:
+        read_capture(tmp_path, LIGHTS)
+    assert "turned after it was taken" in str(caught.value.todo)
