@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -62,6 +61,8 @@ def capture(
             needed="one image a light",
             todo="name those that you give: lights",
         )
+    if not all(isinstance(one, str) for one in lights):
+        raise InputError(repr(list(lights))[:80], where="lights", needed="names of lights of the calibration, one an image")
     full = full_scale(stack, step)
     room = None if ambient is None else _room(ambient, stack, full)
     return RawCapture(
@@ -83,10 +84,15 @@ def of_image_size(mask: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Mas
 
     Raises
     ------
+    InputError
+        It holds no numbers, or some that are not finite.
     DisagreementError
         It is of another size than the images.
     """
-    found = np.asarray(mask) != 0
+    stored = given.array(mask, name)
+    if stored.dtype.kind not in "bui":
+        stored = given.numbers(stored, name)
+    found = stored != 0
     if found.shape != tuple(shape):
         raise DisagreementError(
             f"an array of {given.shape_of(found)}", where=name, needed=f"{given.shape_of(np.empty(shape))}, the images' height and width"
@@ -123,7 +129,7 @@ def _room_exposures(stated: npt.ArrayLike | None, exposure_s: npt.ArrayLike | No
 
 def _fractions(images: npt.ArrayLike, name: str) -> tuple[Image, float]:
     """Images as fractions of full scale, and one step of their numbers."""
-    found: npt.NDArray[Any] = np.asarray(images)
+    found = given.array(images, name)
     if found.dtype.kind in "ub":
         most = 1 if found.dtype.kind == "b" else np.iinfo(found.dtype).max
         return np.asarray(found / np.float32(most), np.float32), 1 / most

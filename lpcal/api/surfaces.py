@@ -26,7 +26,7 @@ from lpcal.api.full_size import SOLVED, Asked, in_full_size
 from lpcal.api.sensor import BY_CALLER, BY_CAPTURE, Statements, contradictions, stated_in
 from lpcal.api.staged import staged
 from lpcal.api.surface_notes import contradicting, far_stated, notes_of, refuse_outside
-from lpcal.api.wishes import WAYS, refuse_hints, refuse_unknown_lights, refuse_unknown_words
+from lpcal.api.wishes import WAYS, hints_of, refuse_hints, refuse_no_distance, refuse_unknown_lights, refuse_unknown_words
 from lpcal.detect.ambient import RoomChanges, ambient_notes, refuse_bright_ambient, refuse_foreign_ambient, room_changes
 from lpcal.detect.arrangement import refuse_rearranged
 from lpcal.detect.exposures import with_short_exposures
@@ -47,7 +47,7 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.records.placement import Placement
 from lpcal.records.sensor import Sensor, SensorInUse, StatedSensor
 from lpcal.records.surface import Surface
-from lpcal.segmentation.mask import NO_HINTS, Hints, Keep
+from lpcal.segmentation.mask import NO_HINTS, Keep
 from lpcal.surface import reconstruct as solver
 from lpcal.surface.sensor_reading import reading_of
 from lpcal.view.crop import Crop
@@ -159,11 +159,14 @@ def reconstruct(
     raw = stacks.capture(images, lights, name=name, ambient=ambient, exposure_s=exposure_s, ambient_exposure_s=ambient_exposure_s)
     refuse_unknown_words(mask, method, integrator, keep, distance_m, arrangement)
     refuse_unknown_lights(raw, calibration)
-    refuse_hints(Hints(box, tuple((int(x), int(y)) for x, y in points)), raw.size[::-1], raw.name)
+    hints = hints_of(box, points)
+    refuse_hints(hints, raw.size[::-1], raw.name)
+    if placement is not None and not isinstance(placement, Placement):
+        raise InputError(f"a {type(placement).__name__}", where="placement", needed="a Placement", todo="lpcal.place gives one")
     asked = Asked(
         given=None if mask_given is None else stacks.of_image_size(mask_given, raw.size[::-1], "mask"),
         automatic=isinstance(mask, str) and mask == "auto",
-        hints=Hints(box, tuple((int(x), int(y)) for x, y in points)),
+        hints=hints,
         keep=keep,
         method=method,
         integrator=integrator,
@@ -328,6 +331,9 @@ def integrate(
     map_C = given.numbers(normals, "normals", finite=False).astype(np.float32)
     if map_C.ndim != 3 or map_C.shape[2] != 3:
         raise InputError(f"an array of {map_C.shape}", where="normals", needed="(H, W, 3)")
+    refuse_no_distance(distance_m)
+    if green not in {"auto", "as-is", "flipped"}:
+        raise InputError(repr(green), where="green", needed='"auto", "as-is" or "flipped"')
     length = np.linalg.norm(map_C, axis=2)
     inside = np.asarray(np.isfinite(length) & (length > 0))
     if mask is not None:
@@ -368,6 +374,8 @@ def mesh(surface: Surface) -> Mesh:
     >>> lpcal.mesh(lpcal.integrate(flat)).faces.shape
     (128, 3)
     """
+    if not isinstance(surface, Surface):
+        raise InputError(f"a {type(surface).__name__}", where="surface", needed="a Surface, of reconstruct, integrate or read_surface")
     return meshes.build(surface)
 
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from numbers import Real
+from typing import Any
+
 import numpy.typing as npt
 
 from lpcal import methods
@@ -19,8 +23,7 @@ def refuse_unknown_words(
     mask: npt.ArrayLike | str, method: str, integrator: str, keep: str, distance_m: float | None, arrangement: str = "auto"
 ) -> None:
     """Refuse words that mean nothing, and a distance that is none."""
-    if distance_m is not None and not 0 < distance_m < float("inf"):
-        raise InputError(f"{distance_m:g} m", where="distance_m", needed="metres before the camera")
+    refuse_no_distance(distance_m)
     if isinstance(mask, str) and mask not in {"auto", "none"}:
         raise InputError(repr(mask), where="mask", needed='an array (H, W), "auto" or "none"')
     own = compared.of_name(method, methods.NORMALS, "method", *WAYS) is None
@@ -35,6 +38,39 @@ def refuse_unknown_words(
         raise InputError(repr(keep), where="keep", needed='"object", "support" or "all"')
     if arrangement not in {"auto", "stated"}:
         raise InputError(repr(arrangement), where="arrangement", needed='"auto" or "stated"')
+
+
+def refuse_no_distance(distance_m: float | None) -> None:
+    """Refuse a distance that is no number of metres above 0."""
+    if distance_m is not None and not (isinstance(distance_m, Real) and 0 < distance_m < float("inf")):
+        raise InputError(
+            f"{distance_m} m" if isinstance(distance_m, Real) else repr(distance_m),
+            where="distance_m",
+            needed="metres before the camera, one number above 0",
+        )
+
+
+def hints_of(box: Sequence[int] | None, points: Sequence[Sequence[int]]) -> Hints:
+    """A caller's box and points.
+
+    Raises
+    ------
+    InputError
+        The box is not four whole numbers, or a point not two.
+    """
+    corners = None if box is None else _whole([box], 4, "box", "x, y, width and height in pixels")[0]
+    return Hints(corners, tuple(_whole(points, 2, "points", "pixels (x, y), such as [(120, 80)]")))
+
+
+def _whole(rows: Sequence[Sequence[int]], count: int, name: str, needed: str) -> list[Any]:
+    """Rows of so many whole numbers."""
+    try:
+        found = [tuple(int(value) for value in row) for row in rows if not isinstance(row, str)]
+    except (TypeError, ValueError, OverflowError):
+        found = []
+    if len(found) != len(rows) or any(len(row) != count for row in found):
+        raise InputError(repr(rows[0] if name == "box" else rows)[:80], where=name, needed=needed)
+    return found
 
 
 def refuse_unknown_lights(raw: RawCapture, calibration: Calibration) -> None:

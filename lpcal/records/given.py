@@ -44,13 +44,30 @@ def numbers(values: npt.ArrayLike, name: str, *, finite: bool = True) -> Array:
     InputError
         They are none, or one is not finite.
     """
+    stored = array(values, name)
+    if stored.dtype.kind == "c":
+        raise InputError("holds complex numbers", where=name, needed="an array of real numbers")
     try:
-        found = np.asarray(values, dtype=float)
+        found = np.asarray(stored, dtype=float)
     except (TypeError, ValueError) as error:
         raise InputError(f"holds no numbers ({error})", where=name, needed="an array of numbers") from error
     if finite and not np.isfinite(found).all():
         raise InputError(f"{int((~np.isfinite(found)).sum())} numbers that are not finite", where=name, needed="finite numbers")
     return found
+
+
+def array(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    """An array of whatever a caller gives for one.
+
+    Raises
+    ------
+    InputError
+        Its rows are not of one length.
+    """
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise InputError("its rows or images are not of one shape", where=name, needed="an array of numbers") from error
 
 
 def shaped(values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:

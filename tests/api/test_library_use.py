@@ -312,3 +312,39 @@ def test_exact_poses_are_no_step(seed: int) -> None:
         rounded = truth.H_CB + 1e-15 * rng.standard_normal(truth.H_CB.shape) * [[1], [1], [1], [0]]
         found = lpcal.solve_handeye(truth.H_OP, rounded)
         assert np.linalg.norm(found.H_PC[:3, 3] - session.H_PC[:3, 3]) < 1e-9
+
+
+WRONG_ARGUMENTS: dict[str, dict[str, Any]] = {
+    "images": {"images": IMAGES.astype(complex)},
+    "images of other shapes": {"images": [*IMAGES[:-1], IMAGES[-1][:5]]},
+    "mask": {"mask": np.where(BALL, 1.0, np.nan)},
+    "distance_m": {"distance_m": "350 mm"},
+    "lights": {"lights": [0, 1, 2, 3, 4]},
+    "box": {"box": (1, 2, 3)},
+    "box as text": {"box": "1,2,30,30"},
+    "points": {"points": [(20,)]},
+    "points that is one": {"points": (20, 20)},
+    "points not finite": {"points": [(np.nan, 1)]},
+    "placement": {"placement": np.eye(4)},
+}
+
+
+@pytest.mark.parametrize("name", WRONG_ARGUMENTS)
+def test_arguments_of_reconstruct_that_cannot_be_are_named(name: str) -> None:
+    given = {"images": IMAGES, "ambient": ROOM, "mask": BALL, **WRONG_ARGUMENTS[name]}
+    with pytest.raises(InputError) as caught:
+        lpcal.reconstruct(given.pop("images"), DOME, **given)
+    assert str(caught.value.where).startswith(name.split(maxsplit=1)[0])
+
+
+def test_arguments_of_the_others_that_cannot_be_are_named(robot: tuple[np.ndarray, np.ndarray]) -> None:
+    wrong: dict[str, Callable[[], object]] = {
+        "H_OP": lambda: lpcal.solve_handeye(robot[0].astype(complex), robot[1]),
+        "distance_m": lambda: lpcal.integrate(NORMALS, distance_m="350 mm"),  # type: ignore[arg-type]
+        "green": lambda: lpcal.integrate(NORMALS, green="down"),  # type: ignore[arg-type]
+        "surface": lambda: lpcal.mesh(NORMALS),  # type: ignore[arg-type]
+    }
+    for where, call in wrong.items():
+        with pytest.raises(InputError) as caught:
+            call()
+        assert str(caught.value.where).startswith(where), where
