@@ -19,10 +19,10 @@ import cv2
 import numpy as np
 
 from lpcal.fusion.align import POINTS, SHARED, Aligned, sampled
-from lpcal.fusion.bending import bending_of
+from lpcal.fusion.correspondences import Placed
+from lpcal.fusion.deformation import bending_of
 from lpcal.fusion.factor import BlockMatrix, Factor
-from lpcal.fusion.pairs import Placed
-from lpcal.fusion.partners import everyone
+from lpcal.fusion.pair_selection import everyone
 from lpcal.fusion.vertices import on_the_views
 from lpcal.fusion.views import PlacedView, view_of
 from lpcal.fusion.volume import surface_of

@@ -1,4 +1,4 @@
-r"""Where every view really stands: all pairs of overlapping views in one least-squares problem, the tracked poses as prior.
+r"""Joint alignment of all views: all overlapping pairs in one least-squares problem, with the tracked poses as prior.
 
 Symbols: e the error of H_PC that all views share, c (6) what all depth maps share (a scale, two tilts, three bendings: lights that are off
 turn normals in all views alike), for each view i its own twist xi_i and its bending b_i; x, y a pixel's ray in C; H_i the tracked pose::
@@ -19,10 +19,10 @@ from functools import cached_property
 
 import numpy as np
 
-from lpcal.fusion.bending import COMMON, Bending, bending_of
+from lpcal.fusion.correspondences import Meeting, Placed, meet
+from lpcal.fusion.deformation import COMMON, Bending, bending_of
 from lpcal.fusion.factor import BlockMatrix, Factor
-from lpcal.fusion.pairs import Meeting, Placed, meet
-from lpcal.fusion.partners import Partners, everyone
+from lpcal.fusion.pair_selection import Partners, everyone
 from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import lambert, se3
 from lpcal.geometry.arrays import Array, Index

@@ -1,4 +1,4 @@
-r"""Which views are wrong: those whose pose, distance or object the others contradict.
+r"""Outlier views: those whose pose, distance or object the others contradict.
 
 Symbols: for views i, j at their tracked poses, of the points of i that j should have seen::
 

@@ -1,4 +1,4 @@
-r"""The photometric detail on the surface that the views share: normals made right by the surface, then the surface by the normals.
+r"""Photometric detail of the model: normals corrected by the common surface, then the surface by the normals.
 
 Symbols: n the surface's normals, m the views' mean of measured ones, S smoothing along the surface, w falling where the two differ much::
 

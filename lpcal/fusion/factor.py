@@ -1,4 +1,4 @@
-r"""Normal equations of many views in blocks, and their Cholesky factor: views that do not overlap share no block.
+r"""Block normal equations of many views and their sparse Cholesky factorisation: views without overlap share no block.
 
 Symbols: A symmetric and positive definite, in blocks: the first of what all views share, one of each view; L lower triangular::
 

@@ -1,4 +1,4 @@
-r"""What no view has seen well, where the panel should stand next, and what that would show.
+r"""Parts that no view has seen well, the next panel pose, and what it would gain.
 
 Symbols: s a sample of the surface with area a_s and normal n_s; H_AC a camera that might stand somewhere, d its distance to the object's
 middle. Samples are the model's vertices that one view alone sees, and points of the caps that close its open edges: no view saw what is
@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.fusion.align import Aligned
-from lpcal.fusion.pairs import Placed
+from lpcal.fusion.correspondences import Placed
 from lpcal.fusion.vertices import Vertices
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Mask

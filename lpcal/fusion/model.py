@@ -3,7 +3,7 @@ r"""From placed surfaces to a model, step by step.
 1. Where every view and every piece of it stands; what the others contradict is left out (`registration`).
 2. The signed distance of all views on a grid, its triangles (`volume`), moved onto the views' mean (`vertices`), with the detail of their
    normals (`detail`).
-3. With the images of the views: each solved again with what all show together, aligned again, and the surface anew (`again`).
+3. With the images of the views: each solved again with what all show together, aligned again, and the surface anew (`second_solve`).
 4. What no view saw well, and where the panel should stand next (`missing`).
 """
 
@@ -14,13 +14,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lpcal.fusion.again import Images, again
 from lpcal.fusion.align import Aligned
 from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, usual_growth
 from lpcal.fusion.missing import missing
-from lpcal.fusion.pieces import Piece
+from lpcal.fusion.piece_distances import Piece
 from lpcal.fusion.registration import Registered, registered
 from lpcal.fusion.rig_evidence import rig_evidence
+from lpcal.fusion.second_solve import Images, again
 from lpcal.fusion.vertices import Vertices, on_the_views
 from lpcal.fusion.views import PlacedView
 from lpcal.fusion.volume import Over, in_turn, surface_of

@@ -1,8 +1,8 @@
-r"""Where every view and every piece of it stands, and which are left out.
+r"""Registration of all views and their pieces, and the views that are left out.
 
 1. The large pieces of every view are looked up in those of others at the tracked poses; a view that the others contradict is left out.
 2. These pieces are aligned, poses and distances and slow bending at once (`align`); those that no other confirms there are taken back.
-3. Every other piece, and the views that were left out, are looked for along their rays (`pieces`), until no more are found.
+3. Every other piece, and the views that were left out, are looked for along their rays (`piece_distances`), until no more are found.
 4. All that were found are aligned together. A view that had to move or grow too far is left out; so is a piece that the others contradict,
    and what two views at least see through.
 """
@@ -16,12 +16,12 @@ import numpy as np
 
 from lpcal.errors import DegenerateError
 from lpcal.fusion.align import SHARED, Aligned, PairFit, Start, align, compared, knots_px, placed_view
-from lpcal.fusion.bending import bending_of
 from lpcal.fusion.consensus import MOST_SCALE_SIGMAS, Doubted, agreement, moved_too_far, outvoted, usual_growth
-from lpcal.fusion.fronts import Fronts
-from lpcal.fusion.pairs import Placed
-from lpcal.fusion.partners import Partners, among, partners_of
-from lpcal.fusion.pieces import CONTRADICTED, GATE_PX, Among, Piece, cleared, confirmed_share, labels_by_size, only
+from lpcal.fusion.correspondences import Placed
+from lpcal.fusion.deformation import bending_of
+from lpcal.fusion.occlusion import Fronts
+from lpcal.fusion.pair_selection import Partners, among, partners_of
+from lpcal.fusion.piece_distances import CONTRADICTED, GATE_PX, Among, Piece, cleared, confirmed_share, labels_by_size, only
 from lpcal.fusion.views import PlacedView
 from lpcal.geometry.arrays import Array
 from lpcal.records.outcome import Progress, silent

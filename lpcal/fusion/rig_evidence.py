@@ -1,4 +1,4 @@
-r"""What many views of one object show of their common calibration: its lights, H_PC, and whether the rig has moved.
+r"""Evidence of many views of one object on their common calibration: lights, H_PC, and whether the rig has moved.
 
 Symbols: D the directions (L, 3) of the lights that a place faces, n its normal in C, e_l the relative error of a light's intensity, s_l
 that of its source (m), r_l its distance, P = I - n n^T::
@@ -20,7 +20,7 @@ from itertools import combinations
 import numpy as np
 
 from lpcal.fusion.align import SHARED_SCALE_STD, Aligned
-from lpcal.fusion.pairs import Placed
+from lpcal.fusion.correspondences import Placed
 from lpcal.fusion.vertices import GATE_PX, Evidence, Vertices, evidence
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array

@@ -1,4 +1,4 @@
-"""Tiles of space: where the grid of a model is computed, part by part, and how the triangles of all parts become one surface.
+"""Tiles of space in which the grid of a model is computed, and the merging of their triangles into one mesh.
 
 The grid is never held as a whole. Boxes of BOX grid points an edge are computed where a view has a point in them or beside them; a tile is
 a cube of boxes and the layer of grid points that it shares with the next tile each way, so that every cell of the grid lies in one tile,

@@ -1,4 +1,4 @@
-r"""What each vertex of a model rests on: the views that see it, where each puts the surface, its normal and albedo there.
+r"""Evidence at each vertex of a model: the views that see it, and the surface, normal and albedo of each there.
 
 Symbols: v a vertex, n its normal, q_i what view i shows in its direction, n_i the view's normal there, w_i its weight::
 
@@ -18,9 +18,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from lpcal.fusion.align import SHARED, Aligned
+from lpcal.fusion.correspondences import Placed, background
 from lpcal.fusion.detail import with_detail
 from lpcal.fusion.factor import columns_of
-from lpcal.fusion.pairs import Placed, background
 from lpcal.fusion.views import look, may_see
 from lpcal.fusion.volume import Triangles, area_of, held_together, normals_of, rested, weight_of
 from lpcal.geometry import se3

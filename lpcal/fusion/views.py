@@ -1,4 +1,4 @@
-r"""A view of an object: its maps in C, where its camera was, and what a direction shows in it.
+r"""A view of an object: its maps in C, its camera pose, and their values along a direction.
 
 Symbols: A the frame that views share (the room, or the body that the object rides on), H_AC the camera in it, r the ray of a pixel with
 length 1 in z, z its depth, delta by how much the logarithm of the depth is off::
@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from lpcal.fusion.parts import ends_of_parts, inner_breaks, near, parted, stds
+from lpcal.fusion.seams import ends_of_parts, inner_breaks, near, parted, stds
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Image, Index, Labels, Mask
 from lpcal.records.placement import Placement

@@ -1,4 +1,4 @@
-r"""The surface that views share, as a signed distance on a grid, and its triangles.
+r"""The common surface of all views: a truncated signed distance on a grid, and its triangles.
 
 Symbols: x a grid point, q what a view shows in its direction, n the view's normal there, T the truncation::
 
@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lpcal.errors import DegenerateError
-from lpcal.fusion.pairs import Placed
+from lpcal.fusion.correspondences import Placed
 from lpcal.fusion.tiles import BOX, MOST_BOXES, SpaceTile, TileFaces, VoxelGrid, joined, parts_of, tiles_of
 from lpcal.fusion.views import look, may_see
 from lpcal.geometry import se3

@@ -20,7 +20,7 @@ from lpcal.fusion import align, tiles, vertices, volume
 from lpcal.fusion.consensus import outvoted
 from lpcal.fusion.missing import loops_of
 from lpcal.fusion.model import _fit, shared_covariance
-from lpcal.fusion.partners import everyone
+from lpcal.fusion.pair_selection import everyone
 from lpcal.fusion.views import fitted, view_of
 from lpcal.fusion.volume import held_together, rested
 from lpcal.geometry import se3

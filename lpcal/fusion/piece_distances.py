@@ -1,4 +1,4 @@
-r"""At which distance each piece of a view lies: where the other views confirm it.
+r"""Distance of each piece of a view, confirmed by the other views.
 
 A view may come in pieces that hide each other, and light alone knows the distance of a small one badly: some stood a quarter of their
 distance wrong, five of their sigmas. Along its rays a piece has but one freedom. Symbols: x its points, n their normals, s a step of log
@@ -19,9 +19,9 @@ from functools import cached_property
 import numpy as np
 
 from lpcal.fusion.align import Aligned, showing
-from lpcal.fusion.fronts import Fronts
-from lpcal.fusion.pairs import Placed, votes
-from lpcal.fusion.partners import Partners
+from lpcal.fusion.correspondences import Placed, votes
+from lpcal.fusion.occlusion import Fronts
+from lpcal.fusion.pair_selection import Partners
 from lpcal.fusion.views import PlacedView, may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Mask

@@ -8,9 +8,9 @@ import numpy as np
 
 from fusion_views import scene
 from lpcal.fusion.align import knots_px, placed_view
-from lpcal.fusion.bending import bending_of
-from lpcal.fusion.fronts import Fronts, before
-from lpcal.fusion.partners import everyone
+from lpcal.fusion.deformation import bending_of
+from lpcal.fusion.occlusion import Fronts, before
+from lpcal.fusion.pair_selection import everyone
 from lpcal.fusion.views import view_of
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Index, Mask
@@ -48,7 +48,7 @@ def test_what_lies_too_deep_is_denied_by_what_others_show_before_it() -> None:
 
 
 def test_right_surfaces_and_what_stands_too_near_are_not_denied() -> None:
-    """What stands too near is before others: they are denied by it, and `pairs` counts it against itself."""
+    """What stands too near is before others: they are denied by it, and `correspondences` counts it against itself."""
     of_others = []
     for deeper in (0.0, -0.02):
         fronts, _, gate_m = dented(deeper)

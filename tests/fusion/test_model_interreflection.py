@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from lpcal.fusion.again import ViewSamples, reflectance_of
-from lpcal.fusion.between import Body, Cells, at_points
+from lpcal.fusion.model_interreflection import Body, Cells, at_points
+from lpcal.fusion.second_solve import ViewSamples, reflectance_of
 from lpcal.fusion.volume import Triangles
 
 

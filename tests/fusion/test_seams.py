@@ -9,7 +9,7 @@ import pytest
 
 import lpcal
 from fusion_views import scene
-from lpcal.fusion.parts import LEAST_PIXELS, parted
+from lpcal.fusion.seams import LEAST_PIXELS, parted
 from lpcal.geometry.arrays import Image, Labels, Mask
 from lpcal.records.surface import Surface
 

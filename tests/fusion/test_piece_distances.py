@@ -14,7 +14,7 @@ from fusion_views import Scene, scene
 from lpcal.fusion import detail
 from lpcal.fusion.consensus import MOST_SCALE_SIGMAS
 from lpcal.fusion.model import shared_covariance
-from lpcal.fusion.pieces import labels_by_size
+from lpcal.fusion.piece_distances import labels_by_size
 from lpcal.fusion.registration import large_pieces, registered
 from lpcal.fusion.views import view_of
 from lpcal.geometry import se3

@@ -1,8 +1,8 @@
-r"""Every view solved again with what all of them together know: where the surface lies, and the light that its parts throw on each other.
+r"""Second solve of every view, with the depth and the interreflection of the model of all views.
 
-Symbols: z the depth of a view as aligned, p a place of the model, T_ik the light vectors of what the parts of the model reflect there under
-light k of view i (`between`), a the reflectance of the median patch, I_ik the signals at p of the views i that see it, V_ik B_ik the light
-vectors of their lights, 0 where the model hides them::
+Symbols: z the depth of a view as aligned, p a place of the model, T_ik the light vectors of the interreflected light there under light k of
+view i (`model_interreflection`), a the reflectance of the median patch, I_ik the signals at p of the views i that see it, V_ik B_ik the
+light vectors of their lights, 0 where the model occludes them::
 
     b_p(a) = argmin_b sum_ik rho((I_ik - b . (V_ik B_ik + T_ik(a))) / s_ik)          one albedo and normal of all views that see p
     a      = argmin N / 2 log sum_pik rho(..)  +  prior
@@ -22,10 +22,10 @@ import numpy as np
 
 from lpcal.errors import LpcalError
 from lpcal.fusion.align import SHARED, Aligned, Start, align
-from lpcal.fusion.bending import bending_of
-from lpcal.fusion.between import PATCHES, Body, at_points
-from lpcal.fusion.pairs import Placed
-from lpcal.fusion.pieces import cleared
+from lpcal.fusion.correspondences import Placed
+from lpcal.fusion.deformation import bending_of
+from lpcal.fusion.model_interreflection import PATCHES, Body, at_points
+from lpcal.fusion.piece_distances import cleared
 from lpcal.fusion.vertices import GATE_PX, albedo_of, evidence
 from lpcal.fusion.views import PlacedView, renewed
 from lpcal.fusion.volume import Triangles

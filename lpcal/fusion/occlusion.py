@@ -1,11 +1,11 @@
-r"""What stands before a view's surface by the points of the others: it contradicts that view as much as it is contradicted.
+r"""Free-space violations: points of other views in front of a view's surface, counted against both.
 
 Symbols: p a point of view j in the C of view i, z_p its depth there, z_i the depth that i shows at its pixel::
 
     z_p < z_i - gate        i sees through p: one of the two is wrong, and neither view alone says which
 
-`pairs` counts this against p. Here it is counted against what i shows as well: a part that is too far hides nothing, so what others see
-through it tells nothing of it. Points near an outline are not counted, where a pixel is of one surface or the other.
+`correspondences` counts this against p. Here it is counted against what i shows as well: a part that is too far occludes nothing, so what
+others see through it tells nothing of it. Points near an outline are not counted, where a pixel is of one surface or the other.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from functools import cached_property
 
 import numpy as np
 
-from lpcal.fusion.pairs import Placed, faces
-from lpcal.fusion.partners import Partners
+from lpcal.fusion.correspondences import Placed, faces
+from lpcal.fusion.pair_selection import Partners
 from lpcal.fusion.views import may_see
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index

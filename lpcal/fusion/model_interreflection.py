@@ -1,4 +1,4 @@
-r"""Light that an object throws from part to part, all of its parts known: what one view cannot know, since it sees half of them.
+r"""Interreflection on the whole model, which includes the parts that a single view does not see.
 
 Symbols: patches p, j of the model of area A, normal n and reflectance a; e_pj the unit vector from p to j at the distance r; V whether they
 see each other; D_k(p) the irradiance of light k at p, 0 where the model hides it::

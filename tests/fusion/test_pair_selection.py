@@ -10,9 +10,9 @@ import pytest
 
 import lpcal
 from fusion_views import scene
-from lpcal.fusion import align, partners
+from lpcal.fusion import align, pair_selection
 from lpcal.fusion.model import shared_covariance
-from lpcal.fusion.partners import Partners, among, everyone, partners_of
+from lpcal.fusion.pair_selection import Partners, among, everyone, partners_of
 from lpcal.fusion.views import PlacedView, may_see, view_of
 from lpcal.geometry import se3
 
@@ -45,7 +45,7 @@ def test_few_views_are_all_compared() -> None:
 
 def test_of_many_round_one_object_each_has_some_near_and_some_far(monkeypatch: pytest.MonkeyPatch) -> None:
     """Their number does not grow with that of the views, and those that see the other side are none."""
-    monkeypatch.setattr(partners, "MOST", 6)
+    monkeypatch.setattr(pair_selection, "MOST", 6)
     views = round_a_stone(30)
     found = partners_of(views)
     assert mutual(found)
@@ -82,7 +82,7 @@ def test_a_model_by_some_partners_is_as_near_as_by_all(monkeypatch: pytest.Monke
     """Of 48 views of a stone, each compared with about half of the others: the truth is the stone's own distance."""
     found, rms = scene(count=48), []
     for most in (12, 60):
-        monkeypatch.setattr(partners, "MOST", most)
+        monkeypatch.setattr(pair_selection, "MOST", most)
         model = lpcal.fuse(found.surfaces)
         off_m = found.off_m(model.vertices_A)
         rms.append(float(np.sqrt(np.mean(off_m**2))))

@@ -1,4 +1,4 @@
-r"""Which views are compared with which: those that show the same places, and of these no more than tell where a view stands.
+r"""Selection of the pairs of views that are compared: enough overlapping ones to determine every view's pose.
 
 Of a few views every one is compared with every other. Of many, round one object, each overlaps with a third of all, and every further
 comparison says less: a view has MOST partners, chosen evenly from the one that shows most of the same places to the one that shows least.

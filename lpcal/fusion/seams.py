@@ -1,9 +1,9 @@
-r"""Parts of a view's pieces that breaks of its surface and seams of unsure normals cut off together.
+r"""Cuts within the pieces of a view, along depth discontinuities and seams of uncertain normals.
 
 A piece hangs together wherever a few pixels do, and where it was cut is where cutting was cheapest: a leg seen before another leg may be
 cut straight across, and hang on to the wrong one along the dark seam between the two; a ball may hang on to the column beside it where
 their outlines touch. What lies behind such a seam may be tens of millimetres off, though the rest of the piece is right. Each part is
-therefore a piece of its own here, placed where the other views confirm it (`pieces`).
+therefore a piece of its own here, placed where the other views confirm it (`piece_distances`).
 
 Pixels at a break or on a seam belong to no core; connected cores of some size are the parts, and grow back to the breaks. A part stays with
 the neighbour that it touches most where sure normals run on from one to the other along most of its border, and hardly any of that is

@@ -1,4 +1,4 @@
-r"""What two views say of the same places: points of one looked up in the other.
+r"""Correspondences between two views: points of one projected into the other.
 
 Symbols: p a point of view i, q what view j shows in its direction, n the normal there, both in the common frame A::
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lpcal.fusion.bending import Bending
+from lpcal.fusion.deformation import Bending
 from lpcal.fusion.views import PlacedView, look
 from lpcal.geometry import se3
 from lpcal.geometry.arrays import Array, Index, Labels, Mask

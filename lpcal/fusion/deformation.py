@@ -1,4 +1,4 @@
-r"""How a view's log depth may be off: a scale of each piece, and a field over it that bends slowly.
+r"""Error model of a view's log depth: a scale of each piece, and a smooth deformation field.
 
 Symbols: s a piece's scale, b the knots of a grid over it, w_k the tents of the four knots about a pixel::
 
