@@ -50,6 +50,15 @@ TWO_STEPS, TWO_M, TWO_SHARE = 10.0, 0.005, 0.1
 """Two poses of one time, or neighbours in time, that are so many usual steps and metres apart, are of two bodies or recordings; of the
 repeated times it takes this share of all rows, for one stray row is no recording."""
 
+STEPS_M = (0.1, 0.05, 0.02, 0.01, 0.005)
+"""Steps of positions, metres, that are looked for: rounded to the last of them, each coordinate errs by 1.4 mm, as rms."""
+STEPS_DEG, STEPS_RAD, STEPS_QUATERNION = (10.0, 5.0, 1.0, 0.5), (0.1, 0.05, 0.01), 0.01
+"""Steps of angles and of a quaternion's numbers that are looked for: rounded so, rotations err by an eighth of a degree or more, as rms."""
+FEWEST_ROUNDED, FEWEST_UNLIKE, MOST_ROUNDED = 5, 8, 200
+"""Poses, and numbers that differ among theirs, from which their all being round is no chance; and poses that are asked, spread over all."""
+ON_STEP = 1e-5
+"""How far, in steps, a number may be from a whole number of them."""
+
 
 def unit_of(text: str) -> str | None:
     """The unit of METRES that a file names: mm, Millimeters, inch, Feet; None for another."""
@@ -119,6 +128,7 @@ def timed_poses(table: PoseTable, path: Path, *, inverse: bool = False) -> Timed
     _refuse_two(t_s, METRES[table.units] * table.position, seen, keep, path)
     notes = [*stamped, *past, *losses, *notes]
     H = se3.transform(R[keep], METRES[table.units] * table.position[keep])
+    notes += rounded_notes(H)
     return TimedPoses(t_s[keep], se3.inv(H) if inverse else H, keep, lost, (*table.notes, *notes))
 
 
@@ -283,3 +293,46 @@ def _rotations(table: PoseTable, path: Path) -> tuple[Array, Mask]:
     R = np.full((len(q), 3, 3), np.nan)
     R[whole] = se3.rotation_from_quaternion(q[whole])
     return R, whole
+
+
+def rounded_notes(H: Array) -> list[str]:
+    """Notes on poses (N, 4, 4), as a file holds them, whose numbers were rounded too far to calibrate by."""
+    if len(H) < FEWEST_ROUNDED:
+        return []
+    some = H[:: max(1, len(H) // MOST_ROUNDED)]
+    step_m, R = _step_of(some[:, :3, 3], STEPS_M), some[:, :3, :3]
+    zyz = np.stack([np.arctan2(R[:, 1, 2], R[:, 0, 2]), np.arccos(np.clip(R[:, 2, 2], -1, 1)), np.arctan2(R[:, 2, 1], -R[:, 2, 0])], axis=1)
+    turns = (se3.angles_about_zyx(R), se3.angles_about_zyx(np.swapaxes(R, 1, 2)), zyz, se3.rotation_vector(R))
+    step_deg = max(_step_of(np.rad2deg(angles), STEPS_DEG) for angles in turns)
+    step_rad = max(_step_of(angles, STEPS_RAD) for angles in turns)
+    found = [("positions are multiples of {} mm", 1e3 * step_m, 1e3 * step_m, "mm")] if step_m else []
+    if step_deg:
+        found.append(("angles are multiples of {} deg", step_deg, step_deg, "deg"))
+    elif step_rad:
+        found.append(("angles are multiples of {} rad", step_rad, np.rad2deg(step_rad), "deg"))
+    elif _of_two_digits(R):
+        off_deg = np.rad2deg(2 * STEPS_QUATERNION)  # a rotation's angle is twice that whose sine the quaternion holds
+        found.append(("numbers of quaternions are multiples of {}", STEPS_QUATERNION, off_deg, "deg"))
+    return [
+        f"all {what.format(f'{step:g}')}: if they were rounded to that, each pose is off by {off / np.sqrt(12):.2g} {unit} an axis (rms); "
+        "write all digits, unless the body was sent to just these places"
+        for what, step, off, unit in found
+    ]
+
+
+def _step_of(values: Array, steps: tuple[float, ...]) -> float:
+    """The largest of some steps that all values are whole multiples of, where that is no chance; else 0."""
+    for step in steps:
+        whole = np.rint(values / step)
+        if np.abs(values / step - whole).max() < ON_STEP:
+            return step if len(np.unique(whole)) >= FEWEST_UNLIKE else 0.0
+    return 0.0
+
+
+def _of_two_digits(R: Array) -> bool:
+    """Whether all rotations (N, 3, 3) are those of quaternions written with two digits, of whatever length these had."""
+    square = np.arange(*(int(((1 + off * QUATERNION_TOLERANCE) / STEPS_QUATERNION) ** 2) for off in (-1, 1)))
+    numbers = se3.quaternion(R)[:, None, :] * np.sqrt(square)[:, None]
+    whole = np.rint(numbers)
+    round_ones = np.abs(numbers - whole).max(axis=2) < ON_STEP
+    return bool(round_ones.any(axis=1).all() and len(np.unique(np.round(numbers[:, 0], 3))) >= FEWEST_UNLIKE)

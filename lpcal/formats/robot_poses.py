@@ -33,7 +33,7 @@ import numpy as np
 from lpcal.errors import DegenerateError, DisagreementError, InputError
 from lpcal.formats.number_arrays import ARRAYS, matrix_rows, read_arrays
 from lpcal.formats.number_table import COMMENTS, is_number
-from lpcal.formats.pose_table import METRES
+from lpcal.formats.pose_table import METRES, rounded_notes
 from lpcal.formats.reading import reader
 from lpcal.formats.text import read_text, with_commas
 from lpcal.geometry import se3
@@ -158,7 +158,7 @@ def read_robot_poses(path: Path, stated: Stated = Stated()) -> ImagePoses:
     lost = () if lost == (0,) else lost
     if len(lost) == len(poses.H):
         raise DegenerateError(f"all {len(lost)} poses are the identity", where=str(path), needed="a tracked body", todo="export it again")
-    notes = (*poses.notes, *[f"{len(lost)} poses are the identity: lost"] * bool(lost))
+    notes = (*poses.notes, *[f"{len(lost)} poses are the identity: lost"] * bool(lost), *rounded_notes(poses.H))
     return ImagePoses(se3.inv(poses.H) if stated.direction == "H_PO" else poses.H, poses.files, notes, lost, name)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -184,3 +185,46 @@ def test_a_bare_name_that_two_images_have_is_neither(tmp_path: Path) -> None:
     images = ["a/view.png", "b/view.png", "b/other.png"]
     found = _paired(ImagePoses(poses()[:2], ("view", "other")), images, tmp_path / "robot.csv")
     assert list(found) == ["b/other.png"]
+
+
+def written(path: Path, kind: str, metres: int, turn: int, count: int = 12) -> Path:
+    """Poses with so many digits of positions (m) and rotations (degrees, radians or a quaternion's numbers)."""
+    rng = np.random.default_rng(7)
+    x, v = rng.uniform(-0.6, 0.6, (count, 3)), rng.uniform(-1.2, 1.2, (count, 3))
+    names, turns = {
+        "quaternion": ("qx,qy,qz,qw", se3.quaternion(se3.rotation(v))),
+        "abc": ("A,B,C", np.rad2deg(v)),
+        "rpy": ("roll_deg,pitch_deg,yaw_deg", np.rad2deg(v)),
+        "vector": ("rx,ry,rz", v),
+        "zyz": ("A,B,C", np.rad2deg(v)),
+    }[kind]
+    rows = np.concatenate([np.round(x, metres), np.round(turns, turn)], axis=1)
+    path.write_text(f"x_m,y_m,z_m,{names}\n" + "".join(",".join(f"{one:.9g}" for one in row) + "\n" for row in rows))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("kind", "metres", "turn", "said"),
+    [
+        ("quaternion", 5, 6, []),
+        ("quaternion", 2, 6, ["multiples of 10 mm"]),
+        ("quaternion", 5, 2, ["quaternions are multiples of 0.01"]),
+        ("quaternion", 5, 3, []),
+        ("quaternion", 3, 6, []),
+        ("abc", 5, 3, []),
+        ("abc", 5, 0, ["angles are multiples of 1 deg"]),
+        ("rpy", 2, 0, ["multiples of 10 mm", "multiples of 1 deg"]),
+        ("zyz", 5, 0, ["multiples of 1 deg"]),
+        ("vector", 1, 4, ["multiples of 100 mm"]),
+        ("vector", 5, 2, ["multiples of 0.01 rad"]),
+    ],
+)
+def test_numbers_rounded_too_far_are_noticed(tmp_path: Path, kind: str, metres: int, turn: int, said: list[str]) -> None:
+    stated = Stated(rotation="zyz_deg") if kind == "zyz" else Stated()
+    for direction in ("H_OP", "H_PO"):
+        notes = read_robot_poses(written(tmp_path / "poses.csv", kind, metres, turn), replace(stated, direction=direction)).notes
+        found = [note for note in notes if "rounded" in note]
+        assert len(found) == len(said), found
+        assert all(one in note for one, note in zip(said, found, strict=True)), found
+    few = read_robot_poses(written(tmp_path / "few.csv", kind, metres, turn, count=2), stated)
+    assert not [note for note in few.notes if "rounded" in note], "of two poses it may be chance"
