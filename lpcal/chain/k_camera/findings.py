@@ -59,7 +59,7 @@ def findings(problem: CornerProblem, fit: CameraFit, names: Sequence[str], *, bl
     on_board, on_image = patterns.on_board(fit), patterns.on_image(fit)
     left = {where: ResidualPattern(size_px=one.size_px, z=one.z) for where, one in (("board", on_board), ("image", on_image))}
     figures = CameraEvidence(coverage=_coverage(fit), residual_pattern=left)
-    warnings = [*_unmodelled(on_board, on_image, fit, blame_board), *_odd_size(problem, fit)]
+    warnings = [*_changed(patterns.change(fit), names), *_unmodelled(on_board, on_image, fit, blame_board), *_odd_size(problem, fit)]
     if fit.uncertainty is not None:
         return replace(figures, projection_uncertainty=_uncertainty(assess_spline(fit))), warnings
     if fit.camera.covariance is None:
@@ -94,6 +94,17 @@ def _uneven(free: OtherSolver, sure: Sureness, fit: CameraFit) -> list[str]:
     return [
         f"the board's corners lie {1e3 * off_m:.2g} mm rms from where its shape says, and with them free the camera is "
         f"{apart_px:.2g} px apart (its sigma there is {said_px:.2g} px): print on a stiff board, or have one made"
+    ]
+
+
+def _changed(found: patterns.Change | None, names: Sequence[str]) -> list[str]:
+    """A warning where the views before and after one of them are of two cameras."""
+    if found is None or not found.seen:
+        return []
+    x, y = found.centre_px
+    return [
+        f"from {names[found.view]} on the camera is another: its focal length by {100 * found.focal_share:+.2g} %, its centre by "
+        f"({x:+.1f}, {y:+.1f}) px: was its zoom, focus or lens moved? Calibrate by views of one setting, that of the captures"
     ]
 
 

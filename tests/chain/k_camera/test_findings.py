@@ -257,3 +257,15 @@ def test_blurred_and_glaring_views_are_named() -> None:
     assert any("soft.png" in one and "0.png" not in one for one in said)
     assert any("shiny.png" in one for one in said)
     assert views[0].glare == 0
+
+
+@pytest.mark.parametrize(("share", "moved_px", "at"), [(0.0, 0.0, 12), (0.02, 0.0, 12), (-0.02, 0.0, 9), (0.1, 0.0, 15), (0.0, 5.0, 12)])
+def test_a_zoom_or_a_lens_moved_midway_is_named(share: float, moved_px: float, at: int) -> None:
+    for seed in (1, 2):
+        whole = problem(Pattern(bow_m=(0.0003, 0.0001)).points(), seed, 24)
+        px = whole.corners_px.copy()
+        px[at:] = K[:2, 2] + (px[at:] - K[:2, 2]) * (1 + share) + [moved_px, 0]
+        said = [one for one in solve_camera(views_of(replace(whole, corners_px=px)), BOARD).warnings if "the camera is another" in one]
+        assert len(said) == bool(share or moved_px), said
+        assert all(f"from {at}.png on" in one or f"from {at + 1}.png on" in one or f"from {at - 1}.png on" in one for one in said), said
+        assert all((f"{share:+.2g}"[0] in one.partition("%")[0]) for one in said if share), said
