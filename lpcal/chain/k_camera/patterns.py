@@ -91,7 +91,7 @@ class Change:
     centre_px: Array
     """(2,) by how much the centre lies elsewhere."""
     chi2: float
-    """Of three degrees of freedom."""
+    """Chi-square of the change, of three degrees of freedom."""
 
     @property
     def seen(self) -> bool:
