@@ -3,7 +3,10 @@ r"""Search over the object's distance: coarse reconstructions from several initi
 The near-light cost has several local minima over distance, and the reconstruction rounds find the nearest. So plain rounds (no gloss, no
 interreflection, the light field from a table) run from every start of a sweep; each ends in a local minimum of the cost::
 
-    cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2)
+    cost = mean over pixels of  sum_k min(r_k^2, OUTLIER^2)  +  mean over edges of  min(e^2, OUTLIER^2 B)
+
+where B is the cost of a break by the contrast of the images (surface.contrast): without it, a result of parts at several depths can beat a
+connected one by chance.
 
 An object of several bodies may be right only in parts from any one start. So the best minimum takes over parts of the others, one after
 the other, by fusion moves: each changes the set of pixels for which the cost falls the most (integration.cuts). Rounds from the result
@@ -34,6 +37,7 @@ from lpcal.records.outcome import Progress, silent
 from lpcal.shading import normals
 from lpcal.shading.normals import Estimate
 from lpcal.surface import distance
+from lpcal.surface.contrast import break_costs
 from lpcal.view import coarse, parallel
 from lpcal.view.coarse import LightTable
 from lpcal.view.constants import FEWEST_PIXELS, MANY_PIXELS, OUTLIER2, UNLIKELY
@@ -240,10 +244,12 @@ class _Edges:
     """(edges,)."""
     sigma: Array
     """(edges,)."""
+    break_cost: Array
+    """(edges,) of a break, by the images' contrast."""
 
     def costs(self, u_a: Array, u_b: Array) -> Array:
         """Cost (edges,) of log depths u_a and u_b (edges,) at their ends."""
-        return np.minimum(((u_b - u_a - self.step) / self.sigma) ** 2, OUTLIER2)
+        return np.minimum(((u_b - u_a - self.step) / self.sigma) ** 2, OUTLIER2 * self.break_cost)
 
     def replaced(self, other: _Edges, some: Mask) -> _Edges:
         """These, with those of another minimum at the edges `some` (edges,)."""
@@ -287,7 +293,8 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _Minimu
         return table.slope(u[some], pixels[some])
 
     of_pixels = np.full(seen.pixels, OUTLIER2 * len(seen.signal))
-    edges = _Edges(grid, np.zeros(len(grid.a)), np.ones(len(grid.a)))
+    break_cost = break_costs(seen, grid)
+    edges = _Edges(grid, np.zeros(len(grid.a)), np.ones(len(grid.a)), break_cost)
     for k in range(ROUNDS + 1):
         u = np.clip(u, table.nodes[1], table.nodes[-2])
         B = table.at(u, pixels)[0]
@@ -297,7 +304,7 @@ def _rounds(seen: PixelList, grid: Grid, table: LightTable, u: Array) -> _Minimu
             break
         n = lambert.unit(pieces.fill(grid, lambert.unit(found.b)[0], known))[0]
         step = steps(grid, n, seen.rays_C, central=True)
-        of_pixels, edges = _costs(found), _Edges(grid, step.value, step.sigma)
+        of_pixels, edges = _costs(found), _Edges(grid, step.value, step.sigma, break_cost)
         if k == ROUNDS:
             break
         own = distance.own_distance(B, slope_of, np.exp(u), seen, found)

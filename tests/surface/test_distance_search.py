@@ -65,11 +65,12 @@ def replace_all(given: DistanceMinima, by: float) -> DistanceMinima:
     return replace(given, ends=tuple(replace(one, cost=one.cost + by) for one in given.ends))
 
 
-def two_ends(cost: float) -> tuple[distance_search._Minimum, distance_search._Minimum, Array]:
+def two_ends(cost: float, break_cost: float = 1.0) -> tuple[distance_search._Minimum, distance_search._Minimum, Array]:
     """One end is right on the left, the other, half a unit of log depth further away, on the right; elsewhere a pixel costs `cost`."""
     grid = Grid.of(np.ones((20, 30), bool))
     left = grid.columns < 12
-    edges = distance_search._Edges(grid, np.zeros(len(grid.a)), np.full(len(grid.a), 0.01))
+    every = np.ones(len(grid.a))
+    edges = distance_search._Edges(grid, 0 * every, 0.01 * every, break_cost * every)
     near = distance_search._Minimum(np.zeros(len(left)), np.where(left, 1.0, 1 + cost), edges)
     far = distance_search._Minimum(np.full(len(left), 0.5), np.where(left, 1 + cost, 1.0), edges)
     return near, far, np.where(left, 0.0, 0.5)
@@ -82,6 +83,13 @@ def test_parts_that_are_right_from_different_starts_are_put_together() -> None:
     assert np.array_equal(fused, right)
     whole = near.fused_with(far)
     assert whole.minimum.cost < min(near.minimum.cost, far.minimum.cost)
+
+
+def test_parts_are_put_together_only_along_contrast_of_the_images() -> None:
+    """The same gain is worth a break where the images have an edge, and is not worth one where they show nothing."""
+    along_an_edge, within_a_face = (distance_search._fused([*two_ends(0.8, break_cost)[:2]]) for break_cost in (1.0, 26.0))
+    assert along_an_edge is not None
+    assert within_a_face is None
 
 
 def test_an_end_that_costs_hardly_more_anywhere_stays_whole() -> None:
