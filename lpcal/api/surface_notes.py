@@ -28,8 +28,10 @@ LEAST_HIT = 0.33
 
 
 def far_stated(stated_m: float | None, calibration: Calibration) -> tuple[str, ...]:
-    """In words, where a stated distance is far out of the working volume, as one in another unit is."""
+    """In words, where a stated distance is far out of the working volume, as one in another unit is, or not used without a camera."""
     working_m = calibration.d_object_m
+    if stated_m is not None and calibration.camera is None:
+        return ("the distance is stated, but without a calibrated camera depths are in pixels: it is not used",)
     if stated_m is None or working_m is None or OUTSIDE[0] * working_m < stated_m < OUTSIDE[1] * working_m:
         return ()
     return (

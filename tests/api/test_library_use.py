@@ -86,6 +86,14 @@ def test_images_that_cannot_be_are_refused(change: dict[str, Any], error: type[E
         lpcal.reconstruct(given.pop("images"), DOME, **given)
 
 
+def test_a_distance_that_is_stated_without_a_camera_is_said_to_be_unused() -> None:
+    plain = lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=BALL)
+    stated = lpcal.reconstruct(IMAGES, DOME, ambient=ROOM, mask=BALL, distance_m=350)
+    assert not [note for note in plain.warnings if "distance is stated" in note]
+    assert [note for note in stated.warnings if "distance is stated" in note and "not used" in note]
+    assert np.array_equal(stated.depth, plain.depth, equal_nan=True)
+
+
 def changed(poses: np.ndarray, row: int, place: tuple[int, int], value: float) -> np.ndarray:
     poses = poses.copy()
     poses[(row, *place)] = value
