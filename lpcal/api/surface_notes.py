@@ -15,6 +15,7 @@ from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
 from lpcal.records.surface import Surface
 from lpcal.view import parallel
+from lpcal.view.constants import OUTLIER_RATE
 
 OUTSIDE = (0.5, 2.0)
 """Multiples of the working distance between which an object may be found: beyond them nothing is known of the lights."""
@@ -170,7 +171,8 @@ def misfit_said(surface: Surface) -> tuple[str, ...]:
 
 
 LIT = 0.3
-"""Cosine of the angle to a light, and share of the median signal, under which a pixel shows shadows and their edges too."""
+"""Cosine of the angle to a light, and share of the signal that the brightest pixels have for what is expected of them, below which a pixel
+is in shadow or at its edge."""
 FEWEST_PIXELS = 200
 """Pixels that a light must be seen by: a median of so many is known to a percent where each is off by a tenth."""
 CONTRADICTS = 0.04
@@ -190,10 +192,13 @@ def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -
         light = next(one for one in calibration.lights if one.name == radiance.lights[k])
         d, E = light.unit_field(x_C, single=True)
         cosine, signal = lambert.dot(d, n), _grey(radiance.signal[k][inside])
-        good = (cosine > LIT) & ~radiance.saturated[k][inside] & (signal > LIT * np.median(signal))
         expected = albedo * E * (light.intensity.mean() * cosine)
-        good &= np.isfinite(expected) & (expected > 0)
-        return float(np.median(np.log(signal[good] / expected[good]))) if good.sum() >= FEWEST_PIXELS else np.nan
+        good = (cosine > LIT) & ~radiance.saturated[k][inside] & (signal > 0) & np.isfinite(expected) & (expected > 0)
+        if good.sum() < FEWEST_PIXELS:
+            return np.nan
+        brighter = np.log(signal[good] / expected[good])  # shadows only darken: a lamp's factor is that of the brightest
+        lit = brighter > np.quantile(brighter, 1 - OUTLIER_RATE) + np.log(LIT)
+        return float(np.median(brighter[lit])) if lit.sum() >= FEWEST_PIXELS else np.nan
 
     found = parallel.run_all(of, range(len(radiance.lights)))
     middle = np.nanmedian(found) if np.isfinite(found).any() else np.nan

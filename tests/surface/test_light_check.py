@@ -48,6 +48,18 @@ def test_a_lamp_of_another_power_shows_on_the_true_surface(k: int, factor: float
     assert [word.split()[0] for word in said] == ([] if factor == 1.0 else [f"L{k}"])
 
 
+@pytest.mark.parametrize("factor", [1.0, 0.7])
+def test_a_light_whose_shadow_covers_most_of_the_object(factor: float) -> None:
+    """Three quarters of the object lie in another thing's shadow under L1: its lamp is judged by the rest."""
+    raw = with_light(draw(Scene(), calibration()), 1, factor)
+    images, mask = raw.images.copy(), truth(Scene())[0]
+    columns = np.nonzero(mask)[1]
+    shaded = mask & (np.arange(mask.shape[1]) < np.quantile(columns, 0.75))
+    images[1] = np.where(shaded, raw.ambient[0] + 0.01 * (images[1] - raw.ambient[0]), images[1])
+    radiance = to_radiance(replace(raw, images=images.astype(np.float32)), Sensor())
+    assert deviations(true_surface(Scene()), radiance, calibration())["L1"] == pytest.approx(np.log(factor), abs=0.03)
+
+
 def test_what_is_spoken_for_already_is_not_said_again() -> None:
     radiance = to_radiance(with_light(draw(Scene(), calibration()), 1, 1.3), Sensor())
     for figures in (
