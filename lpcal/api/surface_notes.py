@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from lpcal.detect.radiometry import NO_AMBIENT
 from lpcal.errors import DegenerateError
 from lpcal.geometry import lambert
-from lpcal.geometry.arrays import Array, Image
+from lpcal.geometry.arrays import Array, Image, Mask
 from lpcal.integration.convention import exchanged, hollow, mirrored
 from lpcal.records.calibration import Calibration
 from lpcal.records.observations import Radiance
@@ -178,6 +179,9 @@ FEWEST_PIXELS = 200
 CONTRADICTS = 0.04
 """Deviation from which a light is named: a lamp that is off by a tenth shows six per cent, simulated captures of right lights none,
 rendered ones with interreflection two."""
+AGREES = 0.5
+"""Share of the deviation that each quarter of the object has to show: a lamp's power is off everywhere, an error of the surface (a shadow,
+interreflection, a wrong distance) is not. Of 91 drawn captures of right lights nine had a light named without this, one has with it."""
 SIGMAS = 5.0
 """Stated standard deviations of the intensity that a deviation must exceed as well."""
 
@@ -205,6 +209,14 @@ def deviations(surface: Surface, radiance: Radiance, calibration: Calibration) -
     return {name: float(value - middle) for name, value in zip(radiance.lights, found, strict=True)}
 
 
+def _quarters(mask: Mask) -> list[Mask]:
+    """The quarters of a mask (H, W), by the medians of its pixels' rows and columns."""
+    row, column = np.indices(mask.shape)
+    rows, columns = np.nonzero(mask)
+    lower, right = row > np.median(rows), column > np.median(columns)
+    return [mask & above & beside for above in (lower, ~lower) for beside in (right, ~right)]
+
+
 def _grey(values: Array | Image) -> Array:
     """Values (P,) or the mean (P,) of (P, C)."""
     return np.asarray(values if values.ndim == 1 else values.mean(axis=-1), dtype=float)
@@ -220,6 +232,10 @@ def contradicting(surface: Surface, radiance: Radiance, calibration: Calibration
     stated = {light.name: light.intensity_std for light in calibration.lights}
     worst = max((name for name in found if np.isfinite(found[name])), key=lambda name: abs(found[name]), default=None)
     if worst is None or abs(found[worst]) < max(CONTRADICTS, SIGMAS * float(np.nan_to_num(stated[worst]))):
+        return ()
+    quarters = [deviations(replace(surface, mask=quarter), radiance, calibration)[worst] for quarter in _quarters(surface.mask)]
+    shares = [one / found[worst] for one in quarters if np.isfinite(one)]
+    if len(shares) < 2 or min(shares) < AGREES:
         return ()
     percent = 100 * np.expm1(found[worst])
     how = f"{abs(percent):.0f} % {'brighter' if percent > 0 else 'darker'}"

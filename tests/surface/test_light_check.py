@@ -60,6 +60,16 @@ def test_a_light_whose_shadow_covers_most_of_the_object(factor: float) -> None:
     assert deviations(true_surface(Scene()), radiance, calibration())["L1"] == pytest.approx(np.log(factor), abs=0.03)
 
 
+def test_an_error_of_one_side_of_the_object_is_no_lamps() -> None:
+    """Light that something beside the object throws onto its right side, under one light."""
+    surface, raw = true_surface(Scene()), draw(Scene(), calibration())
+    images, side = raw.images / 1.4, np.arange(surface.mask.shape[1]) > np.quantile(np.nonzero(surface.mask)[1], 0.4)
+    images[2] = np.where(side, 1.3 * images[2], images[2])
+    radiance = to_radiance(replace(raw, images=images.astype(np.float32), ambient=raw.ambient / 1.4), Sensor())
+    assert deviations(surface, radiance, calibration())["L2"] > 0.1
+    assert contradicting(surface, radiance, calibration()) == ()
+
+
 def test_what_is_spoken_for_already_is_not_said_again() -> None:
     radiance = to_radiance(with_light(draw(Scene(), calibration()), 1, 1.3), Sensor())
     for figures in (
