@@ -1,4 +1,4 @@
-"""The cheapest way to part the pixels of a grid in two."""
+"""Minimum cuts: the binary labelling of a grid's pixels that minimises a cost of single pixels and of edges."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ CENTS = 1e5
 
 
 def cheapest_change(grid: Grid, taken: Array, neither: Array, only_a: Array, only_b: Array, both: Array) -> Mask:
-    """The pixels (P,) to change, where a change costs `taken` (P,) and an edge what is given (edges,) for those of its ends that change.
+    """The set of pixels (P,) whose change minimises the total cost.
 
-    Edges for which ``only_a + only_b < neither + both`` have the dearer of the two raised until they do not: no change is then worth more
-    than it is. Source: Rother, Kumar, Kolmogorov and Blake 2005, Digital tapestry, CVPR.
+    A change of a pixel costs `taken` (P,); an edge costs `neither`, `only_a`, `only_b` or `both` (edges,), by which of its ends change.
+    Edges that are not submodular (``only_a + only_b < neither + both``) have the larger of the two raised until they are, so that the cost
+    of no set is underestimated. Source: Rother, Kumar, Kolmogorov and Blake 2005, Digital tapestry, CVPR.
     """
     lack = np.maximum(neither + both - only_a - only_b, 0)
     only_a, only_b = only_a + lack * (only_a >= only_b), only_b + lack * (only_a < only_b)
@@ -26,7 +27,7 @@ def cheapest_change(grid: Grid, taken: Array, neither: Array, only_a: Array, onl
 
 
 def cheapest(grid: Grid, taken: Array, parted: Array) -> Mask:
-    """The pixels (P,) to take, where one costs `taken` (P,) and an edge with one of its pixels taken `parted` (edges,), no less than 0.
+    """The set of pixels (P,) that minimises the sum of `taken` (P,) over its pixels and of `parted` (edges,) >= 0 over its boundary.
 
     By a maximum flow: Greig, Porteous and Seheult 1989, J. Royal Statistical Society B 51.
     """
